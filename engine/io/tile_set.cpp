@@ -268,6 +268,9 @@ const std::string& TileSet::crs_name() const {
 const std::string& TileSet::crs() const {
     return state_->crs;
 }
+const TileSetOptions& TileSet::options() const {
+    return state_->options;
+}
 TileGrid TileSet::grid() const {
     return state_->grid;
 }

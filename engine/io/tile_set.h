@@ -98,10 +98,18 @@ public:
     [[nodiscard]] TileGrid grid() const;
     /// The part of `grid` in an area; fails if it is empty.
     [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const geo::GeodeticArea& area) const;
+    /// Scale and offset of the heights.
+    [[nodiscard]] const TileSetOptions& options() const;
     /// The samples that close a global grid.
     [[nodiscard]] geo::GlobalWrap wrap(const TileGrid& grid) const;
     /// The centres of blocks of `reduction`×`reduction` samples.
     [[nodiscard]] static TileGrid reduced(const TileGrid& grid, int reduction);
+
+    /// Hash of the files' present names, sizes, times and of a few blocks. Fails as open().
+    [[nodiscard]] Result<std::uint64_t> fingerprint() const;
+    /// The pixel of the first sample, if the set is one local file and a grid's samples are its
+    /// pixels, column by column and row by row.
+    [[nodiscard]] std::optional<glm::ivec2> first_pixel(const TileGrid& grid) const;
 
     /// Heights at the samples of a grid: finer files are averaged over cells, others interpolated.
     /// Single-threaded.

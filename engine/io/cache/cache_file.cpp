@@ -33,7 +33,8 @@ std::string_view reason_for_distrust(const struct stat& status) {
 // Absent if there is none.
 Result<std::optional<Descriptor>> open_trusted(const fs::path& path, int folder, const char* name,
                                                int flags, struct stat& status) {
-    Descriptor opened(::openat(folder, name, flags | O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    constexpr mode_t owner_only = 0600;
+    Descriptor opened(::openat(folder, name, flags | O_NONBLOCK | O_CLOEXEC, owner_only));
     if (!opened && errno == ENOENT) {
         return std::optional<Descriptor>();
     }
@@ -52,23 +53,39 @@ Result<std::optional<Descriptor>> open_trusted(const fs::path& path, int folder,
 
 Result<std::optional<Descriptor>> open_folder(const fs::path& folder) {
     struct stat status {};
-    return open_trusted(folder, AT_FDCWD, folder.c_str(), O_DIRECTORY, status);
+    return open_trusted(folder, AT_FDCWD, folder.c_str(), O_RDONLY | O_DIRECTORY, status);
 }
 
-Result<std::optional<Descriptor>> open_file(const fs::path& path, struct stat& status) {
+Result<std::optional<Descriptor>> open_file(const fs::path& path, struct stat& status,
+                                            int flags = O_RDONLY) {
     auto folder = open_folder(path.parent_path());
     if (!folder || !*folder) {
         return folder;
     }
-    auto file =
-        open_trusted(path, (*folder)->number(), path.filename().c_str(), O_NOFOLLOW, status);
+    auto file = open_trusted(path, (*folder)->number(), path.filename().c_str(), flags | O_NOFOLLOW,
+                             status);
     if (file && *file && !S_ISREG(status.st_mode)) {
         return Error{fmt::format("{}: no regular file found, one was expected", path.string())};
     }
     return file;
 }
 
+void make_folder(const fs::path& folder) {
+    constexpr mode_t owner_only = 0700;
+    std::error_code ignored; // opening the file tells
+    fs::create_directories(folder.parent_path(), ignored);
+    ::mkdir(folder.c_str(), owner_only);
+}
+
 } // namespace
+
+Result<std::optional<Descriptor>> open_cache_file(const fs::path& path, CacheAccess access) {
+    struct stat status {};
+    if (access == CacheAccess::write) {
+        make_folder(path.parent_path());
+    }
+    return open_file(path, status, access == CacheAccess::write ? O_RDWR | O_CREAT : O_RDONLY);
+}
 
 Result<std::optional<std::string>> read_cache_file(const fs::path& path, std::size_t max_bytes) {
     struct stat status {};
@@ -99,11 +116,9 @@ Result<std::optional<std::string>> read_cache_file(const fs::path& path, std::si
 }
 
 Result<void> write_cache_file(const fs::path& path, std::span<const std::byte> bytes) {
-    constexpr mode_t owner_only = 0700;
     const fs::path folder = path.parent_path();
-    std::error_code ignored; // the file below tells
-    fs::create_directories(folder.parent_path(), ignored);
-    ::mkdir(folder.c_str(), owner_only);
+    std::error_code ignored;
+    make_folder(folder);
     struct stat status {};
     if (const auto old = open_file(path, status); !old) {
         return old.error();

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::io {
@@ -15,6 +16,12 @@ namespace reljef::io {
 /// for what is no regular file, and for over `max_bytes` bytes.
 Result<std::optional<std::string>> read_cache_file(const std::filesystem::path& path,
                                                    std::size_t max_bytes);
+
+enum class CacheAccess { read, write };
+/// Opens a file to read, or to read and write; then makes it and its folder on demand. Absent if
+/// there is none. Fails as read_cache_file.
+Result<std::optional<Descriptor>> open_cache_file(const std::filesystem::path& path,
+                                                  CacheAccess access);
 
 /// Writes a file that only this user can read. Makes the folder, for this user only, on demand.
 /// Fails as read_cache_file, and if the file cannot be written; then nothing of it is left.

@@ -40,8 +40,9 @@ long number_option(const char* name, long usual) {
 }
 
 std::string shortened(const std::string& address) {
-    return address.size() <= max_address_length ? address
-                                                : address.substr(0, max_address_length) + "…";
+    return address.size() <= max_address_length
+               ? address
+               : fmt::format("{}…", address.substr(0, max_address_length));
 }
 
 /// The numbers of "bytes 0-99/1000".

@@ -1,0 +1,470 @@
+#include "engine/io/index/error_index.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "engine/io/cache/cache_file.h"
+#include "engine/io/cache/fnv_hash.h"
+
+namespace reljef::io {
+namespace fs = std::filesystem;
+using terrain::Chunk;
+using terrain::levels_per_chunk;
+using terrain::tile_cells;
+using terrain::TileProof;
+using terrain::TreeTile;
+
+namespace {
+
+constexpr std::uint32_t index_version = 1; // increase when heights or errors change
+
+struct IndexHeader {
+    std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
+    std::uint32_t version = index_version;
+    std::uint32_t endian = 0x01020304;
+    std::int32_t cells_of_tile = tile_cells;
+    std::int32_t cols = 0;
+    std::int32_t rows = 0;
+    std::uint32_t is_complete = 0;
+    std::uint64_t source = 0;
+    std::uint64_t seal = 0;
+};
+static_assert(sizeof(IndexHeader) == 48 && std::is_trivially_copyable_v<IndexHeader>);
+
+struct ProofRecord {
+    float low = 0.0F;
+    float high = 0.0F;
+    float error = 0.0F;
+    std::uint32_t seal = 0; // 0: not written
+};
+static_assert(sizeof(ProofRecord) == 16 && std::is_trivially_copyable_v<ProofRecord>);
+
+constexpr int side_of_heights = tile_cells + 3;
+constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
+constexpr int side_of_residuals = terrain::chunk_cells >> levels_per_chunk;
+constexpr std::size_t floats_of_residuals = std::size_t{2} * side_of_residuals * side_of_residuals;
+
+constexpr std::size_t bytes_of_block(std::size_t floats) {
+    return floats * sizeof(float) + sizeof(std::uint64_t);
+}
+
+std::uint64_t sealed(std::uint64_t hash, std::uint64_t word) {
+    return (hash ^ word) * fnv_prime;
+}
+
+std::uint32_t seal_of(const ProofRecord& record, TreeTile tile, std::uint64_t source) {
+    std::uint64_t hash = fnv_start ^ source;
+    for (const float value : {record.low, record.high, record.error}) {
+        hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
+    }
+    for (const int value : {tile.level, tile.col, tile.row}) {
+        hash = sealed(hash, static_cast<std::uint32_t>(value));
+    }
+    return static_cast<std::uint32_t>(hash >> 32U) | 1U;
+}
+
+std::uint64_t seal_of(std::span<const float> floats, std::uint64_t place, std::uint64_t source) {
+    std::uint64_t hash = sealed(fnv_start ^ source, place);
+    for (const float value : floats) {
+        hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
+    }
+    return hash;
+}
+
+std::size_t index_in(glm::ivec2 count, int col, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(count.x) +
+           static_cast<std::size_t>(col);
+}
+
+std::size_t count_of(glm::ivec2 count) {
+    return static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
+}
+
+void copy_into(const Grid<float>& grid, std::span<float> floats, int stride) {
+    for (int row = 0; row < grid.rows(); ++row) {
+        std::copy(grid.row(row).begin(), grid.row(row).end(),
+                  floats.begin() + std::ptrdiff_t{row} * stride);
+    }
+}
+
+Grid<float> grid_from(std::span<const float> floats, glm::ivec2 size, int stride) {
+    Grid<float> grid(size.x, size.y);
+    for (int row = 0; row < size.y; ++row) {
+        const auto from = floats.subspan(static_cast<std::size_t>(row * stride));
+        std::copy_n(from.begin(), size.x, grid.row(row).begin());
+    }
+    return grid;
+}
+
+/// Cells of the highest of a chunk's levels.
+glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {
+    return chunk_size(tree, chunk) / (1 << levels_per_chunk);
+}
+
+} // namespace
+
+Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
+                                 const fs::path& cache_folder) {
+    const geo::GlobalWrap wrap = tiles.wrap(grid);
+    if (wrap.cols() > 0 || wrap.rows() > 0) {
+        return Error{fmt::format("{}: closes around the Earth; a terrain that does not was "
+                                 "expected, as others cannot be indexed yet",
+                                 tiles.name())};
+    }
+    if (std::min(grid.cols, grid.rows) < 2 ||
+        std::max(grid.cols, grid.rows) > terrain::max_tree_samples) {
+        return Error{fmt::format("{}: {}×{} samples found, 2 to {} a side were expected",
+                                 tiles.name(), grid.cols, grid.rows, terrain::max_tree_samples)};
+    }
+    const auto fingerprint = tiles.fingerprint();
+    if (!fingerprint) {
+        return fingerprint.error();
+    }
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(tiles.name(), ignored);
+    const std::string what = fmt::format(
+        "{}\n{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", tiles.name(),
+        place.string(), grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
+        gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale, tiles.options().height_offset);
+    const fs::path file = cache_folder / fmt::format("{:016x}.index", fnv_hash(what));
+    return IndexSource{std::move(tiles), grid, gaps, terrain::TileTree(grid.cols, grid.rows),
+                       *fingerprint,     file};
+}
+
+ErrorIndex::ErrorIndex(const IndexSource& source, Descriptor file)
+    : path_(source.file), tree_(source.tree), fingerprint_(source.fingerprint),
+      file_(std::move(file)), places_(static_cast<std::size_t>(tree_.root().level) + 1) {
+    std::uint64_t end = sizeof(IndexHeader);
+    for (int level = 0; level <= tree_.root().level; ++level) {
+        places_[static_cast<std::size_t>(level)].proofs = end;
+        end += count_of(level_tiles(tree_, level)) * sizeof(ProofRecord);
+    }
+    for (int level = first_stored_level; level <= tree_.root().level; ++level) {
+        places_[static_cast<std::size_t>(level)].heights = end;
+        end += count_of(level_tiles(tree_, level)) * bytes_of_block(floats_of_heights);
+    }
+    interim_ = end;
+    for (int level = levels_per_chunk; level < tree_.root().level; level += levels_per_chunk) {
+        places_[static_cast<std::size_t>(level)].residuals = end;
+        end += count_of(level_chunks(tree_, level - levels_per_chunk)) *
+               bytes_of_block(floats_of_residuals);
+    }
+}
+
+Error ErrorIndex::error(const char* what) const {
+    return {fmt::format("{}: cannot be {}: {}", path_.string(), what, std::strerror(errno))};
+}
+
+std::string ErrorIndex::header(bool is_complete) const {
+    IndexHeader header;
+    header.cols = tree_.cols();
+    header.rows = tree_.rows();
+    header.is_complete = is_complete ? 1 : 0;
+    header.source = fingerprint_;
+    std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
+    header.seal = fnv_hash(bytes);
+    bytes.assign(reinterpret_cast<const char*>(&header), sizeof(header));
+    return bytes;
+}
+
+Result<std::optional<ErrorIndex>> ErrorIndex::open(const IndexSource& source) {
+    auto file = open_cache_file(source.file, CacheAccess::read);
+    if (!file) {
+        return file.error();
+    }
+    if (!*file) {
+        return std::optional<ErrorIndex>();
+    }
+    ErrorIndex index(source, std::move(**file));
+    std::string found(sizeof(IndexHeader), '\0');
+    static_cast<void>(index.read_at(0, std::as_writable_bytes(std::span(found))));
+    index.is_complete_ = found == index.header(true);
+    if (!index.is_complete_ && found != index.header(false)) {
+        return Error{fmt::format("{}: no index (version {}) of the present state of {} found, one "
+                                 "was expected; 'reljef index' makes it",
+                                 source.file.string(), index_version, source.tiles.name())};
+    }
+    return std::optional(std::move(index));
+}
+
+Result<ErrorIndex> ErrorIndex::open_to_write(const IndexSource& source) {
+    auto file = open_cache_file(source.file, CacheAccess::write);
+    if (!file) {
+        return file.error();
+    }
+    if (!*file) {
+        return Error{
+            fmt::format("{}: cannot be written: {}", source.file.string(), std::strerror(ENOENT))};
+    }
+    ErrorIndex index(source, std::move(**file));
+    if (::flock(index.file_.number(), LOCK_EX | LOCK_NB) != 0) {
+        return Error{fmt::format("{}: another process indexes {} now, none was expected",
+                                 source.file.string(), source.tiles.name())};
+    }
+    std::string found(sizeof(IndexHeader), '\0');
+    static_cast<void>(index.read_at(0, std::as_writable_bytes(std::span(found))));
+    index.is_complete_ = found == index.header(true);
+    if (!index.is_complete_ && found != index.header(false)) {
+        if (auto cleared = index.clear(); !cleared) {
+            return cleared.error();
+        }
+    }
+    return index;
+}
+
+bool ErrorIndex::has_level(int level) const {
+    return level >= 0 && level <= tree_.root().level;
+}
+
+std::uint64_t ErrorIndex::proof_at(TreeTile tile) const {
+    return places_[static_cast<std::size_t>(tile.level)].proofs +
+           index_in(level_tiles(tree_, tile.level), tile.col, tile.row) * sizeof(ProofRecord);
+}
+
+std::uint64_t ErrorIndex::heights_at(TreeTile tile) const {
+    return places_[static_cast<std::size_t>(tile.level)].heights +
+           index_in(level_tiles(tree_, tile.level), tile.col, tile.row) *
+               bytes_of_block(floats_of_heights);
+}
+
+std::uint64_t ErrorIndex::residuals_at(Chunk chunk) const {
+    return places_[static_cast<std::size_t>(chunk.base + levels_per_chunk)].residuals +
+           index_in(level_chunks(tree_, chunk.base), chunk.col, chunk.row) *
+               bytes_of_block(floats_of_residuals);
+}
+
+bool ErrorIndex::read_at(std::uint64_t place, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t count =
+            ::pread(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(place));
+        if (count == 0 || (count < 0 && errno != EINTR)) {
+            return false;
+        }
+        const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+        bytes = bytes.subspan(done);
+        place += done;
+    }
+    return true;
+}
+
+Result<void> ErrorIndex::write_at(std::uint64_t place, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count =
+            ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(place));
+        if (count < 0 && errno != EINTR) {
+            return error("written");
+        }
+        const auto done = static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+        bytes = bytes.subspan(done);
+        place += done;
+    }
+    return {};
+}
+
+std::optional<std::vector<float>> ErrorIndex::read_block(std::uint64_t place,
+                                                         std::size_t floats) const {
+    std::vector<float> block(floats + 2);
+    std::uint64_t seal = 0;
+    if (!read_at(place, std::as_writable_bytes(std::span(block)))) {
+        return std::nullopt;
+    }
+    std::memcpy(&seal, block.data() + floats, sizeof(seal));
+    block.resize(floats);
+    return seal == seal_of(block, place, fingerprint_) ? std::optional(std::move(block))
+                                                       : std::nullopt;
+}
+
+Result<void> ErrorIndex::write_block(std::uint64_t place, std::vector<float> floats) {
+    const std::uint64_t seal = seal_of(floats, place, fingerprint_);
+    floats.resize(floats.size() + 2);
+    std::memcpy(floats.data() + floats.size() - 2, &seal, sizeof(seal));
+    return write_at(place, std::as_bytes(std::span(floats)));
+}
+
+std::optional<TileProof> ErrorIndex::find(TreeTile tile) const {
+    const glm::ivec2 count = has_level(tile.level) ? level_tiles(tree_, tile.level) : glm::ivec2(0);
+    if (tile.col < 0 || tile.row < 0 || tile.col >= count.x || tile.row >= count.y) {
+        return std::nullopt;
+    }
+    ProofRecord record;
+    const bool found = read_at(proof_at(tile), std::as_writable_bytes(std::span(&record, 1)));
+    return found && record.seal == seal_of(record, tile, fingerprint_)
+               ? std::optional(TileProof{record.low, record.high, record.error})
+               : std::nullopt;
+}
+
+std::optional<Grid<float>> ErrorIndex::heights(TreeTile tile) const {
+    if (tile.level < first_stored_level || !has_level(tile.level)) {
+        return std::nullopt;
+    }
+    const auto block = read_block(heights_at(tile), floats_of_heights);
+    return block ? std::optional(grid_from(*block, tree_.cells(tile) + 3, side_of_heights))
+                 : std::nullopt;
+}
+
+std::optional<terrain::Residuals> ErrorIndex::residuals(Chunk chunk) const {
+    const auto block = read_block(residuals_at(chunk), floats_of_residuals);
+    if (!block) {
+        return std::nullopt;
+    }
+    const std::span<const float> floats(*block);
+    const glm::ivec2 size = residual_size(tree_, chunk);
+    return terrain::Residuals{
+        grid_from(floats, size, side_of_residuals),
+        grid_from(floats.subspan(floats_of_residuals / 2), size, side_of_residuals)};
+}
+
+bool ErrorIndex::has(Chunk chunk) const {
+    const int level = std::min(chunk.base + levels_per_chunk, tree_.root().level);
+    const glm::ivec2 first = first_vertex(chunk) / (1 << (level - chunk.base)) / tile_cells;
+    const glm::ivec2 side(std::max(1, terrain::chunk_cells / tile_cells >> (level - chunk.base)));
+    const glm::ivec2 end = glm::min(first + side, level_tiles(tree_, level));
+    for (int row = first.y; row < end.y; ++row) {
+        for (int col = first.x; col < end.x; ++col) {
+            if (!find({level, col, row})) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<TileProof>& tiles) {
+    std::vector<ProofRecord> records(static_cast<std::size_t>(tiles.cols()));
+    for (int row = 0; row < tiles.rows(); ++row) {
+        for (int col = 0; col < tiles.cols(); ++col) {
+            const TileProof& proof = tiles(col, row);
+            ProofRecord& record = records[static_cast<std::size_t>(col)];
+            record = {proof.low, proof.high, proof.error, 0};
+            record.seal = seal_of(record, {level, first.x + col, first.y + row}, fingerprint_);
+        }
+        if (auto written = write_at(proof_at({level, first.x, first.y + row}),
+                                    std::as_bytes(std::span(records)));
+            !written) {
+            return written;
+        }
+    }
+    return {};
+}
+
+Result<void> ErrorIndex::write_heights(int level, glm::ivec2 first,
+                                       const terrain::ChunkLevel& made) {
+    for (int row = 0; row < made.tiles.rows(); ++row) {
+        for (int col = 0; col < made.tiles.cols(); ++col) {
+            const TreeTile tile{level, first.x + col, first.y + row};
+            const glm::ivec2 size = tree_.cells(tile) + 3;
+            std::vector<float> floats(floats_of_heights);
+            const glm::ivec2 from = glm::ivec2(col, row) * tile_cells + (made.border - 1);
+            for (int y = 0; y < size.y; ++y) {
+                const auto heights = made.heights.row(from.y + y);
+                std::copy_n(heights.begin() + from.x, size.x,
+                            floats.begin() + std::ptrdiff_t{y} * side_of_heights);
+            }
+            if (auto written = write_block(heights_at(tile), std::move(floats)); !written) {
+                return written;
+            }
+        }
+    }
+    return {};
+}
+
+// Proofs come last: they say that a chunk is there.
+Result<void> ErrorIndex::write(Chunk chunk, const terrain::ChunkProof& proof) {
+    const glm::ivec2 first = first_vertex(chunk) / tile_cells;
+    Result<void> written;
+    const auto for_each_level = [&](auto&& act) {
+        for (int i = 0; i < levels_per_chunk && written; ++i) {
+            if (const int level = chunk.base + i + 1; has_level(level)) {
+                written =
+                    act(level, first / (2 << i), proof.levels.at(static_cast<std::size_t>(i)));
+            }
+        }
+    };
+    for_each_level([&](int level, glm::ivec2 corner, const terrain::ChunkLevel& made) {
+        return level >= first_stored_level ? write_heights(level, corner, made) : Result<void>();
+    });
+    if (written && chunk.base + levels_per_chunk < tree_.root().level) {
+        const terrain::Residuals& residuals = proof.levels.back().residuals;
+        std::vector<float> floats(floats_of_residuals);
+        copy_into(residuals.low, floats, side_of_residuals);
+        copy_into(residuals.high, std::span(floats).subspan(floats_of_residuals / 2),
+                  side_of_residuals);
+        written = write_block(residuals_at(chunk), std::move(floats));
+    }
+    if (written && chunk.base == 0) {
+        written = write_proofs(0, first, proof.base);
+    }
+    for_each_level([&](int level, glm::ivec2 corner, const terrain::ChunkLevel& made) {
+        return write_proofs(level, corner, made.tiles);
+    });
+    return written;
+}
+
+std::vector<ErrorIndex::Level> ErrorIndex::levels() const {
+    std::vector<Level> levels;
+    for (int level = 0; level <= tree_.root().level; ++level) {
+        const glm::ivec2 count = level_tiles(tree_, level);
+        Level found{count_of(count), 0, 0.0F};
+        std::vector<ProofRecord> records(static_cast<std::size_t>(count.x));
+        for (int row = 0; row < count.y; ++row) {
+            std::fill(records.begin(), records.end(), ProofRecord{});
+            static_cast<void>(
+                read_at(proof_at({level, 0, row}), std::as_writable_bytes(std::span(records))));
+            for (int col = 0; col < count.x; ++col) {
+                const ProofRecord& record = records[static_cast<std::size_t>(col)];
+                const bool is_proven =
+                    record.seal == seal_of(record, {level, col, row}, fingerprint_);
+                found.unproven += is_proven ? 0 : 1;
+                found.max_error =
+                    is_proven ? std::max(found.max_error, record.error) : found.max_error;
+            }
+        }
+        levels.push_back(found);
+    }
+    return levels;
+}
+
+std::uint64_t ErrorIndex::bytes_of_proofs() const {
+    return places_.size() > static_cast<std::size_t>(first_stored_level)
+               ? places_[first_stored_level].heights
+               : interim_;
+}
+
+std::uint64_t ErrorIndex::bytes_of_heights() const {
+    return interim_ - bytes_of_proofs();
+}
+
+Result<void> ErrorIndex::complete() {
+    const std::string bytes = header(true);
+    if (auto written = write_at(0, std::as_bytes(std::span(bytes))); !written) {
+        return written;
+    }
+    is_complete_ = true;
+    return ::ftruncate(file_.number(), static_cast<off_t>(interim_)) == 0 ? Result<void>()
+                                                                          : error("written");
+}
+
+Result<void> ErrorIndex::clear() {
+    is_complete_ = false;
+    if (::ftruncate(file_.number(), 0) != 0) {
+        return error("written");
+    }
+    const std::string bytes = header(false);
+    return write_at(0, std::as_bytes(std::span(bytes)));
+}
+
+void ErrorIndex::remove() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+}
+
+} // namespace reljef::io

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/atomic_file.h"
+#include "engine/core/grid.h"
+#include "engine/core/result.h"
+#include "engine/io/tile_set.h"
+#include "engine/terrain/tree/tile_error.h"
+
+namespace reljef::io {
+
+/// A terrain to index: the samples of a grid over files.
+struct IndexSource {
+    TileSet tiles;
+    TileGrid grid;
+    Gaps gaps = Gaps::holes;
+    terrain::TileTree tree;
+    std::uint64_t fingerprint = 0; ///< TileSet::fingerprint
+    std::filesystem::path file;    ///< of the index
+};
+
+/// The source and the file of its index. The file's name depends on the terrain's path and on all
+/// that changes its heights. Fails as TileSet::fingerprint, and for a grid that closes around the
+/// Earth or is larger than a tree.
+Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
+                                 const std::filesystem::path& cache_folder);
+
+/// The proofs of a terrain's tiles, and the heights of those from level 3, in a file. Reads each on
+/// demand. All parts have checksums: parts that are damaged or missing are absent. Reading is
+/// thread-safe; so is writing different parts.
+class ErrorIndex {
+public:
+    /// Lowest level with stored heights. Those of finer tiles come from samples.
+    static constexpr int first_stored_level = terrain::levels_per_chunk;
+
+    /// Absent if there is none. Fails if it is unusable, or of another state of the source.
+    static Result<std::optional<ErrorIndex>> open(const IndexSource& source);
+    /// Opens or makes an index to write; empties one of another state of the source. Fails while
+    /// another process writes it.
+    static Result<ErrorIndex> open_to_write(const IndexSource& source);
+
+    /// Absent: unproven.
+    [[nodiscard]] std::optional<terrain::TileProof> find(terrain::TreeTile tile) const;
+    /// At the vertices of a tile and one step around them; NaN: void. Absent below
+    /// first_stored_level.
+    [[nodiscard]] std::optional<Grid<float>> heights(terrain::TreeTile tile) const;
+    /// Whether nothing is left to write, apart from damage.
+    [[nodiscard]] bool is_complete() const { return is_complete_; }
+
+    struct Level {
+        std::size_t tiles = 0;
+        std::size_t unproven = 0;
+        float max_error = 0.0F; ///< metres
+    };
+    [[nodiscard]] std::vector<Level> levels() const;
+    [[nodiscard]] std::uint64_t bytes_of_proofs() const;
+    [[nodiscard]] std::uint64_t bytes_of_heights() const;
+
+    /// Writes the levels of a chunk. Interim residuals remain until complete().
+    Result<void> write(terrain::Chunk chunk, const terrain::ChunkProof& proof);
+    /// Of the highest level of a chunk's levels.
+    [[nodiscard]] std::optional<terrain::Residuals> residuals(terrain::Chunk chunk) const;
+    /// Whether a chunk's levels are there.
+    [[nodiscard]] bool has(terrain::Chunk chunk) const;
+    /// Drops the interim parts.
+    Result<void> complete();
+    /// Drops all parts.
+    Result<void> clear();
+    /// Removes the file.
+    void remove();
+
+private:
+    struct Place { // bytes from the start of the file
+        std::uint64_t proofs = 0;
+        std::uint64_t heights = 0;
+        std::uint64_t residuals = 0; // of chunks whose highest level it is
+    };
+    ErrorIndex(const IndexSource& source, Descriptor file);
+    [[nodiscard]] bool has_level(int level) const;
+    [[nodiscard]] std::uint64_t proof_at(terrain::TreeTile tile) const;
+    [[nodiscard]] std::uint64_t heights_at(terrain::TreeTile tile) const;
+    [[nodiscard]] std::uint64_t residuals_at(terrain::Chunk chunk) const;
+    [[nodiscard]] bool read_at(std::uint64_t place, std::span<std::byte> bytes) const;
+    Result<void> write_at(std::uint64_t place, std::span<const std::byte> bytes);
+    [[nodiscard]] std::optional<std::vector<float>> read_block(std::uint64_t place,
+                                                               std::size_t floats) const;
+    Result<void> write_block(std::uint64_t place, std::vector<float> floats);
+    Result<void> write_proofs(int level, glm::ivec2 first, const Grid<terrain::TileProof>& tiles);
+    Result<void> write_heights(int level, glm::ivec2 first, const terrain::ChunkLevel& made);
+    [[nodiscard]] std::string header(bool is_complete) const;
+    [[nodiscard]] Error error(const char* what) const;
+
+    std::filesystem::path path_;
+    terrain::TileTree tree_;
+    std::uint64_t fingerprint_;
+    Descriptor file_;
+    std::vector<Place> places_; // by level
+    std::uint64_t interim_ = 0; // where residuals begin
+    bool is_complete_ = false;
+};
+
+} // namespace reljef::io

@@ -1,0 +1,314 @@
+#include "engine/io/index/index_pass.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "engine/io/index/sample_source.h"
+
+namespace reljef::io {
+namespace {
+
+using terrain::Chunk;
+using terrain::chunk_border;
+using terrain::chunk_cells;
+using terrain::ChunkInput;
+using terrain::levels_per_chunk;
+using terrain::tile_cells;
+using terrain::TileProof;
+using terrain::TreeTile;
+
+std::vector<Chunk> missing_chunks(const terrain::TileTree& tree, const ErrorIndex& index,
+                                  int base) {
+    std::vector<Chunk> chunks;
+    const glm::ivec2 count = level_chunks(tree, base);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            if (const Chunk chunk{base, col, row}; !index.has(chunk)) {
+                chunks.push_back(chunk);
+            }
+        }
+    }
+    return chunks;
+}
+
+void put(const Grid<float>& part, glm::ivec2 first, Grid<float>& grid) {
+    const int begin = std::max(0, -first.x);
+    const int end = std::min(part.cols(), grid.cols() - first.x);
+    for (int row = std::max(0, -first.y); row < std::min(part.rows(), grid.rows() - first.y);
+         ++row) {
+        for (int col = begin; col < end; ++col) {
+            grid(first.x + col, first.y + row) = part(col, row);
+        }
+    }
+}
+
+/// What a chunk above level 0 needs of the index.
+struct StoredBase {
+    Grid<float> heights; ///< of the raster's vertices in the chunk and its border
+    glm::ivec2 first{0}; ///< their first vertex
+    terrain::Residuals residuals;
+    Grid<TileProof> tiles;
+};
+
+bool add_heights(const terrain::TileTree& tree, const ErrorIndex& index, int level,
+                 StoredBase& base) {
+    const glm::ivec2 size(base.heights.cols(), base.heights.rows());
+    const glm::ivec2 last =
+        glm::min((base.first + size - 1) / tile_cells, level_tiles(tree, level) - 1);
+    for (int row = base.first.y / tile_cells; row <= last.y; ++row) {
+        for (int col = base.first.x / tile_cells; col <= last.x; ++col) {
+            const auto heights = index.heights({level, col, row});
+            if (!heights) {
+                return false;
+            }
+            put(*heights, glm::ivec2(col, row) * tile_cells - 1 - base.first, base.heights);
+        }
+    }
+    return true;
+}
+
+bool add_residuals(const terrain::TileTree& tree, const ErrorIndex& index, Chunk chunk,
+                   StoredBase& base) {
+    const int below = chunk.base - levels_per_chunk;
+    constexpr int side = 1 << levels_per_chunk; // chunks of the level below
+    const glm::ivec2 first = glm::ivec2(chunk.col, chunk.row) * side;
+    const glm::ivec2 end = glm::min(first + side, level_chunks(tree, below));
+    for (int row = first.y; row < end.y; ++row) {
+        for (int col = first.x; col < end.x; ++col) {
+            const auto part = index.residuals({below, col, row});
+            if (!part) {
+                return false;
+            }
+            const glm::ivec2 place = (glm::ivec2(col, row) - first) * (chunk_cells / side);
+            put(part->low, place, base.residuals.low);
+            put(part->high, place, base.residuals.high);
+        }
+    }
+    return true;
+}
+
+bool add_tiles(const ErrorIndex& index, Chunk chunk, StoredBase& base) {
+    const glm::ivec2 first = first_vertex(chunk) / tile_cells;
+    for (int row = 0; row < base.tiles.rows(); ++row) {
+        for (int col = 0; col < base.tiles.cols(); ++col) {
+            const auto proof = index.find({chunk.base, first.x + col, first.y + row});
+            if (!proof) {
+                return false;
+            }
+            base.tiles(col, row) = *proof;
+        }
+    }
+    return true;
+}
+
+/// Absent if a part is missing.
+std::optional<StoredBase> stored_base(const terrain::TileTree& tree, const ErrorIndex& index,
+                                      Chunk chunk) {
+    constexpr float infinite = std::numeric_limits<float>::infinity();
+    const glm::ivec2 begin = first_vertex(chunk);
+    const glm::ivec2 size = chunk_size(tree, chunk);
+    const glm::ivec2 first = glm::max(begin - chunk_border, glm::ivec2(0));
+    const glm::ivec2 end = glm::min(begin + size + chunk_border, level_cells(tree, chunk.base)) + 1;
+    const glm::ivec2 tiles = glm::min(level_tiles(tree, chunk.base) - begin / tile_cells,
+                                      glm::ivec2(chunk_cells / tile_cells));
+    StoredBase base{Grid<float>(end.x - first.x, end.y - first.y),
+                    first,
+                    {Grid<float>(size.x, size.y, infinite), Grid<float>(size.x, size.y, -infinite)},
+                    Grid<TileProof>(tiles.x, tiles.y)};
+    return add_tiles(index, chunk, base) && add_residuals(tree, index, chunk, base) &&
+                   add_heights(tree, index, chunk.base, base)
+               ? std::optional(std::move(base))
+               : std::nullopt;
+}
+
+class IndexPass {
+public:
+    IndexPass(const IndexSource& source, ErrorIndex& index, const ParallelOptions& options)
+        : source_(source), index_(index), options_(options), samples_(source) {}
+
+    /// Fails after a stop, and if the index cannot be written.
+    Result<void> run() {
+        const int root = source_.tree.root().level;
+        for (int base = 0; base == 0 || base < root; base += levels_per_chunk) {
+            const std::vector<Chunk> chunks = missing_chunks(source_.tree, index_, base);
+            ParallelOptions options = options_;
+            options.progress = base == 0 ? options_.progress : Progress();
+            const bool done = parallel_for(
+                static_cast<int>(chunks.size()),
+                [&](int i) { make(chunks[static_cast<std::size_t>(i)]); }, options);
+            if (failure_) {
+                return *failure_;
+            }
+            if (!done) {
+                return Error{fmt::format("{}: was interrupted; finished parts of the index are "
+                                         "kept, and the next call goes on",
+                                         source_.tiles.name())};
+            }
+        }
+        return {};
+    }
+    [[nodiscard]] std::vector<FileError> take_errors() { return std::move(errors_); }
+
+private:
+    void make(Chunk chunk) {
+        if (has_failed_) {
+            return;
+        }
+        const auto proof = chunk.base == 0 ? from_samples(chunk) : from_index(chunk);
+        if (!proof || options_.stop.stop_requested()) {
+            return;
+        }
+        if (auto written = index_.write(chunk, *proof); !written) {
+            const std::lock_guard lock(mutex_);
+            has_failed_ = true;
+            failure_ = written.error();
+        }
+    }
+
+    std::optional<terrain::ChunkProof> from_samples(Chunk chunk) {
+        const SampleWindow window =
+            samples_.read(first_vertex(chunk) - chunk_border,
+                          chunk_size(source_.tree, chunk) + 1 + 2 * chunk_border, options_.stop);
+        if (!window.errors().empty()) {
+            const std::lock_guard lock(mutex_);
+            for (const FileError& error : window.errors()) {
+                const bool is_new =
+                    std::none_of(errors_.begin(), errors_.end(),
+                                 [&](const FileError& known) { return known.file == error.file; });
+                if (is_new) {
+                    errors_.push_back(error);
+                }
+            }
+            return std::nullopt;
+        }
+        const auto rows = [&](int row, std::span<float> heights) { window.copy_row(row, heights); };
+        return prove_chunk(source_.tree, chunk, {rows});
+    }
+
+    std::optional<terrain::ChunkProof> from_index(Chunk chunk) {
+        const auto base = stored_base(source_.tree, index_, chunk);
+        if (!base) {
+            return std::nullopt;
+        }
+        const glm::ivec2 first = first_vertex(chunk) - chunk_border - base->first;
+        const auto rows = [&](int row, std::span<float> heights) {
+            for (std::size_t i = 0; i < heights.size(); ++i) {
+                heights[i] = base->heights.clamped(first.x + static_cast<int>(i), first.y + row);
+            }
+        };
+        return prove_chunk(source_.tree, chunk, {rows, &base->residuals, &base->tiles});
+    }
+
+    const IndexSource& source_;
+    ErrorIndex& index_;
+    const ParallelOptions& options_;
+    const SampleSource samples_;
+    std::atomic<bool> has_failed_{false};
+    std::mutex mutex_;
+    std::optional<Error> failure_;
+    std::vector<FileError> errors_;
+};
+
+bool is_whole(const std::vector<ErrorIndex::Level>& levels) {
+    return std::all_of(levels.begin(), levels.end(),
+                       [](const ErrorIndex::Level& level) { return level.unproven == 0; });
+}
+
+Error changed_meanwhile(const IndexSource& source) {
+    return {fmt::format("{}: changed while it was indexed, the same files at the end were "
+                        "expected; nothing is kept",
+                        source.tiles.name())};
+}
+
+} // namespace
+
+Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options) {
+    auto index = ErrorIndex::open_to_write(source);
+    if (!index) {
+        return index.error();
+    }
+    IndexReport report;
+    report.levels = index->levels();
+    if (!index->is_complete() || !is_whole(report.levels)) {
+        if (index->is_complete()) { // damaged
+            if (auto cleared = index->clear(); !cleared) {
+                return cleared.error();
+            }
+        }
+        IndexPass pass(source, *index, options);
+        const auto done = pass.run();
+        const auto now = source.tiles.fingerprint();
+        if (!options.stop.stop_requested() && (!now || *now != source.fingerprint)) {
+            index->remove();
+            return changed_meanwhile(source);
+        }
+        if (!done) {
+            return done.error();
+        }
+        report.errors = pass.take_errors();
+        report.levels = index->levels();
+        if (is_whole(report.levels)) {
+            if (auto completed = index->complete(); !completed) {
+                return completed.error();
+            }
+        }
+    }
+    report.bytes_of_proofs = index->bytes_of_proofs();
+    report.bytes_of_heights = index->bytes_of_heights();
+    return report;
+}
+
+std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const ErrorIndex& index,
+                                             TreeTile tile, const std::stop_token& stop) {
+    IndexedTile result;
+    Grid<float> samples;
+    if (tile.level >= ErrorIndex::first_stored_level) {
+        auto heights = index.heights(tile);
+        if (!heights) {
+            return std::nullopt;
+        }
+        result.heights = std::move(*heights);
+    } else {
+        const int border = terrain::sample_border(tile.level);
+        const glm::ivec2 size =
+            source.tree.cells(tile) * terrain::TileTree::step(tile) + 1 + 2 * border;
+        const glm::ivec2 first = terrain::TileTree::first(tile) - border;
+        const glm::ivec2 last(source.grid.cols - 1, source.grid.rows - 1);
+        const glm::ivec2 from = glm::clamp(first, glm::ivec2(0), last);
+        const glm::ivec2 count = glm::min(first + size - 1, last) - from + 1;
+        TileWindow window =
+            source.tiles.read({source.grid.first + source.grid.step * glm::dvec2(from),
+                               source.grid.step, count.x, count.y},
+                              source.gaps, stop);
+        samples = Grid<float>(size.x, size.y);
+        for (int row = 0; row < size.y; ++row) {
+            for (int col = 0; col < size.x; ++col) {
+                samples(col, row) = static_cast<float>(
+                    window.heights.clamped(first.x + col - from.x, first.y + row - from.y));
+            }
+        }
+        result.errors = std::move(window.errors);
+        result.bytes_read = window.bytes_read;
+        result.heights = heights_from_samples(source.tree, tile, samples);
+    }
+    result.proof = index.find(tile);
+    const auto wrong = result.proof && result.errors.empty()
+                           ? contradiction(source.tree, tile, *result.proof, result.heights,
+                                           samples.empty() ? nullptr : &samples)
+                           : std::nullopt;
+    if (wrong) {
+        result.proof.reset();
+        result.errors.push_back(
+            {source.file,
+             fmt::format("{}: tile {} of level {}: {}", source.file.string(),
+                         fmt::format("({},{})", tile.col, tile.row), tile.level, *wrong)});
+    }
+    return result;
+}
+
+} // namespace reljef::io
