@@ -381,7 +381,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         ->type_name("FILE");
     arguments
         ->add_option("--hit", choice->hits,
-                     "OpenEXR file with the hit of each pixel: col, row, height, depth")
+                     "OpenEXR file with the hit of each pixel: col, row, height, depth, and "
+                     "col_low, row_low to add to col, row")
         ->type_name("FILE");
     arguments
         ->add_option("--contact-sheet", choice->contact_sheet,

@@ -46,8 +46,8 @@ Result<Frame> draw_frame(session::SceneRenderer& renderer, StressStage& stage, s
     return Frame{std::move(*picture), std::move(*hits)};
 }
 
-std::array<std::uint32_t, 4> bits_of(const Hit& hit) {
-    return std::bit_cast<std::array<std::uint32_t, 4>>(hit);
+std::array<std::uint32_t, 6> bits_of(const Hit& hit) {
+    return std::bit_cast<std::array<std::uint32_t, 6>>(hit);
 }
 
 double count_differences(const Frame& a, const Frame& b) {

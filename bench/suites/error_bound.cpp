@@ -336,7 +336,7 @@ scene::Camera view_near_the_ground(std::mt19937& random, const scene::TerrainSur
     const glm::dvec3 eye(x, y, surface.height_at(x, y).value_or(bounds.high.z) + above);
     const double heading = between(random, 0.0, 360.0);
     scene::Camera camera = scene::camera_from_angles(eye, heading, between(random, -30.0, 5.0));
-    camera.near = 0.1 * above; // cuts no ground away
+    camera.near = 1e-3 * above; // cuts no ground away, unless it rises by 700 m per metre
     return camera;
 }
 

@@ -32,7 +32,7 @@ std::vector<double> streamed_errors(const scene::TerrainNode& terrain, const Sam
             if (!truth::shows_terrain(hit)) {
                 continue;
             }
-            const glm::dvec2 sample(hit.col, hit.row);
+            const glm::dvec2 sample = hit.place();
             const glm::dvec2 placed =
                 terrain.stream != nullptr ? terrain.stream->maker().on_overview(sample) : sample;
             const scene::Projected shown =

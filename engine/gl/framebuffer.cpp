@@ -1,6 +1,7 @@
 #include "engine/gl/framebuffer.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -118,7 +119,7 @@ Result<void> Framebuffer::attach_color(const FramebufferOptions& options) {
         }
         color_ = std::move(*color);
         glNamedFramebufferTexture(id(), GL_COLOR_ATTACHMENT0, color_.id(), 0);
-        return {};
+        return options.second_color ? attach_second_color(options) : Result<void>();
     }
     const auto color = make_renderbuffer(options, options.color);
     if (!color) {
@@ -126,6 +127,19 @@ Result<void> Framebuffer::attach_color(const FramebufferOptions& options) {
     }
     sample_color_ = UniqueId<delete_renderbuffer>(*color);
     glNamedFramebufferRenderbuffer(id(), GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, *color);
+    return {};
+}
+
+Result<void> Framebuffer::attach_second_color(const FramebufferOptions& options) {
+    auto color = Texture2D::create(
+        {.size = options.size, .format = *options.second_color, .filter = Filter::nearest});
+    if (!color) {
+        return color.error();
+    }
+    second_color_ = std::move(*color);
+    glNamedFramebufferTexture(id(), GL_COLOR_ATTACHMENT1, second_color_.id(), 0);
+    constexpr std::array<GLenum, 2> outputs{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+    glNamedFramebufferDrawBuffers(id(), static_cast<GLsizei>(outputs.size()), outputs.data());
     return {};
 }
 
@@ -151,6 +165,10 @@ void Framebuffer::bind() const {
 void Framebuffer::clear_color(glm::vec4 linear) const {
     glEnable(GL_FRAMEBUFFER_SRGB);
     glClearNamedFramebufferfv(id(), GL_COLOR, 0, glm::value_ptr(linear));
+    if (second_color_.id() != 0U) {
+        constexpr std::array<float, 4> zeros{};
+        glClearNamedFramebufferfv(id(), GL_COLOR, 1, zeros.data());
+    }
 }
 
 void Framebuffer::clear_depth(float depth) const {
@@ -178,6 +196,11 @@ void Framebuffer::resolve_to(const Framebuffer& target) const {
 const Texture2D& Framebuffer::color() const {
     check(color_.id() != 0U, "framebuffer has no colour texture");
     return color_;
+}
+
+const Texture2D& Framebuffer::second_color() const {
+    check(second_color_.id() != 0U, "framebuffer has no second colour");
+    return second_color_;
 }
 
 } // namespace reljef::gl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -14,6 +15,7 @@ namespace reljef::gl {
 struct FramebufferOptions {
     glm::ivec2 size{1, 1};
     Format color = Format::rgba8_srgb;
+    std::optional<Format> second_color = std::nullopt; ///< for fragment output 1; one sample only
     bool depth = true; ///< 32-bit float
     int samples = 1;
 };
@@ -33,7 +35,7 @@ public:
 
     /// Makes it the draw target, sets the viewport to its size and turns sRGB encoding on.
     void bind() const;
-    /// `linear` is encoded for rgba8_srgb.
+    /// `linear` is encoded for rgba8_srgb. A second colour becomes 0.
     void clear_color(glm::vec4 linear) const;
     /// 0 is the far end of a reversed depth. Precondition: it has a depth; depth writing is on.
     void clear_depth(float depth = 0.0F) const;
@@ -49,13 +51,17 @@ public:
     [[nodiscard]] int samples() const { return samples_; }
     /// Precondition: one sample per pixel.
     [[nodiscard]] const Texture2D& color() const;
+    /// Precondition: created with a second colour.
+    [[nodiscard]] const Texture2D& second_color() const;
 
 private:
     Result<void> attach_color(const FramebufferOptions& options);
+    Result<void> attach_second_color(const FramebufferOptions& options);
     Result<void> attach_depth(const FramebufferOptions& options);
 
     UniqueId<delete_framebuffer> id_;
     Texture2D color_;
+    Texture2D second_color_;
     UniqueId<delete_renderbuffer> sample_color_; // instead of the texture, with several samples
     UniqueId<delete_renderbuffer> depth_;
     glm::ivec2 size_{0, 0};

@@ -35,4 +35,8 @@ Grid<glm::vec4> read_float_color(const Framebuffer& framebuffer) {
     return read_texture<glm::vec4>(framebuffer.color(), GL_FLOAT);
 }
 
+Grid<glm::vec4> read_second_color(const Framebuffer& framebuffer) {
+    return read_texture<glm::vec4>(framebuffer.second_color(), GL_FLOAT);
+}
+
 } // namespace reljef::gl

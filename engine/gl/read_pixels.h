@@ -15,5 +15,7 @@ Image read_color(const Framebuffer& framebuffer);
 /// The colour as floats, row 0 at the top. Missing channels are 0, missing alpha is 1; bytes map to
 /// [0,1] as stored. Waits for the GPU.
 Grid<glm::vec4> read_float_color(const Framebuffer& framebuffer);
+/// The same of the second colour.
+Grid<glm::vec4> read_second_color(const Framebuffer& framebuffer);
 
 } // namespace reljef::gl

@@ -113,7 +113,9 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
 
 Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
-        auto target = gl::Framebuffer::create({.size = size(), .color = gl::Format::rgba32f});
+        auto target = gl::Framebuffer::create({.size = size(),
+                                               .color = gl::Format::rgba32f,
+                                               .second_color = gl::Format::rg32f});
         if (!target) {
             return target.error();
         }
@@ -132,9 +134,11 @@ Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
     }
     const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
     HitBuffer hits(channels.cols(), channels.rows());
-    std::ranges::transform(channels.samples(), hits.samples().begin(), [](const glm::vec4& hit) {
-        return Hit{hit.x, hit.y, hit.z, hit.w};
-    });
+    const Grid<glm::vec4> low = gl::read_second_color(hit_target_);
+    std::ranges::transform(channels.samples(), low.samples(), hits.samples().begin(),
+                           [](const glm::vec4& hit, const glm::vec4& rest) {
+                               return Hit{hit.x, hit.y, hit.z, hit.w, rest.x, rest.y};
+                           });
     return hits;
 }
 

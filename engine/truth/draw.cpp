@@ -47,8 +47,8 @@ Hit shown(const std::optional<SceneHit>& hit) {
     if (!hit) {
         return {};
     }
-    const glm::vec3 sample(hit->surface.sample);
-    return {sample.x, sample.y, sample.z, static_cast<float>(hit->surface.t)};
+    const glm::dvec3 sample = hit->surface.sample;
+    return hit_at(glm::dvec2(sample), sample.z, hit->surface.t);
 }
 
 } // namespace

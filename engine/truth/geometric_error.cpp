@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "engine/core/parallel_for.h"
 #include "engine/core/statistics.h"
@@ -121,7 +122,7 @@ bool shows_terrain(const Hit& hit) {
 
 double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 pixel,
                           const Hit& hit) {
-    const glm::dvec2 texel(hit.col, hit.row);
+    const glm::dvec2 texel = hit.place();
     if (!std::isfinite(texel.x) || !std::isfinite(texel.y)) {
         return no_bound;
     }
@@ -137,8 +138,7 @@ double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 p
 }
 
 double hit_error(const Hit& shown, const Hit& true_hit) {
-    return bounded(std::hypot(static_cast<double>(shown.col) - true_hit.col,
-                              static_cast<double>(shown.row) - true_hit.row));
+    return bounded(glm::distance(shown.place(), true_hit.place()));
 }
 
 Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffer& shown,

@@ -50,22 +50,22 @@ void VertexPlacer::know(const terrain::Triangulation& part, std::span<const Grid
         at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const glm::ivec2 sample = part.vertices[i] / terrain::steps_per_sample;
-        if (sample * terrain::steps_per_sample == part.vertices[i]) {
+        const glm::ivec2 sample = terrain::sample_before(part.vertices[i]);
+        if (terrain::steps_of(sample) == part.vertices[i]) {
             at_samples_(sample.x - tile_.col, sample.y - tile_.row) = &vertices[i];
         }
     }
 }
 
-const GridVertex* VertexPlacer::known(glm::ivec2 steps) const {
-    const glm::ivec2 sample = steps / terrain::steps_per_sample;
-    return at_samples_.empty() || sample * terrain::steps_per_sample != steps
+const GridVertex* VertexPlacer::known(terrain::Steps steps) const {
+    const glm::ivec2 sample = terrain::sample_before(steps);
+    return at_samples_.empty() || terrain::steps_of(sample) != steps
                ? nullptr
                : at_samples_(sample.x - tile_.col, sample.y - tile_.row);
 }
 
-GridVertex VertexPlacer::placed(glm::ivec2 steps, const terrain::VertexMove& move) const {
-    const glm::dvec2 sample = glm::dvec2(steps) / static_cast<double>(terrain::steps_per_sample);
+GridVertex VertexPlacer::placed(terrain::Steps steps, const terrain::VertexMove& move) const {
+    const glm::dvec2 sample = terrain::samples_of(steps);
     const double height = terrain::bilinear_height(heightfield_.heights.view(), sample);
     return grid_vertex(placement_.world_from_sample({sample, height}) + move.offset,
                        height + move.height, sample - glm::dvec2(tile_.col, tile_.row));

@@ -50,8 +50,8 @@ public:
     [[nodiscard]] std::vector<GridVertex> place(const terrain::Triangulation& part) const;
 
 private:
-    [[nodiscard]] const GridVertex* known(glm::ivec2 steps) const;
-    [[nodiscard]] GridVertex placed(glm::ivec2 steps, const terrain::VertexMove& move) const;
+    [[nodiscard]] const GridVertex* known(terrain::Steps steps) const;
+    [[nodiscard]] GridVertex placed(terrain::Steps steps, const terrain::VertexMove& move) const;
 
     const terrain::Heightfield& heightfield_;
     const terrain::Placement& placement_;

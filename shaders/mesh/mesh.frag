@@ -11,15 +11,12 @@ in float view_depth;
 
 uniform vec3 albedo; // linear
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col and row -1, depth
-#else
-layout(location = 0) out vec4 color;
-#endif
+#include "frame/output.glsl"
 
 void main() {
 #ifdef HIT
     hit = vec4(-1.0, -1.0, 0.0, view_depth);
+    hit_low = vec2(0.0);
 #else
     vec3 lit = lit_color(albedo, normalize(INSIDE(world_normal)), 1.0);
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);

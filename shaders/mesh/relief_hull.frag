@@ -14,11 +14,7 @@
 #include "material/tile_color.glsl"
 #endif
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col, row, height, depth
-#else
-layout(location = 0) out vec4 color;
-#endif
+#include "frame/output.glsl"
 
 // Margin of the search around a tetrahedron, in shares: closes gaps from rounding and from the rasterizers'
 // vertex grid of 1/256 pixel.
@@ -109,6 +105,7 @@ void main() {
     gl_FragDepth = clip.z / clip.w;
 #ifdef HIT
     hit = tile_hit(place, where);
+    hit_low = vec2(0.0);
 #else
     vec2 right = pixel_on_mesh(beside, at, 1.0 - along);
     vec2 up = pixel_on_mesh(above, at, 1.0 - along);

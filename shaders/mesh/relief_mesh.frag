@@ -18,11 +18,7 @@
 #endif
 #endif
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col, row, height, depth
-#else
-layout(location = 0) out vec4 color;
-#endif
+#include "frame/output.glsl"
 
 void main() {
     mat3 space = tangent_space();
@@ -58,6 +54,7 @@ void main() {
 #endif
 #ifdef HIT
     hit = tile_hit(place, where);
+    hit_low = vec2(0.0);
 #else
     vec3 shown = color_at(place, space, way, right, up);
 #ifdef SMOOTH_EDGES

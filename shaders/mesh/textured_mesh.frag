@@ -14,11 +14,7 @@ layout(binding = warped_map_unit) uniform sampler2D warped_map;
 uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
 #endif
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col, row, height, depth
-#else
-layout(location = 0) out vec4 color;
-#endif
+#include "frame/output.glsl"
 
 void main() {
     if (is_off_tile(tile_coordinate)) {
@@ -37,6 +33,7 @@ void main() {
 #endif
 #ifdef HIT
     hit = tile_hit(coordinate * tile_samples() - 0.5, relative);
+    hit_low = vec2(0.0);
 #else
     vec2 right = dFdx(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
     vec2 up = dFdy(FROM_PIXEL_TO_PIXEL(vertex_coordinate));

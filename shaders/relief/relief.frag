@@ -41,11 +41,7 @@ layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, li
 layout(binding = sun_map_unit) uniform sampler2D sun_map; // the sun's part; lit_map has the rest
 #endif
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col, row, height, depth
-#else
-layout(location = 0) out vec4 color;
-#endif
+#include "frame/output.glsl"
 
 // Entry of the ray into the box, as a negative multiple of `along`; in perspective behind the near plane.
 float entry_before(vec3 point, vec3 direction) {
@@ -133,6 +129,7 @@ void main() {
 #ifdef HIT
     float height = height_span.x + height_span.y * height_at(place);
     hit = vec4(place, height, dot(relative, view_forward.xyz));
+    hit_low = vec2(0.0);
 #else
     float metres = length(relative);
     float level = level_of(place * lit_from_sample.xy + lit_from_sample.zw, metres);

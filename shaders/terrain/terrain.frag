@@ -5,7 +5,10 @@
 
 in vec2 tile_place;
 #ifdef HIT
+in vec2 place_from_eye;
 in vec2 height_and_depth;
+
+uniform vec4 eye_sample; // xy: col, row; zw: to be added
 #endif
 
 uniform vec2 tile_sample;     // col, row of the tile's first sample
@@ -17,10 +20,19 @@ layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, li
 layout(binding = warped_places_unit) uniform sampler2D warped_places;
 #endif
 
-#ifdef HIT
-layout(location = 0) out vec4 hit; // col, row, height, depth
-#else
-layout(location = 0) out vec4 color;
+#include "frame/output.glsl"
+
+#if defined(HIT) && !defined(WARPED)
+// eye_sample plus `offset` as two floats (Knuth's two-sum).
+void write_place(vec2 offset) {
+    precise vec2 sum = eye_sample.xy + offset;
+    precise vec2 added = sum - eye_sample.xy;
+    precise vec2 low = ((eye_sample.xy - (sum - added)) + (offset - added)) + eye_sample.zw;
+    precise vec2 high = sum + low;
+    precise vec2 rest = low - (high - sum);
+    hit = vec4(high, height_and_depth);
+    hit_low = rest;
+}
 #endif
 
 void main() {
@@ -38,8 +50,9 @@ void main() {
 #endif
 #if defined(HIT) && defined(WARPED)
     hit = vec4(seen, height_and_depth.y);
+    hit_low = vec2(0.0);
 #elif defined(HIT)
-    hit = vec4(place, height_and_depth);
+    write_place(place_from_eye);
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;

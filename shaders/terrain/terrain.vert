@@ -14,6 +14,9 @@ uniform mat3 world_from_local;
 
 out vec2 tile_place; // samples from the tile's first
 #ifdef HIT
+uniform vec4 eye_in_tile; // xy: samples from the tile's first; zw: to be added
+
+out vec2 place_from_eye;   // samples
 out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
@@ -49,6 +52,8 @@ void main() {
     one = vertex_grid.z;
 #endif
 #ifdef HIT
+    precise vec2 from_eye_sample = (place - eye_in_tile.xy) - eye_in_tile.zw;
+    place_from_eye = from_eye_sample;
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));
 #endif
     gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));

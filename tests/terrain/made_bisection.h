@@ -47,7 +47,7 @@ struct PlacedTerrain {
     std::vector<terrain::Tile> tiles;
 };
 
-using Triangle = std::array<glm::ivec2, 3>;
+using Triangle = std::array<terrain::Steps, 3>;
 
 /// Of all tiles.
 inline std::vector<Triangle> all_triangles(const PlacedTerrain& made,
@@ -68,21 +68,21 @@ inline std::vector<Triangle> all_triangles(const PlacedTerrain& made,
 
 /// Twice the area, positive where counter-clockwise from above (rows grow downwards).
 inline std::int64_t doubled_area(const Triangle& triangle) {
-    const glm::ivec2 p = triangle[1] - triangle[0];
-    const glm::ivec2 q = triangle[2] - triangle[0];
-    return static_cast<std::int64_t>(p.y) * q.x - static_cast<std::int64_t>(p.x) * q.y;
+    const terrain::Steps p = triangle[1] - triangle[0];
+    const terrain::Steps q = triangle[2] - triangle[0];
+    return p.y * q.x - p.x * q.y;
 }
 
 /// Edges without their opposite that do not lie on the border of the heightfield.
 inline std::size_t open_edges(const PlacedTerrain& made, const std::vector<Triangle>& triangles) {
-    using Edge = std::array<int, 4>;
+    using Edge = std::array<std::int64_t, 4>;
     std::vector<Edge> edges;
     std::vector<Edge> opposites;
-    const glm::ivec2 end = made.bisection.end();
+    const terrain::Steps end = made.bisection.end();
     for (const Triangle& triangle : triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const glm::ivec2 a = triangle[i];
-            const glm::ivec2 b = triangle[(i + 1) % 3];
+            const terrain::Steps a = triangle[i];
+            const terrain::Steps b = triangle[(i + 1) % 3];
             const bool on_border = (a.x == b.x && (a.x == 0 || a.x == end.x)) ||
                                    (a.y == b.y && (a.y == 0 || a.y == end.y));
             if (!on_border) {

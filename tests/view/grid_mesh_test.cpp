@@ -81,8 +81,7 @@ TEST(GridMesh, NeighboursHaveTheSameBitsForAVertexTheyShare) {
     const auto tiles = terrain::tile_layout(heightfield, placement);
     const view::GridMesh west = view::full_mesh(heightfield, placement, tiles[0]);
     const view::GridMesh east = view::full_mesh(heightfield, placement, tiles[1]);
-    const terrain::Triangulation border{
-        {terrain::steps_per_sample * glm::ivec2(terrain::tile_cells, 7)}, {}};
+    const terrain::Triangulation border{{terrain::steps_of({terrain::tile_cells, 7})}, {}};
     const auto cut = view::VertexPlacer(heightfield, placement, tiles[1]).place(border);
     for (int row = 0; row <= west.rows; ++row) {
         const view::GridVertex& a =
@@ -112,8 +111,8 @@ TEST(GridMesh, KnownVerticesHaveTheBitsOfNewOnes) {
                                       glm::ivec2(tile.cols, tile.rows));
                 const glm::ivec2 place(std::uniform_int_distribution(0, most.x)(random),
                                        std::uniform_int_distribution(0, most.y)(random));
-                part.vertices.push_back(terrain::steps_per_sample * glm::ivec2(tile.col, tile.row) +
-                                        scale * place);
+                part.vertices.push_back(terrain::steps_of({tile.col, tile.row}) +
+                                        terrain::Steps(scale * place));
             }
             return part;
         };

@@ -5,6 +5,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/io/image/image.h"
 #include "engine/io/image/image_encoder.h"
@@ -14,12 +15,15 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<const char*, 4> channel_names{"col", "row", "height", "depth"};
-constexpr std::array<std::size_t, 4> channel_offsets{offsetof(Hit, col), offsetof(Hit, row),
-                                                     offsetof(Hit, height), offsetof(Hit, depth)};
+constexpr std::array<const char*, 6> channel_names{"col",   "row",     "height",
+                                                   "depth", "col_low", "row_low"};
+constexpr std::array<std::size_t, 6> channel_offsets{
+    offsetof(Hit, col),   offsetof(Hit, row),     offsetof(Hit, height),
+    offsetof(Hit, depth), offsetof(Hit, col_low), offsetof(Hit, row_low)};
+static_assert(sizeof(Hit) == channel_names.size() * sizeof(float)); // written as it lies in memory
 
 OIIO::ImageSpec spec_of(const HitBuffer& hits) {
-    OIIO::ImageSpec spec(hits.cols(), hits.rows(), 4, OIIO::TypeDesc::FLOAT);
+    OIIO::ImageSpec spec(hits.cols(), hits.rows(), channel_names.size(), OIIO::TypeDesc::FLOAT);
     spec.channelnames.assign(channel_names.begin(), channel_names.end());
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "1970:01:01 00:00:00"); // fixed: the same bytes each time
@@ -37,9 +41,8 @@ Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& pat
         if (found == spec.channelnames.end() ||
             spec.channelformat(channel) != OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)) {
             return Error{
-                fmt::format("{}: has no float32 channel {}, the channels col, row, height and "
-                            "depth were expected",
-                            path.string(), channel_names[i])};
+                fmt::format("{}: has no float32 channel {}, the channels {} were expected",
+                            path.string(), channel_names[i], fmt::join(channel_names, ", "))};
         }
         if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT,
                               bytes + channel_offsets[i], sizeof(Hit))) {

@@ -15,6 +15,12 @@ bool is_warped(const scene::TerrainNode& terrain) {
     return terrain.material.technique.id() == scene::TechniqueId::prewarp;
 }
 
+// The remainder in zw.
+glm::vec4 split_place(glm::dvec2 place) {
+    const SplitPoint split = split_into_floats(glm::dvec3(place, 0.0));
+    return {split.rounded.x, split.rounded.y, split.rest.x, split.rest.y};
+}
+
 void bind_ground(gl::Program& program, const ResidentGround& ground) {
     ground.albedo.bind(bindings::albedo_map_unit);
     ground.surface.bind(bindings::ground_map_unit);
@@ -125,6 +131,22 @@ private:
         program_->set(uniforms.eye_rest, eye.rest);
         program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
         program_->set(uniforms.tile_sample, first_sample(draw));
+        if (frame_.hits) {
+            set_eye_sample(draw, world_from_local);
+        }
+    }
+
+    // Hits are relative to the eye, because floats are precise near 0.
+    void set_eye_sample(const view::TileDraw& draw, const glm::dmat4& world_from_local) {
+        const bool borrows = draw.tile->borrows;
+        const glm::dvec2 first = borrows ? glm::dvec2(terrain::TileTree::first(draw.tile->id))
+                                         : draw.terrain->stream->maker().first(draw.tile->id);
+        const auto eye = borrows ? draw.terrain->surface->placement().sample_from_world(
+                                       local_eye(frame_.list.camera, world_from_local))
+                                 : std::nullopt;
+        const glm::dvec2 origin = eye ? glm::dvec2(*eye) : first;
+        program_->set(uniforms.eye_sample, split_place(origin));
+        program_->set(uniforms.eye_in_tile, split_place(origin - first));
     }
 
     // What the shader adds to a vertex's place: own maps begin at the tile.

@@ -359,8 +359,8 @@ Result<void> TerrainMeshes::set_triangles(Entry& entry, const terrain::Triangula
                                           glm::ivec2 cells, view::FrameStats& stats) {
     std::vector<view::GridVertex> used;
     used.reserve(triangles.vertices.size());
-    for (const glm::ivec2 place : triangles.vertices) {
-        const glm::ivec2 vertex = place / terrain::steps_per_sample;
+    for (const terrain::Steps place : triangles.vertices) {
+        const glm::ivec2 vertex = terrain::sample_before(place);
         used.push_back(
             entry.vertices[static_cast<std::size_t>(vertex.y * (cells.x + 1) + vertex.x)]);
     }

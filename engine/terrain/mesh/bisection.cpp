@@ -62,8 +62,11 @@ bool is_checked(glm::uvec2 place, std::uint32_t seed) {
 
 constexpr int samples_at_once = 16; // rows of samples per work item
 
-int floor_div(int value, int by) {
-    return value >= 0 ? value / by : -((by - 1 - value) / by);
+// Of the cell that contains a place; negative outside.
+glm::ivec2 cell_at(Steps place) {
+    static_assert(std::has_single_bit(static_cast<unsigned>(steps_per_sample)));
+    constexpr int shift = std::countr_zero(static_cast<unsigned>(steps_per_sample));
+    return {static_cast<int>(place.x >> shift), static_cast<int>(place.y >> shift)};
 }
 
 // Derivatives are differences on a lattice of 16×16 cells. The margins cover the points between.
@@ -230,7 +233,7 @@ private:
         for (int i = 0; i < 4; ++i) {
             const glm::ivec2 offset = on_side_ ? glm::ivec2(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1)
                                                : glm::ivec2((i - 1) % 2, (i - 2) % 2);
-            const glm::ivec2 child = steps_per_sample * place + reach * offset;
+            const Steps child = steps_of(place) + Steps(reach * offset);
             if (child.x >= 0 && child.y >= 0 && child.x <= bisection_.end_.x &&
                 child.y <= bisection_.end_.y) {
                 visit(bisection_.split(child, size, !on_side_));
@@ -246,7 +249,7 @@ private:
 Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel, CellsOnly)
     : heights_(heightfield.heights.view()), placement_(&placement),
-      end_(steps_per_sample * glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
+      end_(steps_of({heights_.cols() - 1, heights_.rows() - 1})),
       middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
       metres_(heightfield.spacing, placement.exaggeration()),
       bending_(bending_of(heightfield, placement)) {
@@ -361,10 +364,9 @@ glm::dvec3 Bisection::position(int col, int row) const {
 }
 
 // Bilinear between the cell's corners. On an ellipsoid the error is below the curvature.
-glm::dvec3 Bisection::position_in_cell(glm::ivec2 place) const {
-    const glm::ivec2 cell = glm::min(place, end_ - 1) / steps_per_sample;
-    const glm::dvec2 part =
-        glm::dvec2(place - steps_per_sample * cell) / static_cast<double>(steps_per_sample);
+glm::dvec3 Bisection::position_in_cell(Steps place) const {
+    const glm::ivec2 cell = sample_before(glm::min(place, end_ - std::int64_t{1}));
+    const glm::dvec2 part = samples_of(place - steps_of(cell));
     const glm::dvec3 north =
         glm::mix(position(cell.x, cell.y), position(cell.x + 1, cell.y), part.x);
     const glm::dvec3 south =
@@ -389,25 +391,22 @@ Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
                 : bending_.stretch + steepness};
 }
 
-Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
+Split Bisection::split_in_cell(Steps place, int size, bool on_side) const {
     if (size == steps_per_sample && !on_side) {
-        const StoredSplit& cell = stored(place / steps_per_sample, 1, false);
+        const StoredSplit& cell = stored(sample_before(place), 1, false);
         return {cell.error, position_in_cell(place), cell.radius};
     }
     const int reach = on_side ? size : 3 * size / 2;
-    const glm::ivec2 last_cell = end_ / steps_per_sample - 1;
-    const auto cell_before = [&](int step) { return floor_div(step - 1, steps_per_sample); };
-    const int last_col = std::min(cell_before(place.x + reach), last_cell.x);
-    const int last_row = std::min(cell_before(place.y + reach), last_cell.y);
+    const glm::ivec2 own = sample_before(place);
+    const glm::ivec2 first = glm::max(cell_at(place - std::int64_t{reach}), 0);
+    const glm::ivec2 last =
+        glm::min(cell_at(place + std::int64_t{reach - 1}), sample_before(end_) - 1);
     double bend = 0.0;
     double longest = 0.0;
-    for (int row = std::max(floor_div(place.y - reach, steps_per_sample), 0); row <= last_row;
-         ++row) {
-        for (int col = std::max(floor_div(place.x - reach, steps_per_sample), 0); col <= last_col;
-             ++col) {
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
             const CellBend cell = bend_of_cell(col, row);
-            const bool is_own =
-                !on_side && col == place.x / steps_per_sample && row == place.y / steps_per_sample;
+            const bool is_own = !on_side && col == own.x && row == own.y;
             bend = std::max(bend, is_own ? std::max(cell.middle, cell.side) : cell.side);
             longest = std::max(longest, cell.reach);
         }
@@ -417,20 +416,17 @@ Split Bisection::split_in_cell(glm::ivec2 place, int size, bool on_side) const {
             longest * reach / steps_per_sample * sphere_growth + bending_.curvature};
 }
 
-double Bisection::height(glm::ivec2 place) const {
-    const glm::ivec2 sample = place / steps_per_sample;
-    return steps_per_sample * sample == place
-               ? static_cast<double>(heights_(sample.x, sample.y))
-               : bilinear_height(heights_,
-                                 glm::dvec2(place) / static_cast<double>(steps_per_sample));
+double Bisection::height(Steps place) const {
+    const glm::ivec2 sample = sample_before(place);
+    return steps_of(sample) == place ? static_cast<double>(heights_(sample.x, sample.y))
+                                     : bilinear_height(heights_, samples_of(place));
 }
 
-glm::dvec3 Bisection::world(glm::ivec2 place) const {
-    const glm::ivec2 sample = place / steps_per_sample;
-    return steps_per_sample * sample == place
+glm::dvec3 Bisection::world(Steps place) const {
+    const glm::ivec2 sample = sample_before(place);
+    return steps_of(sample) == place
                ? position(sample.x, sample.y)
-               : placement_->world_from_sample(
-                     {glm::dvec2(place) / static_cast<double>(steps_per_sample), height(place)});
+               : placement_->world_from_sample({samples_of(place), height(place)});
 }
 
 glm::ivec2 Bisection::splits_in_middles(glm::ivec2 samples, std::size_t level) {

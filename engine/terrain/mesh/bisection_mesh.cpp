@@ -22,9 +22,9 @@ namespace {
 
 // A right triangle, counter-clockwise from above; its longest edge runs from left to right.
 struct BisectionTriangle {
-    glm::ivec2 apex;
-    glm::ivec2 left;
-    glm::ivec2 right;
+    Steps apex;
+    Steps left;
+    Steps right;
 };
 
 // The split of a triangle: in the middle of a square of `size` steps, or of one of its sides.
@@ -40,22 +40,22 @@ SplitKind kind_below(SplitKind kind) {
 constexpr std::uint16_t no_vertex = std::numeric_limits<std::uint16_t>::max();
 constexpr std::size_t max_vertices = no_vertex - 3; // a triangle more must fit
 
-std::uint64_t key_of(glm::ivec2 place) {
-    return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(place.x)) << 32U) |
-           static_cast<std::uint32_t>(place.y);
+std::uint64_t key_of(Steps from_tile) {
+    return (static_cast<std::uint64_t>(from_tile.x) << 32U) |
+           static_cast<std::uint64_t>(from_tile.y);
 }
 
 class TriangulationWriter {
 public:
     explicit TriangulationWriter(const Tile& tile)
-        : first_(steps_per_sample * glm::ivec2(tile.col, tile.row)),
+        : first_(steps_of({tile.col, tile.row})),
           at_samples_(tile.cols + 1, tile.rows + 1, no_vertex) {}
 
     void add(const BisectionTriangle& triangle) {
         if (parts_.empty() || parts_.back().vertices.size() > max_vertices) {
             begin_part();
         }
-        for (const glm::ivec2 corner : {triangle.apex, triangle.left, triangle.right}) {
+        for (const Steps corner : {triangle.apex, triangle.left, triangle.right}) {
             const std::uint16_t number = number_of(corner);
             parts_.back().indices.push_back(number);
         }
@@ -70,26 +70,27 @@ private:
         parts_.emplace_back();
     }
 
-    std::uint16_t number_of(glm::ivec2 place) {
-        const glm::ivec2 sample = (place - first_) / steps_per_sample;
-        if (first_ + steps_per_sample * sample == place) {
+    std::uint16_t number_of(Steps place) {
+        const Steps from_tile = place - first_;
+        const glm::ivec2 sample = sample_before(from_tile);
+        if (steps_of(sample) == from_tile) {
             std::uint16_t& number = at_samples_(sample.x, sample.y);
             number = number == no_vertex ? add_vertex(place) : number;
             return number;
         }
-        const auto [entry, is_new] = between_.try_emplace(key_of(place), no_vertex);
+        const auto [entry, is_new] = between_.try_emplace(key_of(from_tile), no_vertex);
         if (is_new) {
             entry->second = add_vertex(place);
         }
         return entry->second;
     }
 
-    std::uint16_t add_vertex(glm::ivec2 place) {
+    std::uint16_t add_vertex(Steps place) {
         parts_.back().vertices.push_back(place);
         return static_cast<std::uint16_t>(parts_.back().vertices.size() - 1);
     }
 
-    glm::ivec2 first_;
+    Steps first_;
     Grid<std::uint16_t> at_samples_;
     std::unordered_map<std::uint64_t, std::uint16_t> between_;
     std::vector<Triangulation> parts_;
@@ -143,10 +144,11 @@ double relative_error(const ErrorView& view, const Split& split) {
 // The vertices of a tile that are not at their own positions.
 class MorphedVertices {
 public:
-    explicit MorphedVertices(const Bisection& bisection) : bisection_(bisection) {}
+    MorphedVertices(const Bisection& bisection, Steps first)
+        : bisection_(bisection), first_(first) {}
 
     // `share`: of the move from the edge to the own position, in [0, 1].
-    void add(glm::ivec2 place, glm::ivec2 from, glm::ivec2 to, double share) {
+    void add(Steps place, Steps from, Steps to, double share) {
         const VertexMove a = move_of(from);
         const VertexMove b = move_of(to);
         const auto between = [](const auto& p, const auto& q) { return 0.5 * (p + q); };
@@ -159,17 +161,18 @@ public:
                                  between(bisection_.height(from), bisection_.height(to)));
         }
         if (move != VertexMove{}) {
-            moves_.emplace(key_of(place), move);
+            moves_.emplace(key_of(place - first_), move);
         }
     }
 
-    [[nodiscard]] VertexMove move_of(glm::ivec2 place) const {
-        const auto found = moves_.find(key_of(place));
+    [[nodiscard]] VertexMove move_of(Steps place) const {
+        const auto found = moves_.find(key_of(place - first_));
         return found == moves_.end() ? VertexMove{} : found->second;
     }
 
 private:
     const Bisection& bisection_;
+    Steps first_; // of the tile
     std::unordered_map<std::uint64_t, VertexMove> moves_;
 };
 
@@ -179,18 +182,19 @@ public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
                  const Grid<std::uint8_t>* required = nullptr)
         : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
-          required_(required), morphed_vertices_(bisection), first_(tile.col, tile.row),
+          required_(required), morphed_vertices_(bisection, steps_of({tile.col, tile.row})),
+          first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
         view_.max_error *= view.morph_from;
     }
 
     std::vector<Triangulation> bisect(const Tile& tile) {
-        const glm::ivec2 first = steps_per_sample * glm::ivec2(tile.col, tile.row);
-        const int side = steps_per_sample * tile_cells;
-        const glm::ivec2 middle = first + side / 2;
-        const std::array corners{first, first + glm::ivec2(0, side), first + side,
-                                 first + glm::ivec2(side, 0)};
+        constexpr int side = steps_per_sample * tile_cells;
+        const Steps first = steps_of({tile.col, tile.row});
+        const Steps middle = first + std::int64_t{side / 2};
+        const std::array corners{first, first + Steps(0, side), first + std::int64_t{side},
+                                 first + Steps(side, 0)};
         for (std::size_t i = 0; i < 4; ++i) {
             add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
         }
@@ -204,7 +208,7 @@ private:
         if (reach == Reach::outside) {
             return;
         }
-        const glm::ivec2 middle = (triangle.left + triangle.right) / 2;
+        const Steps middle = (triangle.left + triangle.right) / std::int64_t{2};
         const Choice choice =
             reach == Reach::across ? Choice{true, is_seen} : choice_at(middle, kind, is_seen);
         if (choice.splits) {
@@ -240,28 +244,31 @@ private:
     };
 
     // The splits of children and grandchildren lie far apart in memory.
-    void prefetch_below(const BisectionTriangle& triangle, glm::ivec2 middle,
+    void prefetch_below(const BisectionTriangle& triangle, Steps middle,
                         SplitKind kind) const {
         const SplitKind next = kind_below(kind);
-        for (const glm::ivec2 end : {triangle.left, triangle.right}) {
-            bisection_.prefetch((triangle.apex + end) / 2, next.size, next.on_side);
-            const SplitKind last = kind_below(next);
-            bisection_.prefetch((middle + triangle.apex) / 2, last.size, last.on_side);
-            bisection_.prefetch((middle + end) / 2, last.size, last.on_side);
+        const auto prefetch = [&](Steps a, Steps b, SplitKind at) {
+            bisection_.prefetch((a + b) / std::int64_t{2}, at.size, at.on_side);
+        };
+        const SplitKind last = kind_below(next);
+        for (const Steps end : {triangle.left, triangle.right}) {
+            prefetch(triangle.apex, end, next);
+            prefetch(middle, triangle.apex, last);
+            prefetch(middle, end, last);
         }
     }
 
     [[nodiscard]] Reach reach_of(const BisectionTriangle& triangle) const {
-        const glm::ivec2 high = glm::max(triangle.apex, glm::max(triangle.left, triangle.right));
-        const glm::ivec2 end = bisection_.end();
+        const Steps high = glm::max(triangle.apex, glm::max(triangle.left, triangle.right));
+        const Steps end = bisection_.end();
         if (high.x <= end.x && high.y <= end.y) {
             return Reach::inside;
         }
-        const glm::ivec2 low = glm::min(triangle.apex, glm::min(triangle.left, triangle.right));
+        const Steps low = glm::min(triangle.apex, glm::min(triangle.left, triangle.right));
         return low.x < end.x && low.y < end.y ? Reach::across : Reach::outside;
     }
 
-    [[nodiscard]] Choice choice_at(glm::ivec2 middle, SplitKind kind, bool is_seen) {
+    [[nodiscard]] Choice choice_at(Steps middle, SplitKind kind, bool is_seen) {
         constexpr int min_size = 2; // steps: their middle is a step
         if (kind.size < min_size) {
             return {false, is_seen};
@@ -271,7 +278,7 @@ private:
                        ? Choice{false, is_seen}
                        : choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
-        const glm::ivec2 sample = middle / steps_per_sample - first_;
+        const glm::ivec2 sample = sample_before(middle) - first_;
         if (required_ != nullptr && (*required_)(sample.x, sample.y) != 0) {
             return {true, is_seen};
         }

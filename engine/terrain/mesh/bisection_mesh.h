@@ -47,7 +47,7 @@ struct VertexMove {
 
 /// Triangles over places of a heightfield (steps), counter-clockwise from above.
 struct Triangulation {
-    std::vector<glm::ivec2> vertices;
+    std::vector<Steps> vertices;
     std::vector<std::uint16_t> indices;
     std::vector<VertexMove> moves = {}; ///< of the vertices; empty: none
 

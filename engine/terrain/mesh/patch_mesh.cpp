@@ -113,7 +113,7 @@ Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const Tile& 
         std::uint16_t& number = numbers(place.x, place.y);
         if (number == no_number) {
             number = static_cast<std::uint16_t>(result.vertices.size());
-            result.vertices.push_back(steps_per_sample * (place + glm::ivec2(tile.col, tile.row)));
+            result.vertices.push_back(steps_of(place + glm::ivec2(tile.col, tile.row)));
         }
         return number;
     };

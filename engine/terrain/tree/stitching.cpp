@@ -166,7 +166,7 @@ std::optional<glm::ivec2> vertex_at(const TileTree& tree, TreeTile tile, glm::iv
 class BorderWalk {
 public:
     BorderWalk(const Bisection& bisection, const ErrorView& view)
-        : bisection_(bisection), view_(view), cells_(bisection.end() / steps_per_sample) {}
+        : bisection_(bisection), view_(view), cells_(sample_before(bisection.end())) {}
 
     std::vector<glm::ivec2> walk() && {
         // If a side is shorter than tile_cells, bisection makes all splits along the far side.
@@ -194,7 +194,7 @@ private:
         }
         if (is_inside(middle)) {
             const Split split =
-                bisection_.split(steps_per_sample * middle, steps_per_sample * size, true);
+                bisection_.split(steps_of(middle), steps_per_sample * size, true);
             if (!exceeds(view_, split)) {
                 return;
             }

@@ -25,8 +25,8 @@ void expect_same_splits(const terrain::Bisection& found, const terrain::Bisectio
     ASSERT_EQ(found.end(), expected.end());
     for (int size = 2 * terrain::steps_per_sample; size < 128 * terrain::steps_per_sample;
          size *= 2) {
-        for (int y = size / 2; y <= expected.end().y; y += size) {
-            for (int x = size / 2; x <= expected.end().x; x += size) {
+        for (std::int64_t y = size / 2; y <= expected.end().y; y += size) {
+            for (std::int64_t x = size / 2; x <= expected.end().x; x += size) {
                 const terrain::Split a = found.split({x, y}, size, false);
                 const terrain::Split b = expected.split({x, y}, size, false);
                 EXPECT_EQ(std::tie(a.error, a.radius), std::tie(b.error, b.radius));

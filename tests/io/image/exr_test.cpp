@@ -19,7 +19,9 @@ HitBuffer random_hits(int cols, int rows) {
     HitBuffer hits(cols, rows);
     for (Hit& hit : hits.samples()) {
         if (random() % 3 != 0) {
-            hit = {values(random), values(random), values(random), std::abs(values(random))};
+            hit = {values(random), values(random), values(random), std::abs(values(random)),
+                   1e-7F * values(random),
+                   1e-7F * values(random)};
         }
     }
     return hits;
@@ -51,6 +53,7 @@ TEST(HitFile, ComesBackToTheBitSkyIncluded) {
         ASSERT_EQ(a.row, b.row);
         ASSERT_EQ(a.height, b.height);
         ASSERT_EQ(a.depth, b.depth);
+        ASSERT_EQ(a.place(), b.place());
         sky += b.is_sky() ? 1 : 0;
     }
     EXPECT_GT(sky, 0);
@@ -73,7 +76,7 @@ TEST(HitFile, OtherPicturesAreNoHits) {
     ASSERT_TRUE(write_image(folder.path() / "a.png", Image(4, 4)));
     const auto hits = read_hits(folder.path() / "a.png");
     ASSERT_FALSE(hits);
-    EXPECT_THAT(hits.error().message, HasSubstr("channels col, row, height and depth"));
+    EXPECT_THAT(hits.error().message, HasSubstr("channels col, row, height, depth, col_low, row_low"));
     EXPECT_FALSE(read_hits(folder.path() / "none.exr"));
     EXPECT_FALSE(read_hits(folder.write("a.exr", "no EXR")));
 }

@@ -88,7 +88,7 @@ PlacedTerrain two_tiles(int western_level, int eastern_level) {
 }
 
 // Of the smallest triangle at a column (steps): 0 is a quarter of a tile.
-int finest_level(const std::vector<Triangle>& triangles, int col) {
+int finest_level(const std::vector<Triangle>& triangles, std::int64_t col) {
     std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (const Triangle& triangle : triangles) {
         const auto [low, high] = std::minmax({triangle[0].x, triangle[1].x, triangle[2].x});
@@ -116,12 +116,12 @@ TEST(BisectionLevels, TilesOfEveryPairOfLevelsMeetEdgeToEdge) {
     }
 }
 
-using Place = std::pair<int, int>;
+using VertexPlace = std::pair<std::int64_t, std::int64_t>;
 
-std::vector<Place> vertices_of(const std::vector<Triangle>& triangles) {
-    std::vector<Place> places;
+std::vector<VertexPlace> vertices_of(const std::vector<Triangle>& triangles) {
+    std::vector<VertexPlace> places;
     for (const Triangle& triangle : triangles) {
-        for (const glm::ivec2 corner : triangle) {
+        for (const Steps corner : triangle) {
             places.emplace_back(corner.x, corner.y);
         }
     }
@@ -134,7 +134,7 @@ TEST(BisectionLevels, ASmallerErrorOnlyAddsVertices) {
     for (const unsigned seed : {1U, 2U, 3U}) {
         const PlacedTerrain terrain(
             {"", test::plane_heightfield(test::rough_hills(150, 140, seed), {3.0, 3.0}), 1.0});
-        std::vector<Place> before;
+        std::vector<VertexPlace> before;
         for (const double most : {1000.0, 60.0, 20.0, 8.0, 3.0, 1.0, 0.5, 0.25}) {
             const auto places = vertices_of(all_triangles(terrain, uniform_view(most)));
             EXPECT_GE(places.size(), before.size());
@@ -149,10 +149,10 @@ using SplitFigures = std::vector<std::tuple<double, double>>;
 
 SplitFigures all_splits(const Bisection& bisection, int min_size = steps_per_sample) {
     SplitFigures figures;
-    const glm::ivec2 end = bisection.end();
+    const Steps end = bisection.end();
     for (int size = min_size; size <= steps_per_sample * tile_cells; size *= 2) {
-        for (int y = 0; y <= end.y; y += size / 2) {
-            for (int x = 0; x <= end.x; x += size / 2) {
+        for (std::int64_t y = 0; y <= end.y; y += size / 2) {
+            for (std::int64_t x = 0; x <= end.x; x += size / 2) {
                 const bool in_col = x % size != 0;
                 const bool in_row = y % size != 0;
                 const bool is_in_middle = in_col && in_row && size < steps_per_sample * tile_cells;

@@ -78,7 +78,7 @@ private:
         std::array<double, 3> heights{};
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t vertex = part.indices[first + i];
-            at[i] = part.vertices[vertex];
+            at[i] = glm::dvec2(part.vertices[vertex]);
             heights[i] = made_.bisection.world(part.vertices[vertex]).z +
                          (part.moves.empty() ? 0.0 : part.moves[vertex].offset.z);
         }
@@ -102,11 +102,11 @@ private:
 
 std::vector<glm::dvec2> places_of(const PlacedTerrain& made, int count, unsigned seed) {
     test::Chance chance(seed);
-    const glm::ivec2 end = made.bisection.end();
+    const glm::dvec2 end(made.bisection.end());
     std::vector<glm::dvec2> places;
     places.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
-        places.emplace_back(chance.between(0, end.x), chance.between(0, end.y));
+        places.emplace_back(chance.between(0.0, end.x), chance.between(0.0, end.y));
     }
     return places;
 }
@@ -172,12 +172,12 @@ TEST(BisectionMorph, AFlightMovesNothingFartherThanItsStepsAreLong) {
 }
 
 void expect_moved_alike(const PlacedTerrain& terrain) {
-    std::map<std::pair<int, int>, VertexMove> moves;
+    std::map<std::pair<std::int64_t, std::int64_t>, VertexMove> moves;
     int met_and_moved = 0;
     for (const Triangulation& part : all_parts(terrain, rising_view(3.0))) {
         ASSERT_EQ(part.moves.size(), part.vertices.size());
         for (std::size_t i = 0; i < part.vertices.size(); ++i) {
-            const glm::ivec2 place = part.vertices[i];
+            const Steps place = part.vertices[i];
             const auto [entry, is_new] = moves.try_emplace({place.x, place.y}, part.moves[i]);
             ASSERT_EQ(entry->second, part.moves[i]) << place.x << ' ' << place.y;
             met_and_moved += !is_new && part.moves[i] != VertexMove{} ? 1 : 0;

@@ -23,7 +23,7 @@ std::pair<int, int> open_edges_and_area(const std::vector<Triangulation>& tiles,
         for (std::size_t i = 0; i < tile.indices.size(); i += 3) {
             std::array<glm::ivec2, 3> corners{};
             for (std::size_t k = 0; k < 3; ++k) {
-                corners[k] = tile.vertices[tile.indices[i + k]] / steps_per_sample;
+                corners[k] = sample_before(tile.vertices[tile.indices[i + k]]);
             }
             const glm::ivec2 p = corners[1] - corners[0];
             const glm::ivec2 q = corners[2] - corners[0];

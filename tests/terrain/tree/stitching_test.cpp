@@ -207,8 +207,8 @@ private:
             moved.emplace(std::pair(move.vertex.x, move.vertex.y), move.to);
         }
         std::vector<Key> keys;
-        for (const glm::ivec2 place : cut.vertices) {
-            const glm::ivec2 own = place / steps_per_sample;
+        for (const Steps place : cut.vertices) {
+            const glm::ivec2 own = sample_before(place);
             const auto found = moved.find({own.x, own.y});
             const TreeVertex at = found == moved.end() ? TreeVertex{tile, own} : found->second;
             keys.emplace_back(at.tile, at.vertex.x, at.vertex.y);
@@ -295,9 +295,9 @@ TEST(SharedSplits, ThoseOfABorderAreTheOnesThatItsTrianglesHave) {
         const ErrorView view = metres_view(6.0);
         const Grid<std::uint8_t> none(cells.x + 1, cells.y + 1);
         std::set<std::pair<int, int>> expected;
-        for (const glm::ivec2 place :
+        for (const Steps place :
              triangulate_samples(made.bisection, made.tiles.front(), view, none).vertices) {
-            const glm::ivec2 vertex = place / steps_per_sample;
+            const glm::ivec2 vertex = sample_before(place);
             const bool is_corner = vertex.x % cells.x == 0 && vertex.y % cells.y == 0;
             const bool on_side = vertex.x == 0 || vertex.y == 0 ||
                                  (vertex.x == cells.x && cells.x == tile_cells) ||

@@ -85,8 +85,27 @@ scene::Camera chance_camera(test::Chance& chance, const scene::TerrainSurface& s
     return camera;
 }
 
+// 0.3 to 3 m above the ground, heading anywhere, pitched -30 to 5 degrees.
+scene::Camera camera_near_the_ground(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    const glm::dvec2 sample(chance.between(0.0, heights.cols() - 1.0),
+                            chance.between(0.0, heights.rows() - 1.0));
+    const glm::dvec3 ground = surface.placement().world_from_sample(
+        {sample, terrain::bilinear_height(heights.view(), sample)});
+    const glm::dvec3 up = surface.placement().up(ground);
+    const double above = 0.3 * std::pow(10.0, chance.between(0.0, 1.0));
+    scene::Camera camera = scene::camera_from_angles(
+        ground + above * up, chance.between(0.0, 360.0), chance.between(-30.0, 5.0),
+        {up, surface.placement().north(ground)});
+    camera.near = 1e-3 * above;
+    return camera;
+}
+
+using ChanceCamera = scene::Camera (*)(test::Chance&, const scene::TerrainSurface&);
+
 Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
-                     const scene::TerrainOptions& options = {}, int morph = 0) {
+                     const scene::TerrainOptions& options = {}, int morph = 0,
+                     ChanceCamera any_camera = chance_camera) {
     test::Chance chance(seed);
     scene::Scene scene;
     scene::Node& node = test::add_terrain(scene, std::move(heightfield), {}, options);
@@ -95,7 +114,7 @@ Promise promise_over(terrain::Heightfield heightfield, int poses, unsigned seed,
     Promise promise;
     for (int i = 0; i < poses; ++i) {
         const double error = std::exp(chance.between(-1.4, 1.4));
-        *camera.get<scene::Camera>() = chance_camera(chance, test::surface_of(node));
+        *camera.get<scene::Camera>() = any_camera(chance, test::surface_of(node));
         node.get<scene::TerrainNode>()->material.technique =
             scene::parse_technique(fmt::format("polygons:error={},morph={}", error, morph)).value();
         judge(scene, node, test::must(driver.draw_hits(scene)), error, promise);
@@ -141,6 +160,53 @@ TEST_F(PolygonsErrorGlTest, NorBetweenTowersWhereNoSliverIsCut) {
     EXPECT_LE(promise.violations, promise.pixels / 5000);
     EXPECT_LE(promise.worst, 3.0);
     EXPECT_EQ(promise.holes, 0);
+}
+
+TEST_F(PolygonsErrorGlTest, NorFromAnEyeNearTheGround) {
+    const auto near_ground = [](terrain::Heightfield heightfield, unsigned seed, int morph = 0) {
+        return promise_over(std::move(heightfield), 40, seed, {}, morph, camera_near_the_ground);
+    };
+    expect_kept(near_ground(test::plane_heightfield(test::hills(200, 161, 600.0), {25, 25}), 21));
+    expect_kept(
+        near_ground(test::plane_heightfield(test::hills(200, 161, 600.0), {25, 25}), 22, 1));
+    expect_kept(
+        near_ground(test::plane_heightfield(test::random_heights(65, 65, 0.0F, 8.0F, 3)), 23));
+    expect_kept(near_ground(
+        test::geographic_heightfield(test::hills(161, 140, 600.0), 46.0, 7.0, 0.001), 24));
+}
+
+// At column 39,000 a float has steps of 1/256 sample, here 0.1 m.
+TEST_F(PolygonsErrorGlTest, NorWhereFloatsCannotHoldTheColumn) {
+    constexpr int cols = 40'000;
+    scene::Scene scene;
+    scene::Node& node = test::add_terrain(
+        scene, test::plane_heightfield(test::made_heights(cols, 5,
+                                                          [](int col, int row) {
+                                                              return 2.0 * std::sin(col) +
+                                                                     3.0 * std::cos(row);
+                                                          }),
+                                       {25.0, 25.0}));
+    const auto& surface = test::surface_of(node);
+    const double x = (39'000.3 - 0.5 * (cols - 1)) * 25.0;
+    scene::Camera camera =
+        scene::camera_from_angles({x, 1.0, surface.height_at(x, 1.0).value() + 0.5}, 80.0, -20.0);
+    camera.near = 0.01;
+    scene.add_camera(camera);
+    constexpr double error = 0.1;
+    node.get<scene::TerrainNode>()->material.technique =
+        scene::Technique{scene::Polygons{.error = error}};
+    session::SceneRenderer driver = test::must(test::make_renderer(picture));
+    HitBuffer hits = test::must(driver.draw_hits(scene));
+    const SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                           node.world_from_local(), camera};
+    Promise promise;
+    judge(scene, node, hits, error, promise);
+    EXPECT_GT(promise.pixels, 5000);
+    EXPECT_EQ(promise.violations, 0) << "worst " << promise.worst << " of the error asked for";
+    Hit rounded = hits(picture.x / 2, picture.y - 1);
+    rounded.col_low = 0.0F;
+    rounded.col = std::nextafter(rounded.col, 0.0F);
+    EXPECT_GT(reprojection_error(view, picture, {picture.x / 2, picture.y - 1}, rounded), 1.0);
 }
 
 TEST_F(PolygonsErrorGlTest, NorOverTheCurvedEarth) {
