@@ -11,8 +11,7 @@ namespace reljef {
 /// Surface point of a pixel. Column and row are sums of two floats: at column 10 000 a float has
 /// steps of a thousandth of a sample, which are pixels wide near the eye.
 /// - Terrain: (col, row) in samples of its heightfield, height in true metres, depth along the view
-///   axis in scene
-///   metres.
+///   axis in scene metres.
 /// - Mesh with surface detail: (col, row) in texels, height in [0,1]. Other mesh: −1, −1, 0.
 /// - Sky: −1, −1, 0, infinity.
 struct Hit {

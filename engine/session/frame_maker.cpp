@@ -193,7 +193,10 @@ HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene) {
     }
     const geo::WrappedRows& rows = georeference->geodetic.rows();
     for (Hit& hit : hits.samples()) {
-        hit.row = hit.is_sky() ? hit.row : static_cast<float>(rows.source_row(hit.row));
+        if (!hit.is_sky()) {
+            const glm::dvec2 place = hit.place();
+            hit = hit_at({place.x, rows.source_row(place.y)}, hit.height, hit.depth);
+        }
     }
     return hits;
 }
