@@ -185,7 +185,7 @@ Result<void> stress_error_bound(StressRun& run) {
     options.suite.progress = {};
     options.terrains = run.options().terrains;
     options.built_in_size = run.cases(257, 0);
-    options.poses = run.cases(40, 10'000);
+    options.poses = run.cases(40, 1'000);
     options.near_poses = run.cases(40, 1'000);
     options.error = stressed_bound;
     options.flight_errors = {};

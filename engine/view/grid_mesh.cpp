@@ -8,6 +8,12 @@ namespace {
 // On a tile of 12 km (128 samples, 3″ apart) the chord of an eighth stays within 5 cm of the arc.
 constexpr int flat_ellipsoid_quads = 8;
 
+// Samples of the terrain from the tile's first.
+glm::dvec2 place_in_tile(const terrain::Placement& placement, const terrain::Tile& tile,
+                         glm::dvec2 sample) {
+    return placement.on_terrain(sample) - placement.on_terrain(glm::dvec2(tile.col, tile.row));
+}
+
 template <class HeightAt>
 GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& tile, glm::ivec2 quads,
                    const HeightAt& height_at) {
@@ -20,7 +26,7 @@ GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& til
             const glm::dvec2 sample{tile.col + col * step.x, tile.row + row * step.y};
             const double height = height_at(sample);
             mesh.vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}),
-                                                height, sample - glm::dvec2(tile.col, tile.row)));
+                                                height, place_in_tile(placement, tile, sample)));
         }
     }
     return mesh;
@@ -68,7 +74,7 @@ GridVertex VertexPlacer::placed(terrain::Steps steps, const terrain::VertexMove&
     const glm::dvec2 sample = terrain::samples_of(steps);
     const double height = terrain::bilinear_height(heightfield_.heights.view(), sample);
     return grid_vertex(placement_.world_from_sample({sample, height}) + move.offset,
-                       height + move.height, sample - glm::dvec2(tile_.col, tile_.row));
+                       height + move.height, place_in_tile(placement_, tile_, sample));
 }
 
 std::vector<GridVertex> VertexPlacer::place(const terrain::Triangulation& part) const {
@@ -82,13 +88,15 @@ std::vector<GridVertex> VertexPlacer::place(const terrain::Triangulation& part) 
     return vertices;
 }
 
-int flat_quads(terrain::PlacementKind kind) {
-    return kind == terrain::PlacementKind::plane ? 1 : flat_ellipsoid_quads;
+glm::ivec2 flat_quads(const terrain::Placement& placement, glm::ivec2 cells) {
+    return placement.kind() == terrain::PlacementKind::plane ? glm::ivec2(1)
+           : placement.lattice() != nullptr                  ? cells
+                                                             : glm::ivec2(flat_ellipsoid_quads);
 }
 
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height) {
-    const int quads = flat_quads(placement.kind());
-    return grid_mesh(placement, tile, {quads, quads}, [&](glm::dvec2) { return height; });
+    const glm::ivec2 quads = flat_quads(placement, {tile.cols, tile.rows});
+    return grid_mesh(placement, tile, quads, [&](glm::dvec2) { return height; });
 }
 
 } // namespace reljef::view

@@ -17,7 +17,7 @@ namespace reljef::view {
 struct GridVertex {
     glm::vec3 position; ///< local metres, the same bits in each tile that shares the vertex
     float height;       ///< true metres
-    glm::vec2 place;    ///< samples from the tile's first
+    glm::vec2 place;    ///< samples of the terrain from the tile's first
     glm::vec3 rest;     ///< local metres: the rounding error of the position
 };
 static_assert(sizeof(GridVertex) == 36);
@@ -59,8 +59,8 @@ private:
     Grid<const GridVertex*> at_samples_; // empty before know()
 };
 
-/// Quads along a side of a tile of the flat reference surface.
-int flat_quads(terrain::PlacementKind kind);
+/// Quads along the sides of a tile of the flat reference surface.
+glm::ivec2 flat_quads(const terrain::Placement& placement, glm::ivec2 cells);
 
 /// The tile of the flat reference surface at `height` metres.
 GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);

@@ -22,27 +22,25 @@ namespace reljef::view {
 namespace {
 
 std::size_t triangle_count(const scene::TerrainNode& terrain, glm::ivec2 cells, bool flat) {
-    const int quads = flat_quads(terrain.surface->placement().kind());
-    return 2U * static_cast<std::size_t>(flat ? quads : cells.x) *
-           static_cast<std::size_t>(flat ? quads : cells.y);
+    const glm::ivec2 quads = flat ? flat_quads(terrain.surface->placement(), cells) : cells;
+    return 2U * static_cast<std::size_t>(quads.x) * static_cast<std::size_t>(quads.y);
 }
 
 // Levels of an overview whose tiles are not loaded yet: it is not worth a bisection.
 constexpr int overview_levels = terrain::max_patch_levels + 1;
 
-// Empty if every sample is a vertex.
-std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
-                                        const scene::Camera& camera, glm::ivec2 size,
-                                        const glm::dmat4& world_from_local) {
+// Empty if every sample is a vertex. `stands_in`: the terrain is drawn until tiles are loaded.
+std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain, const DrawList& list,
+                                        const glm::dmat4& world_from_local, bool stands_in) {
     const auto* const polygons =
         std::get_if<scene::Polygons>(&terrain.material.technique.parameters);
     if (polygons == nullptr) {
         return std::nullopt;
     }
     const scene::TerrainSurface& surface = *terrain.surface;
-    if (polygons->error > 0.0 && terrain.stream == nullptr) {
+    if (polygons->error > 0.0 && !stands_in) {
         terrain::ErrorView view =
-            error_view(camera, size, world_from_local, surface.placement().kind(),
+            error_view(list.camera, list.size, world_from_local, surface.placement().kind(),
                        std::max(polygons->error, min_error));
         view.morph_from = polygons->morph ? morph_from : 1.0;
         return view;
@@ -51,7 +49,7 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain,
     if (levels == 1) {
         return std::nullopt;
     }
-    const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
+    const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(list.camera.eye, 1.0));
     return terrain::patch_levels(surface.heightfield(), surface.placement(), eye, levels);
 }
 
@@ -139,12 +137,12 @@ private:
                                             {.keeps_hidden = !options_.occlusion});
         requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
         TileDraw draw = draw_of(terrain);
+        auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
             draw.tile = std::move(drawn.tile);
             draw.error = drawn.error;
             draw.is_hidden = is_hidden;
-            draw.coarse =
-                !draw.flat && !is_hidden && scene::error_bound(terrain.material.technique) > 0.0;
+            draw.coarse = coarseness && !is_hidden;
             see(draw, drawn.distance * drawn.distance);
         };
         for (TileSelection::Drawn& drawn : choice.drawn) {
@@ -155,6 +153,9 @@ private:
         }
         if (choice.has_root) {
             list_.transforms.push_back(world_from_local);
+            if (coarseness) {
+                list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
+            }
         }
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
         list_.stats.skipped.tiles_occluded += choice.hidden_unread;
@@ -166,7 +167,8 @@ private:
         const auto& tiles = terrain.surface->tiles();
         const Frustum frustum = frustum_.in_local(world_from_local);
         const std::size_t before = seen_.size();
-        auto coarseness = coarseness_of(terrain, list_.camera, list_.size, world_from_local);
+        auto coarseness =
+            coarseness_of(terrain, list_, world_from_local, terrain.stream != nullptr);
         TileDraw draw = draw_of(terrain);
         draw.coarse = coarseness.has_value();
         const bool is_only_moved = glm::dmat3(world_from_local) == glm::dmat3(1.0);

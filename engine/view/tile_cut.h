@@ -1,55 +1,47 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/terrain/mesh/bisection_mesh.h"
-#include "engine/terrain/tree/stitching.h"
+#include "engine/terrain/mesh/skirt.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/grid_mesh.h"
 
 namespace reljef::view {
 
+/// The samples that a tile shows, and where they lie.
+struct TileSurface {
+    const terrain::Heightfield& heightfield;
+    const terrain::Placement& placement;
+    terrain::Tile samples;
+};
+TileSurface surface_of(const TileDraw& draw);
+
 /// A tile's triangles, in parts of 16-bit indices, and the vertices of each part.
 struct CutMesh {
-    std::vector<terrain::Triangulation> parts;
-    std::vector<std::vector<GridVertex>> vertices; ///< empty if the parts are those of `last`
+    std::vector<terrain::Triangulation> parts; ///< the skirt's last
+    std::vector<std::vector<GridVertex>> vertices;
 };
 
-/// The triangles of a tile of a terrain in memory. Such tiles meet vertex on vertex, because the
-/// coarseness alone decides each split. `bisection` is that of the terrain; null for levels of
-/// patches. `last`: the tile's triangles before, whose vertices are used again.
-CutMesh cut_alone(const terrain::Bisection* bisection, const Coarseness& coarseness,
-                  const scene::TerrainSurface& surface, const terrain::Tile& tile,
-                  const CutMesh& last);
+/// The walls that close the gaps between a tile and its neighbours; a tile of a terrain in memory
+/// needs none. `error`: the largest of all tiles of the terrain, pixels. The depth is rounded up,
+/// so that it seldom changes.
+terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw, double error);
 
-struct TileShape;
-
-/// The state from which the triangles of a loaded tile were found.
-struct TileCut {
-    std::shared_ptr<const TileShape> shape; ///< null until triangles are needed
-    std::optional<terrain::ErrorView> view; ///< empty until the triangles are drawn
-    Grid<std::uint8_t> splits;              ///< required by the tiles around it
+/// How to draw a tile with fewer triangles.
+struct CutOptions {
+    const terrain::Bisection* bisection = nullptr; ///< of its heightfield; null for patches
+    double error = 0.0;                            ///< of its vertices, pixels
+    terrain::Skirt skirt;
 };
 
-/// A loaded tile and its lasting state.
-struct TileToCut {
-    const TileDraw* draw = nullptr;
-    TileCut* cut = nullptr;
-    std::optional<terrain::Triangulation> triangles = {}; ///< empty if unchanged
-    terrain::ErrorView view = {};                         ///< of these triangles
-};
+/// The triangles of a tile and its skirt. They get what the error of the vertices leaves of the
+/// bound, at least half of it. `last`: the tile's triangles before, whose vertices are used again.
+/// Empty if the triangles are still those of `last`.
+CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
+                 const CutOptions& options, const CutMesh& last);
 
-/// Finds the triangles of all loaded tiles of a cover: as few as the view allows if the tiles still
-/// meet vertex on vertex. The triangles get at least half of the error bound, and what the
-/// estimated errors of the vertices leave of it, including those of the tiles around (the two
-/// errors seldom add up). Does nothing if neither the cover nor a tile's view is new. After drawing
-/// new triangles the caller sets TileCut::view. Precondition: one tile for each of the cover, or
-/// none.
-void cut_together(const DrawList& list, const terrain::DrawnTiles& cover, bool is_new_cover,
-                  std::span<TileToCut> tiles);
+/// The skirt of a tile with a vertex at every sample.
+CutMesh whole_skirt(const TileSurface& surface, const terrain::Skirt& skirt);
 
 } // namespace reljef::view

@@ -163,8 +163,8 @@ private:
 struct WalkLimits {
     double max_relative_error = 1.0;    // tiles with larger errors are refined
     std::set<terrain::TreeTile> leaves; // not refined: children are missing
-    // Whether nearer ground hides tiles. Only without other limits, because borders move to the
-    // vertices of the coarsest tile, however far away these are.
+    // Whether nearer ground hides tiles. Only without other limits: tiles that stand in for finer
+    // ones show ground that is not there.
     bool hides = true;
 };
 

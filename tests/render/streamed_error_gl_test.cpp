@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/scene/tile_stream.h"
-#include "engine/view/tile_cut.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
@@ -134,34 +133,6 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
         ASSERT_GT(found.size(), 1000U);
         EXPECT_LE(*std::max_element(found.begin(), found.end()), 1.0) << round;
     }
-}
-
-TEST_F(StreamedError, OfTheVerticesBesideATileIsNotLeftToItsTriangles) {
-    bring();
-    view::DrawList list = view::select(scene_, size).list;
-    ASSERT_GT(list.tiles.size(), 2U);
-    std::set<TreeTile> ids;
-    for (view::TileDraw& draw : list.tiles) {
-        draw.error = 0.0;
-        ids.insert(draw.tile->id);
-    }
-    const auto& stream = *terrain_->get<scene::TerrainNode>()->stream;
-    const terrain::DrawnTiles cover(stream.tree(), ids);
-    const TreeTile beside = cover.touching(list.tiles.front().tile->id).front();
-    const auto left_to_first = [&] {
-        std::vector<view::TileCut> cuts(list.tiles.size());
-        std::vector<view::TileToCut> tiles;
-        for (std::size_t i = 0; i < cuts.size(); ++i) {
-            tiles.push_back({&list.tiles[i], &cuts[i]});
-        }
-        view::cut_together(list, cover, true, tiles);
-        return tiles.front().view.max_error;
-    };
-    EXPECT_GT(left_to_first(), 0.95);
-    for (view::TileDraw& draw : list.tiles) {
-        draw.error = draw.tile->id == beside ? 0.5 : 0.0;
-    }
-    EXPECT_LT(left_to_first(), 0.75);
 }
 
 } // namespace

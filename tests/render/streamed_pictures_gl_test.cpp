@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "engine/core/bilinear.h"
-#include "engine/render/residency/terrain_meshes.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/view/tile_cut.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
@@ -246,7 +246,9 @@ TEST(StreamedVertices, StandWhereADoubleOracleHasThemSeenFromAMetre) {
     view::TileDraw draw;
     draw.terrain = &node;
     draw.tile = std::make_shared<const scene::TerrainTile>(maker.make(id, heights));
-    const view::GridMesh mesh = tile_mesh(draw, {}, {});
+    const view::TileSurface surface = view::surface_of(draw);
+    const view::GridMesh mesh =
+        view::full_mesh(surface.heightfield, surface.placement, surface.samples);
     // Of a picture 768 pixels high, from a metre away.
     const double pixels_per_metre = 0.5 * 768.0 / std::tan(glm::radians(0.5 * 57.3));
     double worst = 0.0;

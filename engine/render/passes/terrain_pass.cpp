@@ -7,6 +7,7 @@
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
+#include "engine/view/tile_cut.h"
 
 namespace reljef::render {
 namespace {
@@ -19,6 +20,11 @@ bool is_warped(const scene::TerrainNode& terrain) {
 glm::vec4 split_place(glm::dvec2 place) {
     const SplitPoint split = split_into_floats(glm::dvec3(place, 0.0));
     return {split.rounded.x, split.rounded.y, split.rest.x, split.rest.y};
+}
+
+// The sample of the terrain where a tile begins.
+glm::dvec2 first_of(const view::TileSurface& surface) {
+    return surface.placement.on_terrain(glm::dvec2(surface.samples.col, surface.samples.row));
 }
 
 void bind_ground(gl::Program& program, const ResidentGround& ground) {
@@ -138,24 +144,19 @@ private:
 
     // Hits are relative to the eye, because floats are precise near 0.
     void set_eye_sample(const view::TileDraw& draw, const glm::dmat4& world_from_local) {
-        const bool borrows = draw.tile->borrows;
-        const glm::dvec2 first = borrows ? glm::dvec2(terrain::TileTree::first(draw.tile->id))
-                                         : draw.terrain->stream->maker().first(draw.tile->id);
-        const auto eye = borrows ? draw.terrain->surface->placement().sample_from_world(
-                                       local_eye(frame_.list.camera, world_from_local))
-                                 : std::nullopt;
-        const glm::dvec2 origin = eye ? glm::dvec2(*eye) : first;
+        const view::TileSurface surface = view::surface_of(draw);
+        const glm::dvec2 first = first_of(surface);
+        const auto eye =
+            surface.placement.sample_from_world(local_eye(frame_.list.camera, world_from_local));
+        const glm::dvec2 origin = eye ? surface.placement.on_terrain(glm::dvec2(*eye)) : first;
         program_->set(uniforms.eye_sample, split_place(origin));
         program_->set(uniforms.eye_in_tile, split_place(origin - first));
     }
 
     // What the shader adds to a vertex's place: own maps begin at the tile.
     [[nodiscard]] glm::vec2 first_sample(const view::TileDraw& draw) const {
-        if (draw.tile->borrows) {
-            return glm::vec2(terrain::TileTree::first(draw.tile->id));
-        }
-        return frame_.hits ? glm::vec2(draw.terrain->stream->maker().first(draw.tile->id))
-                           : glm::vec2(0.0F);
+        return draw.tile->borrows || frame_.hits ? glm::vec2(first_of(view::surface_of(draw)))
+                                                 : glm::vec2(0.0F);
     }
 
     void draw_meshes(std::size_t index, const view::TileDraw& draw) {

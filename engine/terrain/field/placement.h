@@ -36,6 +36,13 @@ public:
     /// Of a tile of the terrain whose overview this placement places; in the same scene frame.
     [[nodiscard]] Placement of_tile(const Reduction& reduction, const TileLattice& tile) const;
 
+    /// Where the samples lie among those of the terrain; null: this is not the placement of a tile.
+    [[nodiscard]] const TileLattice* lattice() const { return tile_ ? &tile_->lattice : nullptr; }
+    /// The sample of the terrain for a sample of its tile; the sample itself without a tile.
+    [[nodiscard]] glm::dvec2 on_terrain(glm::dvec2 sample) const {
+        return tile_ ? tile_->lattice.on_terrain(sample) : sample;
+    }
+
     [[nodiscard]] PlacementKind kind() const {
         return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
     }
@@ -62,7 +69,7 @@ private:
     };
     Placement() = default;
     [[nodiscard]] glm::dvec2 placed(glm::dvec2 sample) const {
-        return tile_ ? tile_->reduction.on_overview(tile_->lattice.on_terrain(sample)) : sample;
+        return tile_ ? tile_->reduction.on_overview(on_terrain(sample)) : sample;
     }
     [[nodiscard]] glm::dvec2 from_placed(glm::dvec2 sample) const {
         return tile_ ? tile_->lattice.from_terrain(tile_->reduction.from_overview(sample)) : sample;

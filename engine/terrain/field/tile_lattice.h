@@ -25,6 +25,15 @@ struct TileLattice {
     double step = 1.0;     ///< samples of the terrain
     glm::ivec2 cells{1};
 
+    /// The sample where the last cells begin if they are shorter; else beyond the tile.
+    [[nodiscard]] glm::ivec2 shorter_from() const {
+        const auto along = [&](int axis) {
+            const bool is_shorter = first[axis] + step * cells[axis] != last[axis];
+            return cells[axis] - (is_shorter ? 1 : 0);
+        };
+        return {along(0), along(1)};
+    }
+
     /// The sample of the terrain for a sample of the tile, and back. Extrapolates.
     [[nodiscard]] glm::dvec2 on_terrain(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec2 from_terrain(glm::dvec2 sample) const;

@@ -213,6 +213,9 @@ private:
                          [&](glm::ivec2 corner) { return is_inside(heights, corner); })) {
             return reaches_in(heights, triangle) ? must_split : 0.0;
         }
+        if (spans_cells_of_two_sizes(triangle)) {
+            return must_split;
+        }
         const double exaggeration = bisection_.placement_->exaggeration();
         double error = exaggeration * triangle_error(heights, triangle);
         if (bisection_.bending_.curvature > 0.0) {
@@ -224,6 +227,14 @@ private:
                          bisection_.bending_.turn;
         }
         return error;
+    }
+
+    // Triangles are right-angled on cells of equal size only.
+    [[nodiscard]] bool spans_cells_of_two_sizes(const SampleTriangle& triangle) const {
+        const glm::ivec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
+        const glm::ivec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
+        const glm::ivec2 end = bisection_.shorter_from_;
+        return (low.x < end.x && high.x > end.x) || (low.y < end.y && high.y > end.y);
     }
 
     // The up to four children on the heightfield.
@@ -250,6 +261,10 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel, CellsOnly)
     : heights_(heightfield.heights.view()), placement_(&placement),
       end_(steps_of({heights_.cols() - 1, heights_.rows() - 1})),
+      shorter_from_(placement.lattice() != nullptr
+                        ? placement.lattice()->shorter_from()
+                        : glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
+      is_regular_(placement.kind() == PlacementKind::plane && placement.lattice() == nullptr),
       middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
       metres_(heightfield.spacing, placement.exaggeration()),
       bending_(bending_of(heightfield, placement)) {
@@ -312,7 +327,7 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
 }
 
 void Bisection::store_positions(const ParallelOptions& parallel) {
-    if (placement_->kind() == PlacementKind::plane) {
+    if (is_regular_) {
         return;
     }
     const glm::ivec2 tiles((heights_.cols() + tile_cells - 1) / tile_cells,

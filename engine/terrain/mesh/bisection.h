@@ -19,10 +19,10 @@
 
 namespace reljef::terrain {
 
-/// Vertex positions are counted in steps. Triangles may be smaller than cells. Steps are fine enough
-/// for any view: the smallest square of a cell with twist t, two steps wide, is off by t / 2^34. With
-/// 1000 pixels per radian, a twist of 1000 m is 0.08 pixels at a millimetre from the eye. A float
-/// holds every step of a tile: 128 samples are 2^24 steps.
+/// Vertex positions are counted in steps. Triangles may be smaller than cells. Steps are fine
+/// enough for any view: the smallest square of a cell with twist t, two steps wide, is off by t /
+/// 2^34. With 1000 pixels per radian, a twist of 1000 m is 0.08 pixels at a millimetre from the
+/// eye. A float holds every step of a tile: 128 samples are 2^24 steps.
 inline constexpr int steps_per_sample = 1 << 17;
 /// A column and row, steps.
 using Steps = glm::i64vec2;
@@ -162,15 +162,19 @@ private:
     GridView<const float> heights_;
     const Placement* placement_;
     Steps end_{0};
-    glm::dvec2 middle_{0.0}; // sample; plane only
-    glm::dvec3 metres_{1.0}; // scene metres per sample, sample and metre; plane only
+    glm::ivec2 shorter_from_; // sample where the last cells begin if they are shorter
+    bool is_regular_;         // a plane with samples at equal distances around the origin
+    // If it is regular:
+    glm::dvec2 middle_{0.0}; // sample
+    glm::dvec3 metres_{1.0}; // scene metres per sample, sample and metre
     Bending bending_;
     // Of squares of 1, 2, 4 … samples. A view reads neighbours, which lie side by side.
     static constexpr std::size_t levels = 8;
     std::array<Grid<StoredSplit>, levels> in_middles_; // (col, row) of the square
     std::array<Grid<StoredSplit>, levels> on_sides_;   // two rows for each row of squares
-    Grid<glm::vec3> offsets_;  // samples minus their tile's origin; ellipsoid only
-    Grid<glm::dvec3> origins_; // of tiles; ellipsoid only
+    // Empty if it is regular:
+    Grid<glm::vec3> offsets_;  // samples minus their tile's origin
+    Grid<glm::dvec3> origins_; // of tiles
 };
 
 } // namespace reljef::terrain

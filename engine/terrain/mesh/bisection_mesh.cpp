@@ -178,12 +178,9 @@ private:
 
 class TileBisector {
 public:
-    // `required`: splits that are always made; then there are none below the samples.
-    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
-                 const Grid<std::uint8_t>* required = nullptr)
+    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
         : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
-          required_(required), morphed_vertices_(bisection, steps_of({tile.col, tile.row})),
-          first_(tile.col, tile.row),
+          morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
         view_.max_error *= view.morph_from;
@@ -244,8 +241,7 @@ private:
     };
 
     // The splits of children and grandchildren lie far apart in memory.
-    void prefetch_below(const BisectionTriangle& triangle, Steps middle,
-                        SplitKind kind) const {
+    void prefetch_below(const BisectionTriangle& triangle, Steps middle, SplitKind kind) const {
         const SplitKind next = kind_below(kind);
         const auto prefetch = [&](Steps a, Steps b, SplitKind at) {
             bisection_.prefetch((a + b) / std::int64_t{2}, at.size, at.on_side);
@@ -274,14 +270,9 @@ private:
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {
-            return required_ != nullptr
-                       ? Choice{false, is_seen}
-                       : choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
+            return choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
         }
         const glm::ivec2 sample = sample_before(middle) - first_;
-        if (required_ != nullptr && (*required_)(sample.x, sample.y) != 0) {
-            return {true, is_seen};
-        }
         // The triangles on both sides need it.
         Choice& choice = at_samples_(sample.x, sample.y);
         if (!choice.is_made) {
@@ -312,7 +303,6 @@ private:
     const ErrorView& morphed_;
     ErrorView view_; // its max_error is the error where morphing begins
     bool morphs_;
-    const Grid<std::uint8_t>* required_;
     MorphedVertices morphed_vertices_;
     glm::ivec2 first_;        // sample of the tile
     bool is_whole_;           // the tile has tile_cells cells on each side
@@ -330,11 +320,6 @@ bool exceeds(const ErrorView& view, const Split& split) {
 std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
                                        const ErrorView& view) {
     return TileBisector(bisection, tile, view).bisect(tile);
-}
-
-Triangulation triangulate_samples(const Bisection& bisection, const Tile& tile,
-                                  const ErrorView& view, const Grid<std::uint8_t>& required) {
-    return TileBisector(bisection, tile, view, &required).bisect(tile).front();
 }
 
 } // namespace reljef::terrain

@@ -60,9 +60,4 @@ struct Triangulation {
 std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
                                        const ErrorView& view);
 
-/// The same with vertices at samples only, and with all splits where `required` is 1. `required`
-/// covers the tile's samples, see shared_splits().
-Triangulation triangulate_samples(const Bisection& bisection, const Tile& tile,
-                                  const ErrorView& view, const Grid<std::uint8_t>& required);
-
 } // namespace reljef::terrain

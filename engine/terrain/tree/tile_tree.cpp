@@ -17,16 +17,6 @@ TileTree::TileTree(int cols, int rows, bool wraps_longitude)
     }
 }
 
-int TileTree::other_end(int col) const {
-    const bool is_end = wraps_longitude_ && (col == 0 || col == last_.x);
-    return is_end ? last_.x - col : col;
-}
-
-int TileTree::tile_cols(int level) const {
-    const int size = tile_cells * step({level, 0, 0});
-    return (last_.x + size - 1) / size;
-}
-
 std::vector<TreeTile> TileTree::children(TreeTile tile) const {
     std::vector<TreeTile> found;
     if (tile.level == 0) {

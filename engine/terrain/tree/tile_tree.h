@@ -31,9 +31,6 @@ public:
 
     [[nodiscard]] int cols() const { return last_.x + 1; }
     [[nodiscard]] int rows() const { return last_.y + 1; }
-    /// The other column at the same place where the raster wraps; else the column itself.
-    [[nodiscard]] int other_end(int col) const;
-    [[nodiscard]] int tile_cols(int level) const;
     [[nodiscard]] bool wraps_longitude() const { return wraps_longitude_; }
     [[nodiscard]] TreeTile root() const { return {levels_ - 1, 0, 0}; }
     /// Up to four tiles of the level below; none at level 0.

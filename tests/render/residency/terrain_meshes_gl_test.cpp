@@ -299,7 +299,7 @@ TreeTile tile_beside_another(const view::TileSelection& choice) {
     return {};
 }
 
-TEST_F(TerrainMeshesGlTest, HeightsThatRecoverMoveTheBordersOfTheTilesBesideThem) {
+TEST_F(TerrainMeshesGlTest, HeightsThatRecoverReplaceTheTilesTriangles) {
     const auto look = [](StreamedWorld& world) {
         world.look({-300.0, -400.0, 180.0}, {100.0, 200.0, 0.0});
     };
