@@ -34,15 +34,10 @@ protected:
         return image ? std::move(*image) : Image();
     }
     HitBuffer hits(std::vector<std::string> more) {
-        std::vector<std::string> arguments{"render",
-                                           dem_,
-                                           "--size",
-                                           "160x120",
-                                           "--quiet",
-                                           "--pose",
-                                           "overview",
-                                           "--hit",
-                                           (folder_.path() / "a.exr").string()};
+        std::vector<std::string> arguments{
+            "render",   dem_,      "--size",
+            "160x120",  "--quiet", "--pose",
+            "overview", "--hit",   (folder_.path() / "a.exr").string()};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto result = test::reljef(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
