@@ -9,6 +9,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_info_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_height_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_index_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_techniques_command(CLI::App& program, cli::Interrupt& interrupt);
 

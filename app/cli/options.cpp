@@ -315,6 +315,12 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 
+void add_gaps_option(CLI::App& command, TerrainChoice& choice) {
+    add_parsed(command, "--gaps", choice.gaps,
+               word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
+               "areas between the files of a folder: holes, or sea at 0 m (holes)", "KIND");
+}
+
 void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     add_source_options(command, choice);
     command
@@ -338,9 +344,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                                                 {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
                "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains)",
                "KIND");
-    add_parsed(command, "--gaps", choice.gaps,
-               word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),
-               "areas between the files of a folder: holes, or sea at 0 m (holes)", "KIND");
+    add_gaps_option(command, choice);
     command
         .add_option(
             "--geoid", choice.geoid,

@@ -41,6 +41,7 @@ Result<glm::ivec2> parse_size(std::string_view text);
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 /// The terrain options that choose heights, without those that draw them.
 void add_source_options(CLI::App& command, TerrainChoice& choice);
+void add_gaps_option(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 void add_samples_option(CLI::App& command, ViewChoice& choice);
 /// The option or file that places the camera.

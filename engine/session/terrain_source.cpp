@@ -375,7 +375,8 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
     if (!tiles) {
         return tiles.error();
     }
-    return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area};
+    return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area,
+                        tile_options(choice, *description, stop)};
 }
 
 Result<void> report_errors(const std::string& terrain, std::size_t errors) {

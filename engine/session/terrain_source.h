@@ -57,6 +57,7 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Sourc
 struct HeightSource {
     io::TileSet tiles;
     std::optional<geo::GeodeticArea> area; ///< absent: all
+    io::TileTerrainOptions plan_options;   ///< for tiles.plan()
 };
 
 /// Indexes the files and reads no heights. Fails for generated terrains, and as open_terrain. Later

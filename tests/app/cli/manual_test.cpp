@@ -25,7 +25,8 @@ std::string text_of(const std::string& path) {
 
 TEST(Manual, HasAPageForTheProgramAndForEachVerb) {
     const std::string program = text_of("man/man1/reljef.1");
-    for (const std::string verb : {"view", "render", "info", "height", "maps", "techniques"}) {
+    for (const std::string verb :
+         {"view", "render", "info", "height", "index", "maps", "techniques"}) {
         EXPECT_THAT(program, HasSubstr("\\fBreljef\\-" + verb + "\\fR(1)"));
         EXPECT_THAT(text_of("man/man1/reljef-" + verb + ".1"), HasSubstr(".SH SYNOPSIS")) << verb;
     }
@@ -71,7 +72,7 @@ TEST(Manual, BashCompletesVerbsAndOptions) {
         return test::run_program("/bin/bash", {"-c", command}, {}).out;
     };
     EXPECT_EQ(complete("reljef re"), "render\n");
-    EXPECT_EQ(complete("reljef help i"), "info\n");
+    EXPECT_EQ(complete("reljef help inf"), "info\n");
     EXPECT_EQ(complete("reljef render --max"), "--max-error\n");
     EXPECT_EQ(complete("reljef info alps"), "\n") << "the shell completes files";
 }

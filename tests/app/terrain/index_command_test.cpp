@@ -1,0 +1,66 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/command_line.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+/// An ASCII grid in degrees that does not fit one megabyte.
+std::string write_dem(const test::TemporaryFolder& folder) {
+    constexpr int side = 300;
+    std::string text = "ncols 300\nnrows 300\nxllcorner 6\nyllcorner 45\ncellsize 0.001\n";
+    for (int i = 0; i < side * side; ++i) {
+        text += std::to_string((i * 37) % 101 + i / side) + (i % side == side - 1 ? "\n" : " ");
+    }
+    folder.write("dem.prj", "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+                            "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\","
+                            "0.0174532925199433]]");
+    return folder.write("dem.asc", text).string();
+}
+
+class IndexCommand : public testing::Test {
+protected:
+    [[nodiscard]] test::ProgramResult index(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "index");
+        test::ProgramOptions options;
+        options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        return test::reljef(arguments, options);
+    }
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(IndexCommand, StatesTilesBytesAndTheLargestErrorOfEachLevel) {
+    const std::string dem = write_dem(folder_);
+    const auto result = index({dem, "--memory", "1", "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto found = nlohmann::json::parse(result.out);
+    ASSERT_EQ(found["levels"].size(), 3U);
+    EXPECT_EQ(found["levels"][0]["tiles"], 9);
+    EXPECT_EQ(found["levels"][0]["max_error_m"], 0.0);
+    EXPECT_GT(found["levels"][1]["max_error_m"], 10.0);
+    EXPECT_EQ(found["levels"][2]["unproven"], 0);
+    EXPECT_TRUE(std::filesystem::exists(found["file"].get<std::string>()));
+    const auto text = index({dem, "--memory", "1"});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_NE(text.out.find("14 tiles, 0 unproven"), std::string::npos) << text.out;
+}
+
+TEST_F(IndexCommand, SaysWhichTerrainsNeedNone) {
+    EXPECT_EQ(index({write_dem(folder_)}).out, "dem.asc fits in --memory 512 and needs no index\n");
+    EXPECT_EQ(index({"natural"}).out, "natural is generated in memory and needs no index\n");
+}
+
+TEST_F(IndexCommand, RefusesStandardInputAndWhatIsNoFolder) {
+    test::expect_refusal(index({"-"}), 2, {"index: - found"});
+    const std::string dem = write_dem(folder_);
+    { const std::ofstream file(folder_.path() / "cache"); }
+    test::expect_refusal(index({dem, "--memory", "1"}), 1, {"cache"});
+}
+
+} // namespace
+} // namespace reljef
