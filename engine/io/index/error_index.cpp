@@ -99,7 +99,8 @@ void copy_into(const Grid<float>& grid, std::span<float> floats, int stride) {
 Grid<float> grid_from(std::span<const float> floats, glm::ivec2 size, int stride) {
     Grid<float> grid(size.x, size.y);
     for (int row = 0; row < size.y; ++row) {
-        const auto from = floats.subspan(static_cast<std::size_t>(row * stride));
+        const auto from =
+            floats.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
         std::copy_n(from.begin(), size.x, grid.row(row).begin());
     }
     return grid;
@@ -237,7 +238,7 @@ std::uint64_t ErrorIndex::heights_at(TreeTile tile) const {
 }
 
 std::uint64_t ErrorIndex::residuals_at(Chunk chunk) const {
-    return places_[static_cast<std::size_t>(chunk.base + levels_per_chunk)].residuals +
+    return places_[static_cast<std::size_t>(chunk.base) + levels_per_chunk].residuals +
            index_in(level_chunks(tree_, chunk.base), chunk.col, chunk.row) *
                bytes_of_block(floats_of_residuals);
 }

@@ -225,6 +225,32 @@ Error changed_meanwhile(const IndexSource& source) {
                         source.tiles.name())};
 }
 
+/// Proves what is missing; returns the errors of files.
+Result<std::vector<FileError>> add_missing(const IndexSource& source,
+                                           const ParallelOptions& options, ErrorIndex& index) {
+    const bool is_damaged = index.is_complete();
+    if (auto cleared = is_damaged ? index.clear() : Result<void>(); !cleared) {
+        return cleared.error();
+    }
+    IndexPass pass(source, index, options);
+    const auto done = pass.run();
+    if (options.stop.stop_requested() && !done) {
+        return done.error();
+    }
+    const auto now = source.tiles.fingerprint();
+    if (!now || *now != source.fingerprint) {
+        index.remove();
+        return changed_meanwhile(source);
+    }
+    if (!done) {
+        return done.error();
+    }
+    if (auto completed = is_whole(index.levels()) ? index.complete() : Result<void>(); !completed) {
+        return completed.error();
+    }
+    return pass.take_errors();
+}
+
 } // namespace
 
 Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options) {
@@ -235,28 +261,12 @@ Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions&
     IndexReport report;
     report.levels = index->levels();
     if (!index->is_complete() || !is_whole(report.levels)) {
-        if (index->is_complete()) { // damaged
-            if (auto cleared = index->clear(); !cleared) {
-                return cleared.error();
-            }
+        auto errors = add_missing(source, options, *index);
+        if (!errors) {
+            return errors.error();
         }
-        IndexPass pass(source, *index, options);
-        const auto done = pass.run();
-        const auto now = source.tiles.fingerprint();
-        if (!options.stop.stop_requested() && (!now || *now != source.fingerprint)) {
-            index->remove();
-            return changed_meanwhile(source);
-        }
-        if (!done) {
-            return done.error();
-        }
-        report.errors = pass.take_errors();
+        report.errors = std::move(*errors);
         report.levels = index->levels();
-        if (is_whole(report.levels)) {
-            if (auto completed = index->complete(); !completed) {
-                return completed.error();
-            }
-        }
     }
     report.bytes_of_proofs = index->bytes_of_proofs();
     report.bytes_of_heights = index->bytes_of_heights();

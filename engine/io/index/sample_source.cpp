@@ -41,11 +41,13 @@ void SampleWindow::copy_row(int row, std::span<float> heights) const {
     const int inside = std::clamp(row - before_.y, 0, size_.y - 1);
     const auto begin = static_cast<std::size_t>(before_.x);
     const auto count = static_cast<std::size_t>(size_.x);
-    if (height_of_code_ != nullptr) {
-        const std::uint16_t* const codes = codes_.data() + static_cast<std::size_t>(inside) * count;
+    if (height_of_code_ !=
+        nullptr) { // plain pointers: checks of bounds would take half of the time
+        const std::uint16_t* const codes = codes_.get() + static_cast<std::size_t>(inside) * count;
         const float* const table = height_of_code_->data();
+        float* const into = heights.data() + begin;
         for (std::size_t i = 0; i < count; ++i) {
-            heights[begin + i] = table[codes[i]];
+            into[i] = table[codes[i]];
         }
     } else {
         const auto from = heights_.row(inside);
@@ -107,22 +109,23 @@ bool SampleSource::read_direct(glm::ivec2 first, SampleWindow& window,
     }
     const std::size_t count =
         static_cast<std::size_t>(window.size_.x) * static_cast<std::size_t>(window.size_.y);
-    window.codes_.resize(count);
+    window.codes_ = std::make_unique_for_overwrite<std::uint16_t[]>(count);
     {
         const std::lock_guard lock(mutex_);
         const ReadScope scope(stop);
         const GdalMessages messages;
         const bool read = read_window(*direct_->dataset->GetRasterBand(1),
                                       {direct_->first_pixel + first, window.size_,
-                                       window.codes_.data(), window.size_, direct_->type});
+                                       window.codes_.get(), window.size_, direct_->type});
         if (!read || messages.errors() > 0 || messages.has_lost_blocks()) {
             return false; // the other way tells why
         }
     }
     for (const std::uint16_t code : direct_->contextual_codes) {
         int found = 0;
+        const std::uint16_t* const codes = window.codes_.get();
         for (std::size_t i = 0; i < count; ++i) {
-            found |= window.codes_[i] == code ? 1 : 0;
+            found |= codes[i] == code ? 1 : 0;
         }
         if (found != 0) {
             return false;
@@ -146,7 +149,7 @@ SampleWindow SampleSource::read(glm::ivec2 first, glm::ivec2 size,
         TileWindow read = source_.tiles.read(part, source_.gaps, stop);
         window.heights_ = std::move(read.heights);
         window.errors_ = std::move(read.errors);
-        window.codes_ = {};
+        window.codes_.reset();
     }
     return window;
 }

@@ -26,7 +26,7 @@ private:
     glm::ivec2 before_{0}; // columns and rows outside the raster at its start
     glm::ivec2 size_{0};   // inside
     Grid<double> heights_;
-    std::vector<std::uint16_t> codes_; // stored values, if read as they are
+    std::unique_ptr<std::uint16_t[]> codes_; // stored values, if read as they are
     std::shared_ptr<const std::vector<float>> height_of_code_;
     std::vector<FileError> errors_;
 };

@@ -86,9 +86,29 @@ LevelState empty_level(const TileTree& tree, int level) {
             Grid<TileProof>(tiles.x, tiles.y)};
 }
 
-Proven prove_all(const TileTree& tree, const Grid<float>& samples) {
-    Proven proven;
-    std::vector<LevelState> levels{{samples, {}, {}}};
+/// Puts what is proven of a chunk into the levels above its base.
+void store(const ChunkProof& proof, Chunk chunk, std::vector<LevelState>& levels) {
+    const glm::ivec2 first = first_vertex(chunk);
+    const auto base = static_cast<std::size_t>(chunk.base);
+    if (chunk.base == 0) {
+        put(proof.base, first / tile_cells, levels[base].tiles);
+    }
+    for (std::size_t i = 0; i < proof.levels.size(); ++i) {
+        const ChunkLevel& made = proof.levels.at(i);
+        LevelState& level = levels[base + i + 1];
+        const glm::ivec2 corner = first / (2 << i);
+        put(part_of(made.heights, glm::ivec2(made.border),
+                    {made.residuals.low.cols() + 1, made.residuals.low.rows() + 1}, no_height),
+            corner, level.heights);
+        put(made.residuals.low, corner, level.residuals.low);
+        put(made.residuals.high, corner, level.residuals.high);
+        put(made.tiles, corner / tile_cells, level.tiles);
+    }
+}
+
+std::vector<LevelState> proven_levels(const TileTree& tree, const Grid<float>& samples) {
+    std::vector<LevelState> levels{empty_level(tree, 0)};
+    levels[0].heights = samples;
     for (int base = 0; base <= tree.root().level; base += levels_per_chunk) {
         for (int i = 1; i <= levels_per_chunk; ++i) {
             levels.push_back(empty_level(tree, base + i));
@@ -96,35 +116,23 @@ Proven prove_all(const TileTree& tree, const Grid<float>& samples) {
         const glm::ivec2 chunks = level_chunks(tree, base);
         for (int n = 0; n < chunks.x * chunks.y; ++n) {
             const Chunk chunk{base, n % chunks.x, n / chunks.x};
-            const ChunkProof proof = prove(tree, chunk, levels[static_cast<std::size_t>(base)]);
-            const glm::ivec2 first = first_vertex(chunk);
-            for (int row = 0; row < proof.base.rows(); ++row) {
-                for (int col = 0; col < proof.base.cols(); ++col) {
-                    proven.tiles[{0, first.x / tile_cells + col, first.y / tile_cells + row}] =
-                        proof.base(col, row);
-                }
-            }
-            for (int i = 0; i < levels_per_chunk; ++i) {
-                const ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
-                LevelState& level = levels[static_cast<std::size_t>(base + i + 1)];
-                const glm::ivec2 corner = first / (2 << i);
-                const Grid<float> inner = part_of(
-                    Grid<float>(made.heights), glm::ivec2(made.border),
-                    {made.residuals.low.cols() + 1, made.residuals.low.rows() + 1}, no_height);
-                put(inner, corner, level.heights);
-                put(made.residuals.low, corner, level.residuals.low);
-                put(made.residuals.high, corner, level.residuals.high);
-                put(made.tiles, corner / tile_cells, level.tiles);
-            }
+            store(prove(tree, chunk, levels[static_cast<std::size_t>(base)]), chunk, levels);
         }
     }
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-        proven.heights.push_back(levels[level].heights);
-        for (int row = 0; level > 0 && row < levels[level].tiles.rows(); ++row) {
-            for (int col = 0; col < levels[level].tiles.cols(); ++col) {
-                proven.tiles[{static_cast<int>(level), col, row}] = levels[level].tiles(col, row);
+    return levels;
+}
+
+Proven prove_all(const TileTree& tree, const Grid<float>& samples) {
+    Proven proven;
+    int number = 0;
+    for (LevelState& level : proven_levels(tree, samples)) {
+        for (int row = 0; row < level.tiles.rows(); ++row) {
+            for (int col = 0; col < level.tiles.cols(); ++col) {
+                proven.tiles[{number, col, row}] = level.tiles(col, row);
             }
         }
+        proven.heights.push_back(std::move(level.heights));
+        ++number;
     }
     return proven;
 }
