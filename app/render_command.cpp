@@ -42,7 +42,7 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
                                                               session::Log& log) {
     using Maker = std::unique_ptr<session::FrameMaker>;
     if (choice.truth) {
-        return Maker(new session::TruthFrames(choice.view.size, choice.rays));
+        return Maker(new session::TruthFrames(choice.view.size, choice.rays, log));
     }
     auto device =
         session::Device::create({.context = choice.view.context,
@@ -347,7 +347,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     const auto inputs = inputs_of(choice, *description);
     cli::check_distinct(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
-    terrain.streamed = !choice.truth;
+    terrain.streamed = true;
     session::SceneOptions view = choice.view;
     view.prepares_maps = !choice.truth;
     const bool has_camera_of_file =

@@ -56,15 +56,10 @@ void add_rows(StressRun& run, const ErrorBoundRow& row) {
 struct StreamedGround {
     std::string name;
     fs::path path;
-    SampleHeights heights;
 };
 
 Result<StreamedGround> write_smooth(const StressRun& run, const fs::path& folder) {
-    StreamedGround ground{"waves", folder / "waves.tif", {}};
-    ground.heights = {streamed_side, [](glm::ivec2 sample) {
-                          return static_cast<double>(
-                              static_cast<float>(scaling_height(sample, streamed_side)));
-                      }};
+    StreamedGround ground{"waves", folder / "waves.tif"};
     auto done = write_scaling_terrain(ground.path, streamed_side, run.options().suite, run.stop());
     return done ? Result<StreamedGround>(std::move(ground)) : done.error();
 }
@@ -78,7 +73,7 @@ Result<StreamedGround> write_blocky(const StressRun& run, const fs::path& folder
     const auto height_at = [samples](glm::ivec2 sample) {
         return (*samples)(sample.x / block, sample.y / block);
     };
-    StreamedGround ground{"city in blocks", folder / "city.tif", {streamed_side, height_at}};
+    StreamedGround ground{"city in blocks", folder / "city.tif"};
     const io::HeightRaster raster{streamed_side, streamed_side, 0.2, {400'000.0, 5e6}};
     const auto fill = [&](int first_row, GridView<float> heights) {
         for (int row = 0; row < heights.rows(); ++row) {
@@ -155,7 +150,11 @@ Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
         if (!hits) {
             return hits.error();
         }
-        for (const double error : streamed_errors(terrain, ground.heights, camera, *hits, 1)) {
+        const auto errors = streamed_errors(scene->scene, *hits, 1, run.parallel());
+        if (!errors) {
+            return errors.error();
+        }
+        for (const double error : *errors) {
             over += error <= stressed_bound ? 0 : 1;
             worst.add(error, fmt::format("eye {:.2f},{:.2f},{:.2f}", camera.eye.x, camera.eye.y,
                                          camera.eye.z));

@@ -178,12 +178,11 @@ private:
         if (!hits) {
             return hits.error();
         }
-        const SampleHeights exact{row.side, [side = row.side](glm::ivec2 sample) {
-                                      return scaling_height(sample, side);
-                                  }};
-        const std::vector<double> errors =
-            streamed_errors(*view.scene.terrain->get<scene::TerrainNode>(), exact,
-                            view.scene.scene.camera(), *hits, checked_step);
+        const auto found = streamed_errors(view.scene.scene, *hits, checked_step, {.stop = stop_});
+        if (!found) {
+            return stop_.stop_requested() ? Result<void>() : found.error();
+        }
+        const std::vector<double>& errors = *found;
         row.pixels = errors.size();
         if (!errors.empty()) {
             row.worst_px = *std::max_element(errors.begin(), errors.end());

@@ -23,20 +23,18 @@ struct Surround {
     Grid<glm::dvec3> places;  // local metres
 };
 
-// Fills voids with the overview's heights, the same for every tile and level.
-Surround surround_of(const TileBuilder& builder, terrain::TreeTile tile, Grid<float> heights) {
+// `heights`: from the vertex before `first` on.
+Surround surround_of(const TileBuilder& builder, terrain::TreeTile tile, glm::ivec2 first,
+                     Grid<float> heights) {
     const glm::ivec2 size(heights.cols(), heights.rows());
     Surround around{std::move(heights), Grid<std::uint8_t>(size.x, size.y),
                     Grid<glm::dvec3>(size.x, size.y)};
-    const auto overview = builder.overview().heightfield().heights.view();
     for (int row = 0; row < size.y; ++row) {
         for (int col = 0; col < size.x; ++col) {
-            const glm::ivec2 vertex(col - 1, row - 1);
+            const glm::ivec2 vertex = first + glm::ivec2(col - 1, row - 1);
             float& height = around.heights(col, row);
             if (!std::isfinite(height)) {
-                height = static_cast<float>(terrain::bilinear_height(
-                    overview,
-                    builder.around_overview(builder.on_overview(builder.sample(tile, vertex)))));
+                height = builder.void_height(builder.sample(tile, vertex));
                 around.voids(col, row) = 1;
             }
             around.places(col, row) = builder.place(tile, vertex, height);
@@ -191,6 +189,14 @@ bool TileBuilder::has_all_samples(terrain::TreeTile tile) const {
     return terrain::TileTree::step(tile) <= imagery_.refinement;
 }
 
+terrain::TreeTile TileBuilder::tile_at(int level, glm::dvec2 sample) const {
+    const glm::dvec2 last(tree_.cols() - 1, tree_.rows() - 1);
+    const int side = terrain::tile_cells << level;
+    const glm::ivec2 at =
+        glm::ivec2(glm::clamp(tree_sample(sample), glm::dvec2(0.0), last - 0.5)) / side;
+    return {level, at.x, at.y};
+}
+
 int TileBuilder::texels_per_cell(int level) const {
     if (imagery_.finest_pixel <= 0.0) {
         return 1;
@@ -284,20 +290,50 @@ Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
     return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
 }
 
-Image TileBuilder::vertex_colors(const TerrainTile& tile, const Grid<float>& around,
-                                 const Grid<std::uint8_t>& voids, bool with_overview) const {
+float TileBuilder::void_height(glm::dvec2 sample) const {
+    return static_cast<float>(terrain::bilinear_height(overview_->heightfield().heights.view(),
+                                                       around_overview(on_overview(sample))));
+}
+
+Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
+                                 const Grid<float>& around, const Grid<std::uint8_t>& voids,
+                                 bool with_overview) const {
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
             const float height = tile.heightfield.heights(col, row);
-            colors(col, row) = voids(col + 1, row + 1) != 0       ? terrain::HeightTint::no_data
-                               : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::water
-                               : with_overview
-                                   ? color_at(on_overview(sample(tile.id, {col, row})), height)
-                                   : tint_.at(height);
+            colors(col, row) =
+                voids(col + 1, row + 1) != 0       ? terrain::HeightTint::no_data
+                : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::water
+                : with_overview
+                    ? color_at(on_overview(sample(tile.id, first + glm::ivec2(col, row))), height)
+                    : tint_.at(height);
         }
     }
     return colors;
+}
+
+TerrainTile TileBuilder::make_part(terrain::TreeTile tile, glm::ivec2 first, Grid<float> heights,
+                                   bool with_overview) const {
+    TerrainTile made;
+    made.id = tile;
+    made.cells = {heights.cols() - 3, heights.rows() - 3};
+    const Surround around = surround_of(*this, tile, first, std::move(heights));
+    set_places(around, overview_->placement(), made);
+    made.up = glm::vec3(overview_->placement().up(made.bounds.center()));
+    made.albedo = vertex_colors(made, first, around.heights, around.voids, with_overview);
+    return made;
+}
+
+TerrainTile TileBuilder::make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
+                                   GridView<const float> heights) const {
+    Grid<float> around(4, 4);
+    for (int row = 0; row < around.rows(); ++row) {
+        for (int col = 0; col < around.cols(); ++col) {
+            around(col, row) = heights(vertex.x + col, vertex.y + row);
+        }
+    }
+    return make_part(tile, vertex, std::move(around), true);
 }
 
 TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
@@ -305,11 +341,8 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
-    const Surround around = surround_of(*this, tile, std::move(heights));
-    TerrainTile made;
-    made.id = tile;
-    made.cells = cells;
-    set_places(around, overview_->placement(), made);
+    const bool with_overview = picture.texels.empty() || !picture.whole;
+    TerrainTile made = make_part(tile, {0, 0}, std::move(heights), with_overview);
     const Grid<float>& placed = made.heightfield.heights;
     made.range = terrain::height_range(placed, {});
     made.heightfield.range = made.range;
@@ -317,9 +350,6 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
     made.placement = placement(tile);
     made.blocks = blocks_of(placed);
     made.error = overview_->placement().exaggeration() * error_of(placed);
-    made.up = glm::vec3(overview_->placement().up(made.bounds.center()));
-    const bool with_overview = picture.texels.empty() || !picture.whole;
-    made.albedo = vertex_colors(made, around.heights, around.voids, with_overview);
     made.coarse_texel = picture.has_more ? texel(tile.level) : 0.0;
     if (shows_something(picture.texels)) {
         const glm::ivec2 size = picture_size(tile);

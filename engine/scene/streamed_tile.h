@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <memory>
 
@@ -52,6 +53,7 @@ public:
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
+    [[nodiscard]] int reduction() const { return reduction_; }
     /// Samples of the terrain between vertices.
     [[nodiscard]] double step(terrain::TreeTile tile) const;
     /// The first sample of a tile, and the sample of a vertex, in the terrain.
@@ -75,6 +77,12 @@ public:
     [[nodiscard]] const geo::WrappedRows& rows() const { return reduction_.rows; }
     /// Whether a tile has all samples of the terrain. Finer tiles only have finer images.
     [[nodiscard]] bool has_all_samples(terrain::TreeTile tile) const;
+    /// The level whose vertices are the samples of the terrain.
+    [[nodiscard]] int level_of_samples() const {
+        return std::countr_zero(static_cast<unsigned>(imagery_.refinement));
+    }
+    /// The tile of a level at a sample of the terrain, clamped to the terrain.
+    [[nodiscard]] terrain::TreeTile tile_at(int level, glm::dvec2 sample) const;
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
     [[nodiscard]] double texel(int level) const;      ///< metres between texels
     [[nodiscard]] double spacing(int level) const;    ///< metres between vertices
@@ -89,14 +97,23 @@ public:
     /// Precondition: the picture is empty or has picture_size.
     [[nodiscard]] TerrainTile make(terrain::TreeTile tile, Grid<float> heights,
                                    const TilePicture& picture = {}) const;
+    /// The four vertices from `vertex` on, without imagery of the tile. `heights`: as for make().
+    [[nodiscard]] TerrainTile make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
+                                        GridView<const float> heights) const;
+    /// The overview's height at a sample of the terrain, which fills a void; the same for every
+    /// tile and level.
+    [[nodiscard]] float void_height(glm::dvec2 sample) const;
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
     /// A vertex at another height, local metres.
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;
 
 private:
     [[nodiscard]] Rgba8 color_at(glm::dvec2 overview_sample, float height) const;
-    [[nodiscard]] Image vertex_colors(const TerrainTile& tile, const Grid<float>& around,
-                                      const Grid<std::uint8_t>& voids, bool with_overview) const;
+    [[nodiscard]] TerrainTile make_part(terrain::TreeTile tile, glm::ivec2 first,
+                                        Grid<float> heights, bool with_overview) const;
+    [[nodiscard]] Image vertex_colors(const TerrainTile& tile, glm::ivec2 first,
+                                      const Grid<float>& around, const Grid<std::uint8_t>& voids,
+                                      bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;

@@ -45,6 +45,8 @@ struct TileStreamOptions {
     /// Bytes for loaded and drawn tiles; summaries of evicted tiles take a 64th of it more.
     std::size_t memory_budget = std::size_t{256} << 20;
     unsigned threads = 0; ///< 0: as many as the machine has
+    /// As the stream's reader, without pictures; empty: that reader.
+    TileContentReader read_heights = {};
     /// Pause after the first failure of a file; each further pause is four times as long.
     std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };
@@ -71,6 +73,12 @@ public:
 
     [[nodiscard]] const TileBuilder& maker() const { return maker_; }
     [[nodiscard]] const terrain::TileTree& tree() const { return maker_.tree(); }
+    [[nodiscard]] const TileStreamOptions& options() const { return options_; }
+    /// The readers of tiles, which keep none of them.
+    [[nodiscard]] const TileContentReader& reader() const { return read_; }
+    [[nodiscard]] const TileContentReader& height_reader() const {
+        return options_.read_heights ? options_.read_heights : read_;
+    }
 
     /// A loaded tile; null if it is not in memory.
     [[nodiscard]] std::shared_ptr<const TerrainTile> find(terrain::TreeTile tile) const;

@@ -1,5 +1,6 @@
 #include "engine/session/frame_maker.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -141,8 +142,20 @@ std::string DeviceFrames::stats() const {
                stats_.gpu_ms);
 }
 
+void TruthFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) {
+    wait_for_ground_below_eye(scene, stop);
+}
+
 Result<void> TruthFrames::prepare(const scene::Scene& scene) {
-    if (caster_) {
+    if (caster_ || streamed_) {
+        return {};
+    }
+    if (!stream_stats(scene).empty()) {
+        auto streamed = truth::StreamedTruth::create(scene);
+        if (!streamed) {
+            return streamed.error();
+        }
+        streamed_.emplace(std::move(*streamed));
         return {};
     }
     auto caster = truth::SceneCaster::create(scene);
@@ -153,19 +166,28 @@ Result<void> TruthFrames::prepare(const scene::Scene& scene) {
     return {};
 }
 
+void TruthFrames::log_notes() {
+    for (const std::string& note :
+         streamed_ ? streamed_->take_notes() : std::vector<std::string>()) {
+        log_.note(note);
+    }
+}
+
 Result<Image> TruthFrames::draw(const scene::Scene& scene, const ParallelOptions& parallel) {
     const Stopwatch preparing;
     if (auto prepared = prepare(scene); !prepared) {
         return prepared.error();
     }
-    if (!shading_) {
+    if (!shading_ && !streamed_) {
         shading_.emplace(scene, *caster_);
-        prepare_ms_ = preparing.milliseconds();
     }
+    prepare_ms_ = std::max(prepare_ms_, preparing.milliseconds());
     const Stopwatch drawing;
-    auto picture = truth::draw(*caster_, *shading_, scene.camera(), size_,
-                               {.rays_per_side = rays_per_side_, .parallel = parallel});
+    const truth::DrawOptions options{.rays_per_side = rays_per_side_, .parallel = parallel};
+    auto picture = streamed_ ? streamed_->draw(scene.camera(), size_, options)
+                             : truth::draw(*caster_, *shading_, scene.camera(), size_, options);
     draw_ms_ = drawing.milliseconds();
+    log_notes();
     return picture ? Result<Image>(std::move(picture->image)) : picture.error();
 }
 
@@ -174,15 +196,27 @@ Result<HitBuffer> TruthFrames::draw_hits(const scene::Scene& scene,
     if (auto prepared = prepare(scene); !prepared) {
         return prepared.error();
     }
-    return truth::draw_hits(*caster_, scene.camera(), size_, parallel);
+    auto hits = streamed_ ? streamed_->draw_hits(scene.camera(), size_, parallel)
+                          : truth::draw_hits(*caster_, scene.camera(), size_, parallel);
+    log_notes();
+    return hits;
 }
 
 std::string TruthFrames::stats() const {
+    std::string tiles;
+    if (streamed_) {
+        const truth::StreamedSurfaceStats& stats = streamed_->stats();
+        tiles = fmt::format("streamed: {} tiles read, {} of them again; at most {:.1f} MB kept\n",
+                            stats.loaded, stats.reloaded,
+                            static_cast<double>(stats.max_bytes) / megabyte);
+    }
     return fmt::format("renderer: exact rays on the CPU\n"
                        "rays: {} a frame\n"
-                       "once: {:.2f} ms, frame: {:.2f} ms\n",
+                       "{}once: {:.2f} ms, frame: {:.2f} ms\n"
+                       "memory: {:.1f} MB of the process at most\n",
                        static_cast<long long>(size_.x) * size_.y * rays_per_side_ * rays_per_side_,
-                       prepare_ms_, draw_ms_);
+                       tiles, prepare_ms_, draw_ms_,
+                       static_cast<double>(process_memory().peak) / megabyte);
 }
 
 HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene) {

@@ -16,6 +16,7 @@
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "engine/truth/draw.h"
+#include "engine/truth/streamed_truth.h"
 
 namespace reljef::session {
 
@@ -69,8 +70,11 @@ private:
 /// Draws with exact rays on the CPU.
 class TruthFrames : public FrameMaker {
 public:
-    TruthFrames(glm::ivec2 size, int rays_per_side) : size_(size), rays_per_side_(rays_per_side) {}
-    void wait_for_tiles(const scene::Scene& /*scene*/, const std::stop_token& /*stop*/) override {}
+    /// `log` receives the notes of streamed files and outlives this object.
+    TruthFrames(glm::ivec2 size, int rays_per_side, Log& log)
+        : size_(size), rays_per_side_(rays_per_side), log_(log) {}
+    /// Only for the ground below the eye; rays wait for the others.
+    void wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) override;
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
@@ -78,11 +82,14 @@ public:
 
 private:
     Result<void> prepare(const scene::Scene& scene);
+    void log_notes();
 
     glm::ivec2 size_;
     int rays_per_side_;
-    std::optional<truth::SceneCaster> caster_; // made for the first frame
-    std::optional<truth::Shading> shading_;    // made for the first picture
+    Log& log_;
+    std::optional<truth::StreamedTruth> streamed_; // made for the first frame of a streamed terrain
+    std::optional<truth::SceneCaster> caster_;     // made for the first frame
+    std::optional<truth::Shading> shading_;        // made for the first picture
     double prepare_ms_ = 0.0;
     double draw_ms_ = 0.0;
 };

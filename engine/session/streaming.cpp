@@ -13,6 +13,8 @@
 #include <malloc.h>
 #endif
 
+#include <glm/matrix.hpp>
+
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tree_tile.h"
 
@@ -154,21 +156,23 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
     scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                              ground.wrap);
-    const auto read = [tiles = *source.tiles, images = source.imagery, ground, maker,
-                       reduction = source.stream->plan.reduction,
-                       step_of_overview = source.stream->step_of_overview,
-                       gaps = source.stream->gaps](terrain::TreeTile tile,
-                                                   const std::stop_token& stop) {
-        scene::TileContent content =
-            step_of_overview > 0 && maker.step(tile) >= step_of_overview
-                ? overview_content(maker, tile)
-                : content_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
-        content.notes = tiles.take_new_notes();
-        if (stop.stop_requested()) {
-            return content;
-        }
-        content = content_or_overview(maker, reduction, tile, std::move(content));
-        if (images && content.errors.empty()) {
+    const auto read_heights =
+        [tiles = *source.tiles, ground, maker, reduction = source.stream->plan.reduction,
+         step_of_overview = source.stream->step_of_overview,
+         gaps = source.stream->gaps](terrain::TreeTile tile, const std::stop_token& stop) {
+            scene::TileContent content =
+                step_of_overview > 0 && maker.step(tile) >= step_of_overview
+                    ? overview_content(maker, tile)
+                    : content_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
+            content.notes = tiles.take_new_notes();
+            return stop.stop_requested()
+                       ? content
+                       : content_or_overview(maker, reduction, tile, std::move(content));
+        };
+    const auto read = [read_heights, images = source.imagery, ground,
+                       maker](terrain::TreeTile tile, const std::stop_token& stop) {
+        scene::TileContent content = read_heights(tile, stop);
+        if (images && content.errors.empty() && !stop.stop_requested()) {
             add_picture(*images, ground.grid, maker, tile, stop, content);
         }
         return content;
@@ -176,6 +180,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
     options.threads = source.stream->threads;
+    options.read_heights = read_heights;
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
@@ -216,6 +221,25 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
             wait_and_log(*request.stream, log, stop);
         }
     }
+}
+
+void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token& stop) {
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain == nullptr || terrain->stream == nullptr) {
+            return;
+        }
+        const glm::dvec3 eye(glm::inverse(matrix) * glm::dvec4(scene.camera().eye, 1.0));
+        const auto sample = terrain->surface->placement().sample_from_world(eye);
+        if (sample) {
+            scene::TileStream& stream = *terrain->stream;
+            const scene::TileBuilder& builder = stream.maker();
+            const std::array below{builder.tile_at(builder.level_of_samples(),
+                                                   builder.from_overview(glm::dvec2(*sample)))};
+            stream.request(below);
+            stream.wait(stop);
+        }
+    });
 }
 
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,

@@ -28,6 +28,10 @@ void request_tiles(std::span<const view::TileRequests> requests);
 void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelector& selector,
                     Log& log, const std::stop_token& stop);
 
+/// Loads the full-resolution tiles below the camera's eye, until they are in memory or have failed
+/// for good, or `stop` is requested.
+void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token& stop);
+
 /// Extrapolates a camera that moved from `before` to `now` in `seconds` by `ahead` more seconds.
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
                            double ahead);

@@ -1,54 +1,18 @@
 #include "engine/truth/draw.h"
 
-#include <limits>
-
-#include <glm/geometric.hpp>
+#include "engine/truth/eye.h"
 
 namespace reljef::truth {
 namespace {
 
-// The rays of one picture. Their t is the depth along the view axis.
-class Eye {
-public:
-    Eye(const SceneCaster& caster, const scene::Camera& camera, glm::ivec2 size)
-        : caster_(caster), camera_(scene::with_fitted_depth(camera, caster.bounds())), size_(size),
-          range_(is_perspective() ? Interval{camera_.near, std::numeric_limits<double>::infinity()}
-                                  : Interval{camera_.orthographic_near, camera_.orthographic_far}) {
-    }
+glm::vec3 color_of(const Eye& eye, const Ray& ray, const std::optional<SceneHit>& hit,
+                   const Shading& shading) {
+    return hit ? shading.at(*hit, eye.distance(ray, hit->surface.t))
+               : shading.background(ray.direction);
+}
 
-    [[nodiscard]] Ray ray(glm::dvec2 pixel) const { return scene::view_ray(camera_, size_, pixel); }
-
-    [[nodiscard]] std::optional<SceneHit> first_hit(const Ray& ray) const {
-        return caster_.first_hit(ray, range_);
-    }
-
-    [[nodiscard]] glm::vec3 color(const Ray& ray, const std::optional<SceneHit>& hit,
-                                  const Shading& shading) const {
-        if (!hit) {
-            return shading.background(ray.direction);
-        }
-        // A map has no viewing distance, hence no air.
-        return is_perspective() ? shading.at(*hit, hit->surface.t * glm::length(ray.direction))
-                                : shading.at(*hit);
-    }
-
-private:
-    [[nodiscard]] bool is_perspective() const {
-        return camera_.projection == scene::ProjectionKind::perspective;
-    }
-
-    const SceneCaster& caster_;
-    scene::Camera camera_;
-    glm::ivec2 size_;
-    Interval range_;
-};
-
-Hit shown(const std::optional<SceneHit>& hit) {
-    if (!hit) {
-        return {};
-    }
-    const glm::dvec3 sample = hit->surface.sample;
-    return hit_at(glm::dvec2(sample), sample.z, hit->surface.t);
+Hit shown_hit(const std::optional<SceneHit>& hit) {
+    return as_shown(hit ? std::optional(hit->surface) : std::nullopt);
 }
 
 } // namespace
@@ -65,18 +29,18 @@ Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const sc
                      glm::ivec2 size, const DrawOptions& options) {
     check(options.rays_per_side >= 1, "at least one ray a pixel was expected");
     Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
-    const Eye eye(caster, camera, size);
+    const Eye eye(camera, size, caster.bounds());
     const auto color_at = [&](glm::dvec2 place) {
         const Ray ray = eye.ray(place);
-        return eye.color(ray, eye.first_hit(ray), shading);
+        return color_of(eye, ray, caster.first_hit(ray, eye.range()), shading);
     };
     const auto done = for_each_pixel(size, options.parallel, [&](glm::ivec2 pixel) {
         const Ray ray = eye.ray(glm::dvec2(pixel) + 0.5);
-        const auto hit = eye.first_hit(ray);
+        const auto hit = caster.first_hit(ray, eye.range());
         const glm::vec3 color = options.rays_per_side == 1
-                                    ? eye.color(ray, hit, shading)
+                                    ? color_of(eye, ray, hit, shading)
                                     : mean_color(pixel, options.rays_per_side, color_at);
-        picture.hits(pixel.x, pixel.y) = shown(hit);
+        picture.hits(pixel.x, pixel.y) = shown_hit(hit);
         picture.image(pixel.x, pixel.y) = rgba8_from_linear(color);
     });
     return done ? Result<Picture>(std::move(picture)) : done.error();
@@ -94,9 +58,10 @@ Result<HitBuffer> draw_hits(const scene::Scene& scene, glm::ivec2 size,
 Result<HitBuffer> draw_hits(const SceneCaster& caster, const scene::Camera& camera, glm::ivec2 size,
                             const ParallelOptions& parallel) {
     HitBuffer hits(size.x, size.y);
-    const Eye eye(caster, camera, size);
+    const Eye eye(camera, size, caster.bounds());
     const auto done = for_each_pixel(size, parallel, [&](glm::ivec2 pixel) {
-        hits(pixel.x, pixel.y) = shown(eye.first_hit(eye.ray(glm::dvec2(pixel) + 0.5)));
+        hits(pixel.x, pixel.y) =
+            shown_hit(caster.first_hit(eye.ray(glm::dvec2(pixel) + 0.5), eye.range()));
     });
     return done ? Result<HitBuffer>(std::move(hits)) : done.error();
 }
@@ -119,8 +84,7 @@ glm::vec3 mean_color(glm::ivec2 pixel, int n,
                      const std::function<glm::vec3(glm::dvec2 place)>& color_at) {
     glm::vec3 sum(0.0F);
     for (int i = 0; i < n * n; ++i) {
-        const glm::dvec2 part = (glm::dvec2(i % n, i / n) + 0.5) / static_cast<double>(n);
-        sum += color_at(glm::dvec2(pixel) + part);
+        sum += color_at(place_in_pixel(pixel, n, i));
     }
     return sum / static_cast<float>(n * n);
 }

@@ -129,8 +129,13 @@ double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 p
     const double height = terrain::bilinear_height(view.heights, texel);
     const glm::dvec3 local = view.placement.world_from_sample({texel, height});
     const glm::dvec3 world(view.world_from_local * glm::dvec4(local, 1.0));
-    const scene::Projected projected = scene::project(view.camera, size, world);
-    if (!is_before_eye(view.camera, projected.depth)) {
+    return distance_to_pixel(view.camera, size, pixel, world);
+}
+
+double distance_to_pixel(const scene::Camera& camera, glm::ivec2 size, glm::ivec2 pixel,
+                         glm::dvec3 world) {
+    const scene::Projected projected = scene::project(camera, size, world);
+    if (!is_before_eye(camera, projected.depth)) {
         return no_bound;
     }
     const glm::dvec2 offset = projected.pixel - (glm::dvec2(pixel) + 0.5);

@@ -66,6 +66,11 @@ bool shows_terrain(const Hit& hit);
 double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 pixel,
                           const Hit& hit);
 
+/// Distance in pixels between the pixel's centre and the projection of a place; infinity behind the
+/// eye.
+double distance_to_pixel(const scene::Camera& camera, glm::ivec2 size, glm::ivec2 pixel,
+                         glm::dvec3 world);
+
 /// Distance of two hits on the heightfield, texels; infinity if one is not finite.
 double hit_error(const Hit& shown, const Hit& true_hit);
 

@@ -89,7 +89,7 @@ public:
 private:
     std::optional<double> followed(const Ray& ray, Interval range) {
         const terrain::Stretch stretch =
-            terrain::follow(heights_.view(), pyramid_, ray, range, side_);
+            terrain::follow({heights_.view(), &pyramid_}, ray, range, side_);
         side_ = stretch.side;
         return stretch.hit ? std::optional(stretch.hit->t) : std::nullopt;
     }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
+#include "engine/truth/eye.h"
+
 namespace reljef::truth {
 namespace {
 
@@ -11,11 +13,6 @@ PlacedTerrain placed(const scene::TerrainNode& node, const glm::dmat4& world_fro
     return {node.surface, world_from_local, glm::inverse(world_from_local),
             terrain::SurfaceCaster(surface.heightfield().heights.view(), surface.pyramid(),
                                    surface.placement())};
-}
-
-Ray transformed(const glm::dmat4& matrix, const Ray& ray) {
-    return {glm::dvec3(matrix * glm::dvec4(ray.origin, 1.0)),
-            glm::dvec3(matrix * glm::dvec4(ray.direction, 0.0))};
 }
 
 } // namespace

@@ -44,9 +44,9 @@ glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distan
 }
 
 Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)
-    : caster_(shadow == SunShadow::ray ? &caster : nullptr), sun_(scene.sun()), sky_(scene.sky()) {
+    : caster_(shadow == SunShadow::ray ? &caster : nullptr), backdrop_{scene.sun(), scene.sky()} {
     for (const PlacedTerrain& terrain : caster.terrains()) {
-        maps_.push_back(maps_of(terrain, sun_));
+        maps_.push_back(maps_of(terrain, backdrop_.sun));
     }
 }
 
@@ -78,16 +78,24 @@ glm::vec3 Shading::irradiance(const Maps& maps, const SceneHit& hit, glm::dvec2 
         return maps.irradiance->at(sample);
     }
     const scene::IrradianceParts parts = maps.irradiance->parts_at(sample);
-    return sees_sun(*caster_, hit, scene::to_light(*sun_)) ? parts.sky + parts.sun : parts.sky;
+    return sees_sun(*caster_, hit, scene::to_light(*backdrop_.sun)) ? parts.sky + parts.sun
+                                                                    : parts.sky;
 }
 
 glm::vec3 Shading::at(const SceneHit& hit, double distance) const {
-    const glm::vec3 color = at(hit);
-    return sky_ ? seen_through_air(*sky_, color, distance) : color;
+    return backdrop_.through_air(at(hit), distance);
+}
+
+glm::vec3 Backdrop::through_air(glm::vec3 color, double distance) const {
+    return sky ? seen_through_air(*sky, color, distance) : color;
+}
+
+glm::vec3 Backdrop::behind(glm::dvec3 direction) const {
+    return sky ? sky_color(*sky, sun, direction) : glm::vec3(0.0F);
 }
 
 glm::vec3 Shading::background(glm::dvec3 direction) const {
-    return sky_ ? sky_color(*sky_, sun_, direction) : glm::vec3(0.0F);
+    return backdrop_.behind(direction);
 }
 
 bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun) {

@@ -21,6 +21,17 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
 /// A linear colour seen through `distance` metres of air (Koschmieder 1924).
 glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance);
 
+/// The sky and the air of a scene.
+struct Backdrop {
+    std::optional<scene::Light> sun;
+    std::optional<scene::Sky> sky;
+
+    /// A linear colour through `distance` metres of air.
+    [[nodiscard]] glm::vec3 through_air(glm::vec3 color, double distance) const;
+    /// Linear; black without a sky.
+    [[nodiscard]] glm::vec3 behind(glm::dvec3 direction) const;
+};
+
 enum class SunShadow {
     sweep, ///< precomputed per sample, with penumbra (scene/terrain_light.h)
     ray,   ///< exact, see sees_sun()
@@ -56,8 +67,7 @@ private:
                                        glm::dvec2 sample) const;
 
     const SceneCaster* caster_; // null: the maps contain the shadows
-    std::optional<scene::Light> sun_;
-    std::optional<scene::Sky> sky_;
+    Backdrop backdrop_;
     std::vector<Maps> maps_;
 };
 

@@ -34,7 +34,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/scene/graph", {"engine/scene/technique", "engine/terrain/tree"}},
         {"engine/scene", {"engine/scene/graph"}},
         {"engine/scene/motion", {"engine/scene/graph"}},
-        {"engine/truth", {"engine/scene/graph"}},
+        {"engine/truth", {"engine/scene"}},
         {"engine/view", {"engine/scene"}},
         {"engine/gl", {"engine/core"}},
         {"engine/platform", {"engine/gl"}},

@@ -47,6 +47,7 @@ public:
         return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
     }
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
+    [[nodiscard]] glm::dvec2 spacing() const { return spacing_; } ///< metres between samples
 
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const;
     /// The inverse; may lie outside the heightfield. Empty outside the map's domain.

@@ -29,27 +29,56 @@ Roots solve_quadratic(double a, double b, double c) {
     return {{low, high}, 2};
 }
 
+// 1 / direction; 0 along an axis on which the ray does not move.
+glm::dvec2 inverse_of(const Ray& ray) {
+    glm::dvec2 inverse(0.0);
+    for (int axis = 0; axis < 2; ++axis) {
+        const double along = ray.direction[axis];
+        inverse[axis] = along != 0.0 && std::isfinite(1.0 / along) ? 1.0 / along : 0.0;
+    }
+    return inverse;
+}
+
+// The t of the line between cells `line` − 1 and `line`. Lines count from the surface's first
+// sample, so that tiles of any size share the same bits.
+double time_at_line(const Ray& ray, double inverse, int axis, int line) {
+    return (line - ray.origin[axis]) * inverse;
+}
+
+// The part of `range` between two lines of an axis.
+Interval clipped_between(const Ray& ray, double inverse, int axis, glm::ivec2 lines,
+                         Interval range) {
+    if (inverse == 0.0) {
+        const double place = ray.origin[axis];
+        return place >= lines[0] && place <= lines[1] ? range : Interval{1.0, 0.0};
+    }
+    const auto [in, out] = std::minmax(
+        {time_at_line(ray, inverse, axis, lines[0]), time_at_line(ray, inverse, axis, lines[1])});
+    return {std::max(range.begin, in), std::min(range.end, out)};
+}
+
+// Whether a ray at `t` is in the cells from a line on.
+bool is_past_line(const Ray& ray, double inverse, int axis, int line, double t) {
+    if (inverse == 0.0) {
+        return ray.origin[axis] >= line;
+    }
+    const double at_line = time_at_line(ray, inverse, axis, line);
+    return inverse > 0.0 ? t >= at_line : t < at_line;
+}
+
 // Follows a ray front to back through the blocks of the pyramid and stores on which side of the
 // surface it is. It descends where the ray may touch a block, and ascends one level where the ray
 // leaves a parent. Neighbours share the t of the plane between them, so that no crossing is missed.
 class Traversal {
 public:
     // `side`: of the ray before its range begins.
-    Traversal(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& ray,
-              Side side)
-        : heights_(heights), pyramid_(pyramid), ray_(ray), side_(side),
-          level_(pyramid.levels() - 1) {
-        for (int axis = 0; axis < 2; ++axis) {
-            const double along = ray.direction[axis];
-            inverse_[axis] = along != 0.0 ? 1.0 / along : 0.0;
-            if (!std::isfinite(inverse_[axis])) {
-                inverse_[axis] = 0.0;
-            }
-        }
-    }
+    Traversal(const SurfaceTile& tile, const Ray& ray, Side side)
+        : heights_(tile.heights), pyramid_(*tile.pyramid), first_(tile.first), ray_(ray),
+          inverse_(inverse_of(ray)), side_(side), level_(pyramid_.levels() - 1) {}
 
     std::optional<double> run(Interval range) {
-        range = clipped_to_top(clipped(clipped(range, 0), 1));
+        begin_ = range.begin;
+        range = bounded(clipped_to_top(clipped(clipped(range, 0), 1)));
         t_ = range.begin;
         z_ = z_at(t_);
         end_ = range.end;
@@ -68,31 +97,42 @@ private:
 
     [[nodiscard]] double z_at(double t) const { return ray_.origin.z + t * ray_.direction.z; }
 
-    // The t of the line between cells `line` − 1 and `line`.
     [[nodiscard]] double time_at(int axis, int line) const {
-        return (line - ray_.origin[axis]) * inverse_[axis];
+        return time_at_line(ray_, inverse_[axis], axis, first_[axis] + line);
     }
 
     // The part of `range` over the grid, along one axis.
     [[nodiscard]] Interval clipped(Interval range, int axis) const {
-        if (inverse_[axis] == 0.0) {
-            const double place = ray_.origin[axis];
-            return place >= 0.0 && place <= last(axis) ? range : Interval{1.0, 0.0};
-        }
-        const auto [in, out] = std::minmax({time_at(axis, 0), time_at(axis, last(axis))});
-        return {std::max(range.begin, in), std::min(range.end, out)};
+        return clipped_between(ray_, inverse_[axis], axis,
+                               {first_[axis], first_[axis] + last(axis)}, range);
     }
 
-    // The part of `range` below the highest sample.
+    // The part of `range` below the highest sample. It begins above that sample.
     Interval clipped_to_top(Interval range) {
         const double above = z_at(range.begin) - pyramid_.total().high;
         if (range.begin < range.end && above > 0.0) {
             side_ = Side::above;
-            range.begin = ray_.direction.z < 0.0
-                              ? std::max(range.begin, range.begin - above / ray_.direction.z)
-                              : range.end;
+            if (ray_.direction.z >= 0.0) {
+                range.begin = range.end;
+                return range;
+            }
+            constexpr double less = 1.0 - 1e-9; // more than rounding
+            const double begin = range.begin - less * above / ray_.direction.z;
+            range.begin = z_at(begin) > pyramid_.total().high ? begin : range.begin;
         }
         return range;
+    }
+
+    // A vertical ray leaves the tile by its height alone.
+    [[nodiscard]] Interval bounded(Interval range) const {
+        if (std::isfinite(range.end)) {
+            return range;
+        }
+        constexpr double beyond = 1.0; // metres
+        const MinMax total = pyramid_.total();
+        const double z = ray_.direction.z > 0.0 ? total.high + beyond : total.low - beyond;
+        const double end = (z - ray_.origin.z) / ray_.direction.z;
+        return {range.begin, std::isfinite(end) ? end : range.begin};
     }
 
     [[nodiscard]] bool is_inside() const {
@@ -114,6 +154,17 @@ private:
         return time_at(axis, (block_[axis] + (inverse_[axis] > 0.0 ? 1 : 0)) << level_);
     }
 
+    // The t where the ray enters its cell. It does not depend on what was skipped before.
+    [[nodiscard]] double entering_time() const {
+        double t = begin_;
+        for (int axis = 0; axis < 2; ++axis) {
+            if (inverse_[axis] != 0.0) {
+                t = std::max(t, time_at(axis, block_[axis] + (inverse_[axis] > 0.0 ? 0 : 1)));
+            }
+        }
+        return t;
+    }
+
     void step() {
         const double leaving_x = leaving_time(0);
         const double leaving_y = leaving_time(1);
@@ -121,7 +172,7 @@ private:
         if (t_ < end) {
             const double z = z_at(end);
             if (level_ == 0) {
-                visit_cell({t_, end}, z);
+                visit_cell({entering_time(), end}, z);
             } else if (!passes(pyramid_.level(level_)(block_.x, block_.y), z)) {
                 descend();
                 return;
@@ -155,10 +206,7 @@ private:
     }
 
     [[nodiscard]] bool is_beyond(int axis, int line) const {
-        if (inverse_[axis] == 0.0) {
-            return ray_.origin[axis] >= line;
-        }
-        return inverse_[axis] > 0.0 ? t_ >= time_at(axis, line) : t_ < time_at(axis, line);
+        return is_past_line(ray_, inverse_[axis], axis, first_[axis] + line, t_);
     }
 
     // To the next block, or to its parent if that changes.
@@ -191,7 +239,7 @@ private:
             return;
         }
         const double twist = h00 - h10 - h01 + h11;
-        const glm::dvec3 start = ray_.at(range.begin) - glm::dvec3(block_, 0.0);
+        const glm::dvec3 start = ray_.at(range.begin) - glm::dvec3(first_ + block_, 0.0);
         const glm::dvec3& d = ray_.direction;
         const double slope_u = h10 - h00 + twist * start.y;
         const double slope_v = h01 - h00 + twist * start.x;
@@ -230,11 +278,13 @@ private:
 
     GridView<const float> heights_;
     const MinMaxPyramid& pyramid_;
+    glm::ivec2 first_; // sample of the tile
     Ray ray_;
-    glm::dvec2 inverse_{0.0}; // 1 / direction; 0 for a ray that does not move along the axis
+    glm::dvec2 inverse_;
     Side side_;
     int level_;
     glm::ivec2 block_{0}; // on level_
+    double begin_ = 0.0;  // of the range
     double t_ = 0.0;      // position of the ray
     double z_ = 0.0;      // its height there
     double end_ = 0.0;
@@ -248,14 +298,70 @@ std::optional<SurfaceHit> first_hit(GridView<const float> heights, const MinMaxP
     if (!is_finite(sample_ray)) {
         return std::nullopt;
     }
-    return follow(heights, pyramid, sample_ray, range, Side::unknown).hit;
+    return follow({heights, &pyramid}, sample_ray, range, Side::unknown).hit;
 }
 
-Stretch follow(GridView<const float> heights, const MinMaxPyramid& pyramid, const Ray& sample_ray,
-               Interval range, Side side) {
-    Traversal traversal(heights, pyramid, sample_ray, side);
+Stretch follow(const SurfaceTile& tile, const Ray& sample_ray, Interval range, Side side) {
+    Traversal traversal(tile, sample_ray, side);
     const auto t = traversal.run(range);
     return {t ? std::optional(SurfaceHit{*t, sample_ray.at(*t)}) : std::nullopt, traversal.side()};
+}
+
+TileWalk::TileWalk(const TiledSurface& surface, const Ray& sample_ray, Interval range)
+    : ray_(sample_ray), inverse_(inverse_of(sample_ray)), last_(surface.last_sample()),
+      cells_(surface.tile_cells()) {
+    for (int axis = 0; axis < 2; ++axis) {
+        range = clipped_between(ray_, inverse_[axis], axis, {0, last_[axis]}, range);
+    }
+    t_ = range.begin;
+    end_ = range.end;
+    for (int axis = 0; axis < 2; ++axis) {
+        int behind = (last_[axis] - 1) / cells_ + 1; // the first tile that the ray has not reached
+        while (behind - tile_[axis] > 1) {
+            const int middle = (tile_[axis] + behind) / 2;
+            const bool is_past = is_past_line(ray_, inverse_[axis], axis, middle * cells_, t_);
+            (is_past ? tile_[axis] : behind) = middle;
+        }
+    }
+}
+
+bool TileWalk::is_inside() const {
+    const glm::ivec2 far = (last_ - 1) / cells_;
+    return t_ < end_ && tile_.x >= 0 && tile_.y >= 0 && tile_.x <= far.x && tile_.y <= far.y;
+}
+
+double TileWalk::leaving_time(int axis) const {
+    if (inverse_[axis] == 0.0) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const int line = (tile_[axis] + (inverse_[axis] > 0.0 ? 1 : 0)) * cells_;
+    return time_at_line(ray_, inverse_[axis], axis, std::min(line, last_[axis]));
+}
+
+Interval TileWalk::stretch() const {
+    return {t_, std::min({leaving_time(0), leaving_time(1), end_})};
+}
+
+void TileWalk::advance() {
+    const double end = stretch().end;
+    const glm::dvec2 leaving(leaving_time(0), leaving_time(1));
+    for (int axis = 0; axis < 2; ++axis) {
+        if (leaving[axis] <= end) {
+            tile_[axis] += inverse_[axis] > 0.0 ? 1 : -1;
+        }
+    }
+    t_ = std::max(t_, end);
+}
+
+void TileWalk::resume_at(glm::ivec2 tile) {
+    tile_ = tile;
+    for (int axis = 0; axis < 2; ++axis) {
+        if (inverse_[axis] != 0.0) {
+            const int line = (tile[axis] + (inverse_[axis] > 0.0 ? 0 : 1)) * cells_;
+            t_ =
+                std::max(t_, time_at_line(ray_, inverse_[axis], axis, std::min(line, last_[axis])));
+        }
+    }
 }
 
 } // namespace reljef::terrain

@@ -1,0 +1,323 @@
+#include "engine/truth/streamed_truth.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/core/bilinear.h"
+#include "engine/terrain/field/surface_caster.h"
+
+namespace reljef::truth {
+namespace {
+
+struct TerrainInWorld {
+    const scene::TerrainNode* terrain = nullptr;
+    glm::dmat4 world_from_local{1.0};
+};
+
+Result<TerrainInWorld> only_terrain(const scene::Scene& scene) {
+    std::vector<TerrainInWorld> found;
+    bool has_others = false;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
+        if (const auto* terrain = node.get<scene::TerrainNode>()) {
+            found.push_back({terrain, matrix});
+        }
+        has_others = has_others || node.get<scene::MeshNode>() != nullptr;
+    });
+    if (has_others || found.size() != 1 || found[0].terrain->stream == nullptr) {
+        return Error{fmt::format("the exact picture: {} terrains found{}, one streamed terrain was "
+                                 "expected",
+                                 found.size(), has_others ? " and meshes" : "")};
+    }
+    return found[0];
+}
+
+// Beside a picture's linear colour and place.
+constexpr std::size_t bytes_per_shaded_ray =
+    sizeof(glm::vec3) + sizeof(std::optional<terrain::SurfaceHit>) + 2 * sizeof(std::uint32_t);
+
+} // namespace
+
+struct StreamedTruth::TileHits {
+    terrain::TreeTile tile;
+    std::vector<std::uint32_t> rays;
+};
+
+struct StreamedTruth::Batch {
+    std::vector<glm::dvec2> places; // on the picture
+    std::vector<std::optional<terrain::SurfaceHit>> hits;
+    std::vector<glm::vec3> colors; // linear
+};
+
+Result<StreamedTruth> StreamedTruth::create(const scene::Scene& scene,
+                                            std::optional<std::size_t> memory_budget) {
+    const auto found = only_terrain(scene);
+    if (!found) {
+        return found.error();
+    }
+    const std::size_t bytes =
+        memory_budget.value_or(found->terrain->stream->options().memory_budget);
+    constexpr std::size_t min_rays = 4096;
+    const std::size_t per_ray = bytes_per_ray + bytes_per_shaded_ray + sizeof(glm::dvec2);
+    const Memory memory{bytes / 2, std::max(min_rays, bytes / 2 / per_ray)};
+    return StreamedTruth(scene, *found->terrain, found->world_from_local, memory);
+}
+
+StreamedTruth::StreamedTruth(const scene::Scene& scene, const scene::TerrainNode& terrain,
+                             const glm::dmat4& world_from_local, const Memory& memory)
+    : surface_(terrain.stream, memory.tiles), world_from_local_(world_from_local),
+      local_from_world_(glm::inverse(world_from_local)),
+      rays_per_batch_(memory.rays), backdrop_{scene.sun(), scene.sky()} {
+    if (backdrop_.sun) {
+        irradiance_.emplace(*terrain.surface,
+                            scene::TerrainLight{*backdrop_.sun, glm::dmat3(world_from_local)});
+    }
+}
+
+Eye StreamedTruth::eye_of(const scene::Camera& camera, glm::ivec2 size) const {
+    return {camera, size, transformed(world_from_local_, terrain::shell_around(surface_))};
+}
+
+Result<void> StreamedTruth::trace(const Eye& eye, Batch& batch, const ParallelOptions& parallel) {
+    std::vector<Ray> rays(batch.places.size());
+    std::transform(batch.places.begin(), batch.places.end(), rays.begin(), [&](glm::dvec2 place) {
+        return transformed(local_from_world_, eye.ray(place));
+    });
+    auto hits = first_hits(surface_, rays, eye.range(), parallel);
+    if (!hits) {
+        return hits.error();
+    }
+    batch.hits = std::move(*hits);
+    return {};
+}
+
+// The finest tiles, row by row as files store them.
+std::vector<StreamedTruth::TileHits>
+StreamedTruth::hits_by_tile(const scene::TileBuilder& builder,
+                            std::span<const std::optional<terrain::SurfaceHit>> hits) {
+    std::map<std::pair<int, int>, TileHits> tiles; // by row and column
+    for (std::uint32_t i = 0; i < hits.size(); ++i) {
+        if (hits[i]) {
+            const terrain::TreeTile tile = builder.tile_at(0, glm::dvec2(hits[i]->sample));
+            TileHits& of_tile = tiles[{tile.row, tile.col}];
+            of_tile.tile = tile;
+            of_tile.rays.push_back(i);
+        }
+    }
+    std::vector<TileHits> list;
+    for (auto& [place, of_tile] : tiles) {
+        list.push_back(std::move(of_tile));
+    }
+    return list;
+}
+
+// Bilinear in the tile's texels, or in the colours of the vertices around the hit.
+glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
+                                       const scene::TerrainTile* whole, terrain::TreeTile tile,
+                                       const terrain::SurfaceHit& hit) const {
+    const scene::TileBuilder& builder = surface_.stream().maker();
+    const glm::dvec2 first(terrain::TileTree::first(tile));
+    const glm::ivec2 cells = builder.tree().cells(tile);
+    glm::dvec2 place = glm::clamp(builder.tree_sample(glm::dvec2(hit.sample)) - first,
+                                  glm::dvec2(0.0), glm::dvec2(cells));
+    scene::TerrainTile cell;
+    if (whole == nullptr) {
+        const glm::ivec2 vertex = glm::min(glm::ivec2(place), cells - 1);
+        cell = builder.make_cell(tile, vertex, content.heights.view());
+        place -= glm::dvec2(vertex);
+    }
+    const scene::TerrainTile& part = whole != nullptr ? *whole : cell;
+    const glm::dvec2 texels =
+        glm::dvec2(part.albedo.cols() - 1, part.albedo.rows() - 1) / glm::dvec2(part.cells);
+    const glm::vec3 albedo = bilinear(part.albedo, place * texels, linear_from_rgba8);
+    if (!irradiance_) {
+        return albedo;
+    }
+    const Grid<float>& overview = builder.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    const glm::dvec2 on_overview =
+        builder.around_overview(builder.on_overview(glm::dvec2(hit.sample)));
+    const float visibility =
+        irradiance_->visibility(glm::clamp(on_overview, glm::dvec2(0.0), last));
+    return albedo * irradiance_->at(part.normal_at(place), part.up, visibility);
+}
+
+Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
+                                  const ParallelOptions& parallel) const {
+    batch.colors.resize(batch.places.size());
+    for (std::size_t i = 0; i < batch.hits.size(); ++i) {
+        if (!batch.hits[i]) {
+            batch.colors[i] = backdrop_.behind(eye.ray(batch.places[i]).direction);
+        }
+    }
+    const scene::TileStream& stream = surface_.stream();
+    const std::vector<TileHits> tiles = hits_by_tile(stream.maker(), batch.hits);
+    std::vector<std::optional<Error>> errors(tiles.size());
+    const auto shade_one = [&](int i) {
+        const auto index = static_cast<std::size_t>(i);
+        auto shaded = shade_tile(eye, tiles[index], batch, parallel.stop);
+        if (!shaded) {
+            errors[index] = shaded.error();
+        }
+    };
+    const unsigned threads =
+        std::min(thread_count(parallel.threads), thread_count(stream.options().threads));
+    const bool done =
+        parallel_for(static_cast<int>(tiles.size()), shade_one, {threads, parallel.stop, {}});
+    const auto error = std::find_if(errors.begin(), errors.end(),
+                                    [](const auto& found) { return found.has_value(); });
+    if (error != errors.end()) {
+        return **error;
+    }
+    return done ? Result<void>() : Error{"the exact picture: drawing was stopped"};
+}
+
+Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Batch& batch,
+                                       const std::stop_token& stop) const {
+    const scene::TileStream& stream = surface_.stream();
+    const auto content = read_surely(stream, stream.reader(), hits.tile, stop);
+    if (!content) {
+        return content.error();
+    }
+    std::optional<scene::TerrainTile> whole;
+    if (!content->picture.texels.empty()) {
+        whole = stream.maker().make(hits.tile, content->heights, content->picture);
+    }
+    for (const std::uint32_t ray : hits.rays) {
+        const terrain::SurfaceHit& hit = *batch.hits[ray];
+        const glm::vec3 color = color_in_tile(*content, whole ? &*whole : nullptr, hits.tile, hit);
+        batch.colors[ray] =
+            backdrop_.through_air(color, eye.distance(eye.ray(batch.places[ray]), hit.t));
+    }
+    return {};
+}
+
+// Calls `use(pixel, batch, index of the pixel's first ray)`. The first ray of a pixel goes through
+// its centre; more than one per side follow.
+template <class Use>
+Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int rays_per_side,
+                                           bool has_colors, const ParallelOptions& parallel,
+                                           const Use& use) {
+    check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
+    const int more = rays_per_side > 1 ? rays_per_side * rays_per_side : 0;
+    const std::size_t per_pixel = 1 + static_cast<std::size_t>(more);
+    const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    const std::size_t per_batch = std::max<std::size_t>(1, rays_per_batch_ / per_pixel);
+    // Down the columns: the pixels of a column show the same tiles, near to far.
+    const auto pixel_at = [&](std::size_t i) {
+        const auto rows = static_cast<std::size_t>(size.y);
+        return glm::ivec2(static_cast<int>(i / rows), static_cast<int>(i % rows));
+    };
+    for (std::size_t first = 0; first < pixels; first += per_batch) {
+        const std::size_t end = std::min(first + per_batch, pixels);
+        Batch batch;
+        batch.places.reserve((end - first) * per_pixel);
+        for (std::size_t i = first; i < end; ++i) {
+            const glm::ivec2 pixel = pixel_at(i);
+            batch.places.push_back(glm::dvec2(pixel) + 0.5);
+            for (int ray = 0; ray < more; ++ray) {
+                batch.places.push_back(place_in_pixel(pixel, rays_per_side, ray));
+            }
+        }
+        const auto progress = [&](double part) {
+            const double done =
+                static_cast<double>(first) + part * static_cast<double>(end - first);
+            parallel.progress(done / static_cast<double>(pixels));
+        };
+        ParallelOptions of_batch = parallel;
+        of_batch.progress = parallel.progress ? Progress(progress) : Progress();
+        if (auto traced = trace(eye, batch, of_batch); !traced) {
+            return traced;
+        }
+        if (auto shaded = has_colors ? shade(eye, batch, parallel) : Result<void>(); !shaded) {
+            return shaded;
+        }
+        for (std::size_t i = first; i < end; ++i) {
+            use(pixel_at(i), batch, (i - first) * per_pixel);
+        }
+    }
+    return {};
+}
+
+Result<Picture> StreamedTruth::draw(const scene::Camera& camera, glm::ivec2 size,
+                                    const DrawOptions& options) {
+    check(options.rays_per_side >= 1, "at least one ray a pixel was expected");
+    Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
+    const int n = options.rays_per_side;
+    const auto use = [&](glm::ivec2 pixel, const Batch& batch, std::size_t first) {
+        picture.hits(pixel.x, pixel.y) = as_shown(batch.hits[first]);
+        const auto colors = std::span(batch.colors).subspan(first);
+        glm::vec3 color = colors[0];
+        if (n > 1) {
+            const auto more = colors.subspan(1, static_cast<std::size_t>(n * n));
+            color = std::accumulate(more.begin(), more.end(), glm::vec3(0.0F)) /
+                    static_cast<float>(n * n);
+        }
+        picture.image(pixel.x, pixel.y) = rgba8_from_linear(color);
+    };
+    const auto done = for_each_batch(eye_of(camera, size), size, n, true, options.parallel, use);
+    return done ? Result<Picture>(std::move(picture)) : done.error();
+}
+
+Result<HitBuffer> StreamedTruth::draw_hits(const scene::Camera& camera, glm::ivec2 size,
+                                           const ParallelOptions& parallel) {
+    HitBuffer hits(size.x, size.y);
+    const auto use = [&](glm::ivec2 pixel, const Batch& batch, std::size_t first) {
+        hits(pixel.x, pixel.y) = as_shown(batch.hits[first]);
+    };
+    const auto done = for_each_batch(eye_of(camera, size), size, 1, false, parallel, use);
+    return done ? Result<HitBuffer>(std::move(hits)) : done.error();
+}
+
+Result<Grid<double>> StreamedTruth::reprojection_errors(const scene::Camera& camera,
+                                                        const HitBuffer& hits,
+                                                        const ParallelOptions& parallel) {
+    Grid<double> errors(hits.cols(), hits.rows(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<glm::dvec2> samples;
+    std::vector<glm::ivec2> pixels;
+    for (int row = 0; row < hits.rows(); ++row) {
+        for (int col = 0; col < hits.cols(); ++col) {
+            const Hit& hit = hits(col, row);
+            if (!shows_terrain(hit)) {
+                continue;
+            }
+            errors(col, row) = std::numeric_limits<double>::infinity();
+            if (std::isfinite(hit.col) && std::isfinite(hit.row)) {
+                samples.emplace_back(hit.col, hit.row);
+                pixels.emplace_back(col, row);
+            }
+        }
+    }
+    const auto heights = heights_at(surface_, samples, parallel);
+    if (!heights) {
+        return heights.error();
+    }
+    const glm::ivec2 size(hits.cols(), hits.rows());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const glm::dvec3 local = surface_.world_from_sample({samples[i], (*heights)[i]});
+        const glm::dvec3 world(world_from_local_ * glm::dvec4(local, 1.0));
+        errors(pixels[i].x, pixels[i].y) = distance_to_pixel(camera, size, pixels[i], world);
+    }
+    return errors;
+}
+
+Result<GeometricErrors> StreamedTruth::errors(const scene::Camera& camera, const HitBuffer& shown,
+                                              const HitBuffer& truth,
+                                              const ParallelOptions& parallel) {
+    const auto reprojection = reprojection_errors(camera, shown, parallel);
+    if (!reprojection) {
+        return reprojection.error();
+    }
+    const auto of_pixel = [&](glm::ivec2 pixel, const Hit& /*hit*/) {
+        return (*reprojection)(pixel.x, pixel.y);
+    };
+    return geometric_errors(PixelMeasure{of_pixel, hit_error}, shown, truth, parallel.threads);
+}
+
+} // namespace reljef::truth
