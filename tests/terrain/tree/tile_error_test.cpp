@@ -266,6 +266,20 @@ TEST(TileError, IsNeverBelowTheExactOneAndTightInTheMedian) {
     RecordProperty("tiles", std::to_string(ratios.size()));
 }
 
+TEST(TileError, HoldsInCellsThatTheRastersEndCuts) {
+    test::Chance chance(7);
+    for (int n = 0; n < 300; ++n) {
+        Grid<float> samples(chance.whole(2, 40), chance.whole(2, 40));
+        for (int row = 0; row < samples.rows(); ++row) {
+            for (int col = 0; col < samples.cols(); ++col) {
+                const bool at_end = col > samples.cols() - 4 || row > samples.rows() - 4;
+                samples(col, row) = at_end ? static_cast<float>(chance.between(0.0, 90.0)) : 0.0F;
+            }
+        }
+        expect_proven(samples);
+    }
+}
+
 TEST(TileError, HeightsAreTheWeightedMeansAcrossChunks) {
     test::Chance chance(3);
     Grid<float> samples = made_terrain(chance, 2077, 300);
