@@ -16,7 +16,7 @@ struct FramebufferOptions {
     glm::ivec2 size{1, 1};
     Format color = Format::rgba8_srgb;
     std::optional<Format> second_color = std::nullopt; ///< for fragment output 1; one sample only
-    bool depth = true; ///< 32-bit float
+    bool depth = true;                                 ///< 32-bit float
     int samples = 1;
 };
 

@@ -113,9 +113,8 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
 
 Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
-        auto target = gl::Framebuffer::create({.size = size(),
-                                               .color = gl::Format::rgba32f,
-                                               .second_color = gl::Format::rg32f});
+        auto target = gl::Framebuffer::create(
+            {.size = size(), .color = gl::Format::rgba32f, .second_color = gl::Format::rg32f});
         if (!target) {
             return target.error();
         }

@@ -53,7 +53,7 @@ public:
 
     [[nodiscard]] const terrain::TileTree& tree() const { return tree_; }
     [[nodiscard]] const TerrainSurface& overview() const { return *overview_; }
-    [[nodiscard]] int reduction() const { return reduction_; }
+    [[nodiscard]] int reduction() const { return reduction_.factor; }
     /// Samples of the terrain between vertices.
     [[nodiscard]] double step(terrain::TreeTile tile) const;
     /// The first sample of a tile, and the sample of a vertex, in the terrain.

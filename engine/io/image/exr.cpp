@@ -40,9 +40,9 @@ Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& pat
         const int channel = static_cast<int>(found - spec.channelnames.begin());
         if (found == spec.channelnames.end() ||
             spec.channelformat(channel) != OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)) {
-            return Error{
-                fmt::format("{}: has no float32 channel {}, the channels {} were expected",
-                            path.string(), channel_names[i], fmt::join(channel_names, ", "))};
+            return Error{fmt::format("{}: has no float32 channel {}, the channels {} were expected",
+                                     path.string(), channel_names[i],
+                                     fmt::join(channel_names, ", "))};
         }
         if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT,
                               bytes + channel_offsets[i], sizeof(Hit))) {

@@ -28,7 +28,8 @@ Result<std::vector<std::byte>> encode_image(const std::string& extension, const 
 Result<void> check_image_name(const std::filesystem::path& path);
 Result<void> check_hits_name(const std::filesystem::path& path);
 
-/// Writes float32 channels col, row, height, depth, col_low, row_low to an OpenEXR file, whole or not at all.
+/// Writes float32 channels col, row, height, depth, col_low, row_low to an OpenEXR file, whole or
+/// not at all.
 Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits);
 /// The same, ready for commit().
 Result<AtomicFile> prepare_hits(const std::filesystem::path& path, const HitBuffer& hits);

@@ -19,9 +19,8 @@ HitBuffer random_hits(int cols, int rows) {
     HitBuffer hits(cols, rows);
     for (Hit& hit : hits.samples()) {
         if (random() % 3 != 0) {
-            hit = {values(random), values(random), values(random), std::abs(values(random)),
-                   1e-7F * values(random),
-                   1e-7F * values(random)};
+            hit = {values(random),           values(random),         values(random),
+                   std::abs(values(random)), 1e-7F * values(random), 1e-7F * values(random)};
         }
     }
     return hits;
@@ -76,7 +75,8 @@ TEST(HitFile, OtherPicturesAreNoHits) {
     ASSERT_TRUE(write_image(folder.path() / "a.png", Image(4, 4)));
     const auto hits = read_hits(folder.path() / "a.png");
     ASSERT_FALSE(hits);
-    EXPECT_THAT(hits.error().message, HasSubstr("channels col, row, height, depth, col_low, row_low"));
+    EXPECT_THAT(hits.error().message,
+                HasSubstr("channels col, row, height, depth, col_low, row_low"));
     EXPECT_FALSE(read_hits(folder.path() / "none.exr"));
     EXPECT_FALSE(read_hits(folder.write("a.exr", "no EXR")));
 }
