@@ -388,8 +388,10 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         ->add_option("--contact-sheet", choice->contact_sheet,
                      "picture with small copies of up to 24 frames")
         ->type_name("FILE");
-    auto* truth = arguments->add_flag("--truth", choice->truth,
-                                      "draw the reference picture with exact rays on the CPU");
+    auto* truth = arguments->add_flag(
+        "--truth", choice->truth,
+        "draw the reference picture with exact rays on the CPU, of all samples, also "
+        "of a terrain larger than --memory");
     for (const char* option :
          {"--wireframe", "--context", "--technique", "--shader-dir", "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));

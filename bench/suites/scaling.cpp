@@ -178,7 +178,7 @@ private:
         if (!hits) {
             return hits.error();
         }
-        const auto found = streamed_errors(view.scene.scene, *hits, checked_step, {.stop = stop_});
+        const auto found = streamed_errors(view.scene.scene, *hits, checked_step, {0, stop_, {}});
         if (!found) {
             return stop_.stop_requested() ? Result<void>() : found.error();
         }

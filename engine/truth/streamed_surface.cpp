@@ -193,7 +193,9 @@ void StreamedSurface::keep(glm::ivec2 at, std::unique_ptr<Loaded> loaded) {
     }
     stats_.reloaded += ranges_.insert_or_assign(key, loaded->pyramid.total()).second ? 0U : 1U;
     ++stats_.loaded;
-    tiles_[key] = std::move(loaded);
+    if (!tiles_.insert_or_assign(key, std::move(loaded)).second) {
+        std::erase(order_, key); // it was in memory: now it is the newest
+    }
     order_.push_back(key);
     stats_.max_bytes = std::max(stats_.max_bytes, tiles_.size() * bytes_of_surface_tile);
 }
@@ -343,17 +345,22 @@ Result<std::vector<double>> heights_at(StreamedSurface& surface,
         places[key_of(surface.tile_at(inside(samples[i])))].push_back(i);
     }
     std::vector<double> heights(samples.size());
-    for (const auto& [key, indices] : places) {
-        const std::array at{tile_of(key)};
-        if (surface.tile(at[0]) == nullptr) {
-            if (auto loaded = surface.load(at, parallel); !loaded) {
-                return loaded.error();
-            }
+    auto next = places.begin();
+    while (next != places.end()) {
+        const auto first = next;
+        std::vector<glm::ivec2> tiles;
+        for (; next != places.end() && tiles.size() < surface.max_load(); ++next) {
+            tiles.push_back(tile_of(next->first));
         }
-        const terrain::SurfaceTile& tile = *surface.tile(at[0]);
-        for (const std::size_t i : indices) {
-            heights[i] =
-                terrain::bilinear_height(tile.heights, inside(samples[i]) - glm::dvec2(tile.first));
+        if (auto loaded = surface.load(tiles, parallel); !loaded) {
+            return loaded.error();
+        }
+        for (auto place = first; place != next; ++place) {
+            const terrain::SurfaceTile& tile = *surface.tile(tile_of(place->first));
+            for (const std::size_t i : place->second) {
+                heights[i] = terrain::bilinear_height(tile.heights,
+                                                      inside(samples[i]) - glm::dvec2(tile.first));
+            }
         }
     }
     return heights;

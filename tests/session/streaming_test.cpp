@@ -96,6 +96,37 @@ TEST_F(Streaming, what_does_not_fit_the_memory_is_read_as_the_view_needs_it) {
     EXPECT_THAT(bump.out, Not(HasSubstr("streamed: ")));
 }
 
+// A file of 1201² samples in memory, and streamed in less memory than it needs.
+TEST_F(Streaming, the_truth_of_what_does_not_fit_the_memory_is_that_of_all_samples) {
+    const auto hits = [&](const std::string& megabytes) {
+        const auto result = test::reljef({"render", path("tiles/N44E006.hgt"), "--truth", "--hit",
+                                          path("a.exr"), "--size", "96x72", "--memory", megabytes,
+                                          "--camera", "44.3,6.3,2600,60,-12"},
+                                         options_);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(result.err.find("read where the view needs them") != std::string::npos,
+                  megabytes == "32")
+            << result.err;
+        return io::read_hits(path("a.exr"));
+    };
+    const auto streamed = hits("32");
+    const auto in_memory = hits("512");
+    ASSERT_TRUE(streamed && in_memory);
+    int terrain = 0;
+    int elsewhere = 0; // samples: of silhouettes, whose rays graze
+    for (std::size_t i = 0; i < streamed->size(); ++i) {
+        const Hit& a = streamed->samples()[i];
+        const Hit& b = in_memory->samples()[i];
+        terrain += b.is_sky() ? 0 : 1;
+        elsewhere += a.is_sky() != b.is_sky() ||
+                             (!a.is_sky() && std::hypot(a.col - b.col, a.row - b.row) > 0.01)
+                         ? 1
+                         : 0;
+    }
+    EXPECT_GT(terrain, 3000);
+    EXPECT_LE(elsewhere, terrain / 500);
+}
+
 TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     ASSERT_EQ(render("a.png", {}).exit_code, 0); // the index knows the file whole
     // Cut, but of the size and the time that the index knows.

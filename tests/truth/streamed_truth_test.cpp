@@ -16,8 +16,8 @@
 namespace reljef::truth {
 namespace {
 
-constexpr glm::ivec2 samples{900, 640};
-constexpr glm::ivec2 picture{40, 30};
+constexpr glm::ivec2 streamed_samples{900, 640};
+constexpr glm::ivec2 rays_size{40, 30};
 constexpr std::size_t no_memory = 0; // the fewest tiles and rays
 constexpr int tiles_of_terrain = 8 * 5;
 
@@ -33,12 +33,12 @@ scene::TerrainNode& terrain_of(scene::Node& node) {
 // Reads tiles of any terrain by its height function.
 template <class Height> scene::TileContentReader reader_of(const Height& height) {
     return [height](terrain::TreeTile tile, const std::stop_token&) {
-        const terrain::TileTree tree(samples.x, samples.y);
+        const terrain::TileTree tree(streamed_samples.x, streamed_samples.y);
         scene::TileContent content;
         content.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
             const glm::ivec2 sample =
                 terrain::TileTree::first(tile) + vertex * terrain::TileTree::step(tile);
-            return height(glm::dvec2(glm::clamp(sample, glm::ivec2(0), samples - 1)));
+            return height(glm::dvec2(glm::clamp(sample, glm::ivec2(0), streamed_samples - 1)));
         });
         return content;
     };
@@ -67,13 +67,14 @@ Streamed streamed(terrain::Heightfield overview, int reduction, scene::TileConte
     options.threads = 2;
     options.first_pause = std::chrono::milliseconds(1);
     terrain.stream = std::make_shared<scene::TileStream>(
-        scene::TileBuilder(terrain.surface, terrain::TileTree(samples.x, samples.y), reduction),
+        scene::TileBuilder(terrain.surface,
+                           terrain::TileTree(streamed_samples.x, streamed_samples.y), reduction),
         std::move(read), options);
     return made;
 }
 
 Grid<float> all_heights() {
-    return test::made_heights(samples.x, samples.y, [](int col, int row) {
+    return test::made_heights(streamed_samples.x, streamed_samples.y, [](int col, int row) {
         return rough_height({col, row});
     });
 }
@@ -116,8 +117,9 @@ void expect_hits_of_memory(const Streamed& made, unsigned seed, int cameras) {
     test::Chance chance(seed);
     for (int i = 0; i < cameras; ++i) {
         const scene::Camera camera = random_camera(chance, made.surface());
-        const auto in_memory = draw_hits(SceneCaster::create(made.scene).value(), camera, picture);
-        const auto found = truth.draw_hits(camera, picture);
+        const auto in_memory =
+            draw_hits(SceneCaster::create(made.scene).value(), camera, rays_size);
+        const auto found = truth.draw_hits(camera, rays_size);
         ASSERT_TRUE(in_memory && found);
         ASSERT_TRUE(have_same_bits(*found, *in_memory)) << i;
     }
@@ -142,8 +144,8 @@ TEST(StreamedTruth, VerticalRaysOfAMapHitTheTerrain) {
     camera.eye = {0.0, 0.0, 1000.0};
     camera.target = {0.0, 0.0, 0.0};
     camera.view_height = 9000.0;
-    const auto in_memory = draw_hits(SceneCaster::create(made.scene).value(), camera, picture);
-    const auto found = made.truth().draw_hits(camera, picture);
+    const auto in_memory = draw_hits(SceneCaster::create(made.scene).value(), camera, rays_size);
+    const auto found = made.truth().draw_hits(camera, rays_size);
     ASSERT_TRUE(in_memory && found);
     int hits = 0;
     for (std::size_t i = 0; i < found->size(); ++i) {
@@ -162,11 +164,12 @@ TEST(StreamedTruth, ATowerThatTheOverviewLacksIsHit) {
     const glm::dvec2 tower(500.0, 300.0);
     const auto height = [tower](glm::dvec2 sample) { return sample == tower ? 500.0 : 0.0; };
     auto overview = test::plane_heightfield(
-        Grid<float>(samples.x / reduction, samples.y / reduction, 0.0F), glm::dvec2(40.0));
+        Grid<float>(streamed_samples.x / reduction, streamed_samples.y / reduction, 0.0F),
+        glm::dvec2(40.0));
     const Streamed made = streamed(std::move(overview), reduction, reader_of(height));
     scene::Camera camera;
-    const glm::dvec3 foot((tower.x - 0.5 * (samples.x - 1)) * 10.0,
-                          (0.5 * (samples.y - 1) - tower.y) * 10.0, 0.0);
+    const glm::dvec3 foot((tower.x - 0.5 * (streamed_samples.x - 1)) * 10.0,
+                          (0.5 * (streamed_samples.y - 1) - tower.y) * 10.0, 0.0);
     camera.eye = foot + glm::dvec3(-3000.0, 0.0, 400.0);
     camera.target = foot + glm::dvec3(0.0, 0.0, 400.0);
     const auto hits = made.truth().draw_hits(camera, {33, 33});
@@ -182,7 +185,7 @@ TEST(StreamedTruth, PicturesAreTheSameWithAnyThreadsAndMemory) {
     const Streamed made = rough_on_plane();
     test::Chance chance(3);
     scene::Camera camera = random_camera(chance, made.surface());
-    DrawOptions options{.rays_per_side = 3, .parallel = {.threads = 1}};
+    DrawOptions options{.rays_per_side = 3, .parallel = {1, {}, {}}};
     const auto one = made.truth().draw(camera, {60, 45}, options);
     options.parallel.threads = 3;
     const auto three = StreamedTruth::create(made.scene, std::size_t{64} << 20U)
@@ -199,7 +202,7 @@ TEST(StreamedTruth, ShowsTheColoursOfTheTerrainInMemory) {
         return 120.0 * std::sin(0.021 * sample.x) * std::cos(0.017 * sample.y);
     };
     const Streamed made =
-        streamed(test::plane_heightfield(test::made_heights(samples.x, samples.y,
+        streamed(test::plane_heightfield(test::made_heights(streamed_samples.x, streamed_samples.y,
                                                             [&](int col, int row) {
                                                                 return smooth({col, row});
                                                             }),
@@ -207,10 +210,10 @@ TEST(StreamedTruth, ShowsTheColoursOfTheTerrainInMemory) {
                  1, reader_of(smooth));
     scene::Camera camera;
     camera.eye = {0.0, -4000.0, 3000.0};
-    const auto in_memory =
-        truth::draw(SceneCaster::create(made.scene).value(),
-                    Shading(made.scene, SceneCaster::create(made.scene).value()), camera, picture);
-    const auto found = made.truth().draw(camera, picture);
+    const auto in_memory = truth::draw(SceneCaster::create(made.scene).value(),
+                                       Shading(made.scene, SceneCaster::create(made.scene).value()),
+                                       camera, rays_size);
+    const auto found = made.truth().draw(camera, rays_size);
     ASSERT_TRUE(in_memory && found);
     int off = 0;
     for (std::size_t i = 0; i < found->image.size(); ++i) {
@@ -233,9 +236,24 @@ TEST(StreamedTruth, AnUnreadableTileIsAnErrorAndNoGuess) {
     const Streamed made = streamed(test::plane_heightfield(all_heights(), {8.0, 11.0}), 1, read);
     scene::Camera camera;
     camera.eye = {0.0, -6000.0, 5000.0};
-    const auto hits = made.truth().draw_hits(camera, picture);
+    const auto hits = made.truth().draw_hits(camera, rays_size);
     ASSERT_FALSE(hits);
     EXPECT_EQ(hits.error().message, "a.tif: broken");
+}
+
+// Rays on the ellipsoid are searched up to a height that does not depend on the samples.
+TEST(StreamedTruth, AHeightBeyondTheRaysOfTheEllipsoidIsAnError) {
+    const auto height = [](glm::dvec2) { return 70'000.0; };
+    const Streamed made =
+        streamed(test::geographic_heightfield(
+                     Grid<float>(streamed_samples.x, streamed_samples.y, 0.0F), 45.0, 6.0, 0.0009),
+                 1, reader_of(height));
+    scene::Camera camera;
+    camera.eye = {0.0, 0.0, 5000.0};
+    camera.target = {0.0, 1000.0, 0.0};
+    const auto hits = made.truth().draw_hits(camera, rays_size);
+    ASSERT_FALSE(hits);
+    EXPECT_NE(hits.error().message.find("70000"), std::string::npos) << hits.error().message;
 }
 
 TEST(StreamedTruth, ATileThatFailsOnceIsReadAgain) {
@@ -251,7 +269,7 @@ TEST(StreamedTruth, ATileThatFailsOnceIsReadAgain) {
     const Streamed made = streamed(test::plane_heightfield(all_heights(), {8.0, 11.0}), 1, read);
     scene::Camera camera;
     camera.eye = {0.0, -6000.0, 5000.0};
-    EXPECT_TRUE(made.truth().draw_hits(camera, picture));
+    EXPECT_TRUE(made.truth().draw_hits(camera, rays_size));
     EXPECT_LT(*failures, 0);
 }
 
@@ -264,7 +282,7 @@ TEST(StreamedTruth, StopsWhileATileFails) {
     const Streamed made = streamed(test::plane_heightfield(all_heights(), {8.0, 11.0}), 1, read);
     std::stop_source stop;
     stop.request_stop();
-    const auto hits = made.truth().draw_hits({}, picture, {.stop = stop.get_token()});
+    const auto hits = made.truth().draw_hits({}, rays_size, {0, stop.get_token(), {}});
     ASSERT_FALSE(hits);
     EXPECT_NE(hits.error().message.find("stopped"), std::string::npos);
 }
@@ -274,7 +292,7 @@ TEST(StreamedTruth, TrueHitsHaveNoReprojectionError) {
     scene::Camera camera;
     camera.eye = {0.0, -4000.0, 3000.0};
     StreamedTruth truth = made.truth();
-    const auto hits = truth.draw_hits(camera, picture);
+    const auto hits = truth.draw_hits(camera, rays_size);
     ASSERT_TRUE(hits);
     const auto errors = truth.errors(camera, *hits, *hits);
     ASSERT_TRUE(errors);
