@@ -101,12 +101,11 @@ TEST(IncludeTable, RefusesUpwardAndSideways) {
 TEST(IncludeTable, TheGraphsCircleWithTheStreamsIsItsOwn) {
     EXPECT_TRUE(may_include("engine/scene/graph", "engine/scene"));
     EXPECT_TRUE(may_include("engine/view", "engine/scene"));
+    EXPECT_TRUE(may_include("engine/truth", "engine/scene"));
     EXPECT_TRUE(may_include("engine/scene/graph", "engine/terrain/tree"));
-    for (const char* const room : {"engine/truth", "engine/scene/motion"}) {
-        EXPECT_TRUE(may_include(room, "engine/scene/graph")) << room;
-        EXPECT_TRUE(may_include(room, "engine/terrain/field")) << room;
-        EXPECT_FALSE(may_include(room, "engine/scene")) << room;
-    }
+    EXPECT_TRUE(may_include("engine/scene/motion", "engine/scene/graph"));
+    EXPECT_TRUE(may_include("engine/scene/motion", "engine/terrain/field"));
+    EXPECT_FALSE(may_include("engine/scene/motion", "engine/scene"));
 }
 
 TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {

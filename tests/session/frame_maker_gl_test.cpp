@@ -118,12 +118,12 @@ TEST(TinyTerrainsGl, AreDrawnAsThoseOfAMetre) {
           std::pair{terrain::PlacementKind::ellipsoid, std::array{1e-3, 1.1e-4}}}) {
         const TerrainScene large = waves_with(1.0, placement, folder);
         const auto expected = DeviceFrames(osmesa_device(), silent).draw_hits(large.scene, {});
-        const auto expected_truth = TruthFrames(picture, 1).draw_hits(large.scene, {});
+        const auto expected_truth = TruthFrames(picture, 1, silent).draw_hits(large.scene, {});
         ASSERT_TRUE(expected && expected_truth);
         for (const double spacing : spacings) {
             const TerrainScene tiny = waves_with(spacing, placement, folder);
             const auto hits = DeviceFrames(osmesa_device(), silent).draw_hits(tiny.scene, {});
-            const auto truth = TruthFrames(picture, 1).draw_hits(tiny.scene, {});
+            const auto truth = TruthFrames(picture, 1, silent).draw_hits(tiny.scene, {});
             ASSERT_TRUE(hits && truth);
             expect_same_places(*hits, *expected);
             expect_same_places(*truth, *expected_truth);

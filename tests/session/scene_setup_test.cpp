@@ -154,7 +154,8 @@ protected:
         auto scene = scene_of({}, terrain::PlacementKind::ellipsoid, ground, peak);
         const auto path = test::open_path(scene, file);
         EXPECT_TRUE(path) << (path ? "" : path.error().message);
-        session::TruthFrames maker({1, 1}, 1);
+        session::Log silent;
+        session::TruthFrames maker({1, 1}, 1, silent);
         std::vector<geo::Geodetic> eyes;
         for (int i = 0; i < frames; ++i) {
             raised_.push_back(session::fly_above_ground(scene, *path, i, frames, maker, {}).metres);

@@ -130,6 +130,13 @@ TEST_F(GlobeFile, rows_of_hits_are_those_of_the_file) {
     }
 }
 
+TEST_F(GlobeFile, has_no_hole_in_the_exact_picture_where_it_is_streamed) {
+    write(720, 360); // more than a megabyte holds
+    for (const char* camera : cameras) {
+        EXPECT_EQ(holes(camera, {"--truth", "--memory", "1"}), 0) << camera;
+    }
+}
+
 TEST_F(GlobeFile, info_tells_the_size_and_extent_of_the_file) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--memory", "1"}}) {
         std::vector<std::string> arguments{"info", path(), "--json"};
