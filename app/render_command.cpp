@@ -260,7 +260,7 @@ Result<HitBuffer> find_hits(const RenderChoice& choice, const session::TerrainSc
     if (!hits || interrupt.requested()) {
         return hits ? Error{"interrupted"} : hits.error();
     }
-    return session::in_source_rows(std::move(*hits), scene);
+    return session::in_source_rows(std::move(*hits), scene, choice.truth);
 }
 
 Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& scene,

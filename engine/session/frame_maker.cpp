@@ -219,13 +219,16 @@ std::string TruthFrames::stats() const {
                        static_cast<double>(process_memory().peak) / megabyte);
 }
 
-HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene) {
-    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
-    const auto& georeference = surface.heightfield().georeference;
+HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene, bool by_rays) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const auto& georeference = terrain.surface->heightfield().georeference;
     if (!georeference) {
         return hits;
     }
-    const geo::WrappedRows& rows = georeference->geodetic.rows();
+    const bool of_tiles =
+        terrain.stream != nullptr && (by_rays || scene::draws_tiles(terrain.material.technique));
+    const geo::WrappedRows& rows =
+        of_tiles ? terrain.stream->maker().rows() : georeference->geodetic.rows();
     for (Hit& hit : hits.samples()) {
         if (!hit.is_sky()) {
             const glm::dvec2 place = hit.place();

@@ -95,8 +95,9 @@ private:
 };
 
 /// Counts rows as the source does. A pole row of a closed globe is none of its rows: between the
-/// first row and the north pole, rows are negative. Columns stay.
-HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene);
+/// first row and the north pole, rows are negative. Columns stay. `by_rays`: the hits of
+/// TruthFrames.
+HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene, bool by_rays);
 
 enum class Underground { lifted, allowed };
 

@@ -119,7 +119,8 @@ TEST_F(GlobeFile, has_no_hole_in_the_exact_picture) {
 
 // The row of a latitude in the file, whose first row is half a step from the pole.
 TEST_F(GlobeFile, rows_of_hits_are_those_of_the_file) {
-    for (const std::vector<std::string>& way : {std::vector<std::string>{}, {"--truth"}}) {
+    for (const std::vector<std::string>& way :
+         {std::vector<std::string>{}, {"--truth"}, {"--memory", "1"}}) {
         for (const double latitude : {40.0, -60.0, 89.5, -89.5}) {
             const HitBuffer hits = hits_of(fmt::format("{},20,5000,0,-90", latitude), way);
             ASSERT_FALSE(hits.empty());
