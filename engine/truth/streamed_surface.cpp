@@ -134,7 +134,7 @@ Result<StreamedSurface::Read> StreamedSurface::read(glm::ivec2 at,
         return content.error();
     }
     const glm::ivec2 cells = builder.tree().cells(tile);
-    Read read{std::make_unique<Loaded>(), std::move(content->notes)};
+    Read read{std::make_shared<Loaded>(), std::move(content->notes)};
     Grid<float>& heights = read.loaded->heights;
     heights = Grid<float>(cells.x + 1, cells.y + 1);
     for (int row = 0; row <= cells.y; ++row) {
@@ -186,7 +186,7 @@ Result<void> StreamedSurface::load(std::span<const glm::ivec2> tiles,
     return {};
 }
 
-void StreamedSurface::keep(glm::ivec2 at, std::unique_ptr<Loaded> loaded) {
+void StreamedSurface::keep(glm::ivec2 at, std::shared_ptr<const Loaded> loaded) {
     const std::uint64_t key = key_of(at);
     if (ranges_.size() >= max_ranges_) {
         ranges_.clear();

@@ -63,18 +63,18 @@ private:
         terrain::SurfaceTile tile;
     };
     struct Read {
-        std::unique_ptr<Loaded> loaded;
+        std::shared_ptr<Loaded> loaded;
         std::vector<std::string> notes;
     };
     [[nodiscard]] Result<Read> read(glm::ivec2 at, const std::stop_token& stop) const;
-    void keep(glm::ivec2 at, std::unique_ptr<Loaded> loaded);
+    void keep(glm::ivec2 at, std::shared_ptr<const Loaded> loaded);
 
     std::shared_ptr<scene::TileStream> stream_;
     glm::ivec2 last_;
     std::size_t max_tiles_;
     std::size_t max_load_;
     std::size_t max_ranges_;
-    std::unordered_map<std::uint64_t, std::unique_ptr<const Loaded>> tiles_;
+    std::unordered_map<std::uint64_t, std::shared_ptr<const Loaded>> tiles_;
     std::deque<std::uint64_t> order_; // the oldest first
     std::unordered_map<std::uint64_t, terrain::MinMax> ranges_;
     StreamedSurfaceStats stats_;

@@ -42,6 +42,19 @@ Result<TerrainInWorld> only_terrain(const scene::Scene& scene) {
 constexpr std::size_t bytes_per_shaded_ray =
     sizeof(glm::vec3) + sizeof(std::optional<terrain::SurfaceHit>) + 2 * sizeof(std::uint32_t);
 
+// The first ray of a pixel goes through its centre; more than one per side follow.
+std::size_t places_per_pixel(int rays_per_side) {
+    const auto n = static_cast<std::size_t>(rays_per_side);
+    return n > 1 ? 1 + n * n : 1;
+}
+
+void add_places(glm::ivec2 pixel, int rays_per_side, std::vector<glm::dvec2>& places) {
+    places.push_back(glm::dvec2(pixel) + 0.5);
+    for (std::size_t ray = 1; ray < places_per_pixel(rays_per_side); ++ray) {
+        places.push_back(place_in_pixel(pixel, rays_per_side, static_cast<int>(ray - 1)));
+    }
+}
+
 } // namespace
 
 struct StreamedTruth::TileHits {
@@ -111,6 +124,7 @@ StreamedTruth::hits_by_tile(const scene::TileBuilder& builder,
         }
     }
     std::vector<TileHits> list;
+    list.reserve(tiles.size());
     for (auto& [place, of_tile] : tiles) {
         list.push_back(std::move(of_tile));
     }
@@ -198,15 +212,13 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
     return {};
 }
 
-// Calls `use(pixel, batch, index of the pixel's first ray)`. The first ray of a pixel goes through
-// its centre; more than one per side follow.
+// Calls `use(pixel, batch, index of the pixel's first ray)`.
 template <class Use>
 Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int rays_per_side,
                                            bool has_colors, const ParallelOptions& parallel,
                                            const Use& use) {
     check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
-    const int more = rays_per_side > 1 ? rays_per_side * rays_per_side : 0;
-    const std::size_t per_pixel = 1 + static_cast<std::size_t>(more);
+    const std::size_t per_pixel = places_per_pixel(rays_per_side);
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     const std::size_t per_batch = std::max<std::size_t>(1, rays_per_batch_ / per_pixel);
     // Down the columns: the pixels of a column show the same tiles, near to far.
@@ -219,11 +231,7 @@ Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int 
         Batch batch;
         batch.places.reserve((end - first) * per_pixel);
         for (std::size_t i = first; i < end; ++i) {
-            const glm::ivec2 pixel = pixel_at(i);
-            batch.places.push_back(glm::dvec2(pixel) + 0.5);
-            for (int ray = 0; ray < more; ++ray) {
-                batch.places.push_back(place_in_pixel(pixel, rays_per_side, ray));
-            }
+            add_places(pixel_at(i), rays_per_side, batch.places);
         }
         const auto progress = [&](double part) {
             const double done =
@@ -255,7 +263,8 @@ Result<Picture> StreamedTruth::draw(const scene::Camera& camera, glm::ivec2 size
         const auto colors = std::span(batch.colors).subspan(first);
         glm::vec3 color = colors[0];
         if (n > 1) {
-            const auto more = colors.subspan(1, static_cast<std::size_t>(n * n));
+            const auto more =
+                colors.subspan(1, static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
             color = std::accumulate(more.begin(), more.end(), glm::vec3(0.0F)) /
                     static_cast<float>(n * n);
         }

@@ -97,6 +97,21 @@ BoundsBelow bounds_below(const TiledSurface& surface, const Box& box) {
     return below;
 }
 
+// Empty if it would be off the ray, or if the map has no such places.
+template <class PlaceAt>
+std::optional<Quartic> quartic_over(const std::array<RayPlace, 5>& places,
+                                    const PlaceAt& place_at) {
+    if (!std::all_of(places.begin(), places.end(),
+                     [](const RayPlace& place) { return place.sample.has_value(); })) {
+        return std::nullopt;
+    }
+    const Quartic quartic(places);
+    // The error is largest near the ends.
+    const bool fits = quartic.meets(place_at(middle_of(places[0], places[1]))) &&
+                      quartic.meets(place_at(middle_of(places[3], places[4])));
+    return fits ? std::optional(quartic) : std::nullopt;
+}
+
 } // namespace
 
 Quartic::Quartic(const std::array<RayPlace, 5>& places)
@@ -205,19 +220,14 @@ void SurfaceRay::search(const RayPlace& from, const RayPlace& halfway, const Ray
     }
     const RayPlace before = place_at(middle_of(from, halfway));
     const RayPlace after = place_at(middle_of(halfway, to));
-    if (mapped && before.sample && after.sample) {
-        const Quartic quartic({from, before, halfway, after, to});
-        // The error is largest near the ends.
-        if (quartic.meets(place_at(middle_of(from, before))) &&
-            quartic.meets(place_at(middle_of(after, to)))) {
-            span_.emplace(Span{quartic, from, to, halvings});
-            search_span(from, to, halvings);
-            if (!is_done()) {
-                t_ = to.t;
-                span_.reset();
-            }
-            return;
-        }
+    const auto quartic =
+        quartic_over({from, before, halfway, after, to}, [this](double t) { return place_at(t); });
+    if (quartic) {
+        span_.emplace(Span{*quartic, from, to, halvings});
+        search_span(from, to, halvings);
+        t_ = is_done() ? t_ : to.t;
+        span_ = is_done() ? span_ : std::nullopt;
+        return;
     }
     search(from, before, halfway, halvings - 1);
     if (!is_done()) {
