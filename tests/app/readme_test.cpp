@@ -97,7 +97,7 @@ TEST(Readme, every_command_works) {
             line += " --size 160x120"; // what it draws is tested elsewhere
         }
         if (line.rfind("reljef-bench tables", 0) == 0) {
-            line += " --size 160x120 --rounds 2";
+            line += " --size 160x120 --rounds 2 --technique polygons --technique relief";
         }
         const auto result = test::run_program("/bin/sh", {"-c", line}, options);
         EXPECT_EQ(result.exit_code, 0) << line << '\n' << result.err;
