@@ -39,11 +39,6 @@ void set_culling(Culling culling) {
     enable(GL_CULL_FACE, culling != Culling::none);
 }
 
-void set_viewport(glm::ivec2 size, int times) {
-    const glm::ivec2 first = -(times / 2) * size;
-    glViewport(first.x, first.y, times * size.x, times * size.y);
-}
-
 void set_polygon_mode(PolygonMode mode) {
     glPolygonMode(GL_FRONT_AND_BACK, mode == PolygonMode::line ? GL_LINE : GL_FILL);
 }

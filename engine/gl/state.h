@@ -1,7 +1,5 @@
 #pragma once
 
-#include <glm/vec2.hpp>
-
 namespace reljef::gl {
 
 /// With reversed depth the nearer fragment has the greater depth.
@@ -17,9 +15,6 @@ void set_depth_test(DepthTest test);
 void set_depth_writing(bool on);
 /// Front faces are counter-clockwise on the screen.
 void set_culling(Culling culling);
-/// `times` (odd) as wide and high as the picture of `size` pixels, with the same middle. Triangles
-/// are cut at its border.
-void set_viewport(glm::ivec2 size, int times);
 void set_polygon_mode(PolygonMode mode);
 /// Runs the fragment shader once per sample, with its inputs at the sample, instead of once per
 /// pixel. No effect on a target with one sample per pixel.

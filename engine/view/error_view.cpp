@@ -91,7 +91,6 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);
     view.lateral_axes = lateral * axes;
     view.lateral_origin = lateral * offset;
-    view.eye = glm::inverse(axes) * -offset;
     return view;
 }
 

@@ -3,21 +3,15 @@
 #include "frame/fragment.glsl"
 #include "frame/distance.glsl"
 
-#include "terrain/place_by_ray.glsl"
-#ifdef PLACE_BY_RAY
-in vec2 place_beside_ray;
-
-uniform vec4 eye_sample;     // xy: col, row; zw: to be added
-uniform mat3 place_from_ray; // change of col, row along the ray per metre of depth, from gl_FragCoord
-#else
 in vec2 tile_place;
-
-uniform vec2 tile_sample; // col, row of the tile's first sample
-#endif
 #ifdef HIT
+in vec2 place_from_eye;
 in vec2 height_and_depth;
+
+uniform vec4 eye_sample; // xy: col, row; zw: to be added
 #endif
 
+uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
 layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
@@ -28,17 +22,7 @@ layout(binding = warped_places_unit) uniform sampler2D warped_places;
 
 #include "frame/output.glsl"
 
-#ifdef PLACE_BY_RAY
-// Samples from the eye. Floats interpolate pixels beside the truth over a triangle that is seen edge-on, because
-// values change by all of its length within a fraction of a pixel. A wrong depth on the right ray stays in the
-// plane of such a triangle. What the vertex grid moved is taken back, else the place is off by it times the
-// slope.
-vec2 place_from_eye() {
-    return place_beside_ray + (place_from_ray * vec3(gl_FragCoord.xy, 1.0)).xy / gl_FragCoord.w;
-}
-#endif
-
-#if defined(HIT) && defined(PLACE_BY_RAY)
+#if defined(HIT) && !defined(WARPED)
 // eye_sample plus `offset` as two floats (Knuth's two-sum).
 void write_place(vec2 offset) {
     precise vec2 sum = eye_sample.xy + offset;
@@ -52,12 +36,7 @@ void write_place(vec2 offset) {
 #endif
 
 void main() {
-#ifdef PLACE_BY_RAY
-    vec2 from_eye = place_from_eye();
-    vec2 place = eye_sample.xy + from_eye;
-#else
     vec2 place = tile_sample + INSIDE(tile_place);
-#endif
 #ifdef WARPED
     vec2 coordinate = (tile_sample + tile_place) * lit_from_sample.xy;
     vec2 across = dFdx(coordinate);
@@ -73,7 +52,7 @@ void main() {
     hit = vec4(seen, height_and_depth.y);
     hit_low = vec2(0.0);
 #elif defined(HIT)
-    write_place(from_eye);
+    write_place(place_from_eye);
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;

@@ -13,15 +13,10 @@ uniform vec3 eye_rest; // local metres, to be added
 uniform mat3 world_from_local;
 
 out vec2 tile_place; // samples from the tile's first
-#include "terrain/place_by_ray.glsl"
-#ifdef PLACE_BY_RAY
-uniform vec4 eye_in_tile;      // xy: samples from the tile's first; zw: to be added
-uniform mat3 place_from_local; // change of col, row per local metre at the eye
-uniform mat3 place_from_ray;   // see terrain.frag
-
-out vec2 place_beside_ray; // samples
-#endif
 #ifdef HIT
+uniform vec4 eye_in_tile; // xy: samples from the tile's first; zw: to be added
+
+out vec2 place_from_eye;   // samples
 out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
@@ -57,15 +52,9 @@ void main() {
     one = vertex_grid.z;
 #endif
 #ifdef HIT
+    precise vec2 from_eye_sample = (place - eye_in_tile.xy) - eye_in_tile.zw;
+    place_from_eye = from_eye_sample;
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));
 #endif
-    vec4 clip = clip_from_relative * vec4(relative, 1.0);
-    vec4 snapped = on_vertex_grid(clip);
-    gl_Position = vec4(snapped.xy / vertex_grid.w, snapped.zw);
-#ifdef PLACE_BY_RAY
-    precise vec2 from_eye_sample = (place - eye_in_tile.xy) - eye_in_tile.zw;
-    vec2 moved = (snapped.xy - clip.xy) * (vertex_grid.xy / 256.0); // pixels times depth
-    place_beside_ray = from_eye_sample - (place_from_local * from_eye).xy -
-                       (place_from_ray * vec3(moved, 0.0)).xy;
-#endif
+    gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));
 }

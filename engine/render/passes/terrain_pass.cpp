@@ -27,33 +27,6 @@ glm::dvec2 first_of(const view::TileSurface& surface) {
     return surface.placement.on_terrain(glm::dvec2(surface.samples.col, surface.samples.row));
 }
 
-// Columns and rows of places, from the eye.
-struct PlacesFromEye {
-    glm::dvec2 eye{0.0};      // col, row
-    glm::dmat3 by_metre{0.0}; // change of col, row per local metre, at the eye
-};
-
-// Empty if the eye is above no place of the map.
-std::optional<PlacesFromEye> places_from_eye(const terrain::Heightfield& heightfield,
-                                             const terrain::Placement& placement, glm::dvec3 eye) {
-    const auto at = placement.sample_from_world(eye);
-    if (!at) {
-        return std::nullopt;
-    }
-    PlacesFromEye places{glm::dvec2(*at)};
-    const double step = heightfield.spacing.x;
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 beside = eye;
-        beside[axis] += step;
-        const auto sample = placement.sample_from_world(beside);
-        if (!sample) {
-            return std::nullopt;
-        }
-        places.by_metre[axis] = glm::dvec3(glm::dvec2(*sample - *at) / step, 0.0);
-    }
-    return places;
-}
-
 void bind_ground(gl::Program& program, const ResidentGround& ground) {
     ground.albedo.bind(bindings::albedo_map_unit);
     ground.surface.bind(bindings::ground_map_unit);
@@ -65,11 +38,7 @@ class TerrainPass {
 public:
     explicit TerrainPass(const FrameContext& frame) : frame_(frame), state_(frame.state) {
         state_.set_culling(gl::Culling::back);
-        gl::set_viewport(frame.picture.size(), guard_factor(frame.picture.size()));
     }
-    ~TerrainPass() { gl::set_viewport(frame_.picture.size(), 1); }
-    TerrainPass(const TerrainPass&) = delete;
-    TerrainPass& operator=(const TerrainPass&) = delete;
 
     // The tile with this index in the list.
     Result<void> draw(std::size_t index) {
@@ -168,29 +137,20 @@ private:
         program_->set(uniforms.eye_rest, eye.rest);
         program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
         program_->set(uniforms.tile_sample, first_sample(draw));
-        set_places_from_eye(draw, world_from_local);
+        if (frame_.hits) {
+            set_eye_sample(draw, world_from_local);
+        }
     }
 
-    // Places are relative to the eye, because floats are precise near 0. Those of loaded tiles are
-    // relative to the tile.
-    void set_places_from_eye(const view::TileDraw& draw, const glm::dmat4& world_from_local) {
-        glm::dvec2 first(first_sample(draw));
-        PlacesFromEye places{first};
-        if (draw.tile->borrows) {
-            places = places_from_eye(draw.terrain->surface->heightfield(),
-                                     draw.terrain->surface->placement(),
-                                     local_eye(frame_.list.camera, world_from_local))
-                         .value_or(places);
-        }
-        program_->set(uniforms.eye_sample, split_place(places.eye));
-        program_->set(uniforms.eye_in_tile, split_place(places.eye - first));
-        if (!is_perspective(frame_.list.camera)) {
-            places.by_metre = glm::dmat3(0.0);
-        }
-        program_->set(uniforms.place_from_local, glm::mat3(places.by_metre));
-        program_->set(uniforms.place_from_ray,
-                      glm::mat3(places.by_metre * glm::inverse(glm::dmat3(world_from_local)) *
-                                relative_from_pixel(frame_.list.camera, frame_.list.size)));
+    // Hits are relative to the eye, because floats are precise near 0.
+    void set_eye_sample(const view::TileDraw& draw, const glm::dmat4& world_from_local) {
+        const view::TileSurface surface = view::surface_of(draw);
+        const glm::dvec2 first = first_of(surface);
+        const auto eye =
+            surface.placement.sample_from_world(local_eye(frame_.list.camera, world_from_local));
+        const glm::dvec2 origin = eye ? surface.placement.on_terrain(glm::dvec2(*eye)) : first;
+        program_->set(uniforms.eye_sample, split_place(origin));
+        program_->set(uniforms.eye_in_tile, split_place(origin - first));
     }
 
     // What the shader adds to a vertex's place: own maps begin at the tile.

@@ -28,8 +28,7 @@ FrameBlock frame_block(const view::DrawList& list) {
     block.clip_from_relative = glm::mat4(scene::clip_from_view(list.camera, list.size) *
                                          scene::view_from_world_rotation(list.camera));
     block.view_forward = glm::vec4(glm::vec3(scene::view_axes(list.camera).forward), 0.0F);
-    block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 1.0F,
-                                  static_cast<float>(guard_factor(list.size)));
+    block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 1.0F, 0.0F);
     block.projection =
         glm::vec4(is_perspective(list.camera) ? 1.0F : 0.0F, static_cast<float>(list.camera.near),
                   view::metres_a_pixel(list.camera, list.size));

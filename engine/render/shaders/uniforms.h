@@ -20,8 +20,6 @@ struct Uniforms {
     gl::Uniform<glm::vec2> tile_sample{"tile_sample"};
     gl::Uniform<glm::vec4> eye_in_tile{"eye_in_tile"};
     gl::Uniform<glm::vec4> eye_sample{"eye_sample"};
-    gl::Uniform<glm::mat3> place_from_local{"place_from_local"};
-    gl::Uniform<glm::mat3> place_from_ray{"place_from_ray"};
     gl::Uniform<glm::vec4> lit_from_sample{"lit_from_sample"}; // relief.frag too
     // With a detail texture: ground.glsl, ground_color.glsl.
     gl::Uniform<glm::vec4> ground_from_sample{"ground_from_sample"};

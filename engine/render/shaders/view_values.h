@@ -17,14 +17,6 @@ bool is_perspective(const scene::Camera& camera);
 /// The view ray at depth 1 is gl_FragCoord · xy + zw. `size` in pixels.
 glm::vec4 ray_from_pixel(const scene::Camera& camera, glm::ivec2 size);
 
-/// Sides of the viewport of terrains, in sides of the picture. A cut triangle has vertices off the
-/// vertex grid, so its pixels show places beside it; in a larger viewport few are cut. Odd: both
-/// have the same middle.
-int guard_factor(glm::ivec2 size);
-
-/// In perspective: the view ray at depth 1, world axes, from (gl_FragCoord.xy, 1).
-glm::dmat3 relative_from_pixel(const scene::Camera& camera, glm::ivec2 size);
-
 glm::dvec3 local_eye(const scene::Camera& camera, const glm::dmat4& world_from_local);
 
 /// From the local frame to world axes with the eye as origin.

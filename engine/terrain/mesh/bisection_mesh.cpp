@@ -114,17 +114,6 @@ double depth_of(const ErrorView& view, const Split& split) {
     return glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
 }
 
-// Whether visible triangles may reach nearer to the eye than a sixteenth of their largest distance.
-// Coordinates from the eye are floats, 2^-21 of that distance off after two transforms. A sixteenth
-// makes that f / 2^17 pixels with f pixels per radian, which rasterizer_error holds up to f = 400;
-// at f = 2000 it is 0.015 pixels.
-bool is_too_long(const ErrorView& view, const Split& split, double depth) {
-    constexpr double max_ratio = 16.0;
-    const double room = max_ratio * depth - view.stretch * split.radius;
-    const glm::dvec3 away = view.stretch * (split.center - view.eye);
-    return room < 0.0 || room * room < glm::dot(away, away);
-}
-
 // Whether the screen-space error of a visible split may exceed the bound. Precondition: its error
 // is finite.
 bool exceeds_bound(const ErrorView& view, const Split& split) {
@@ -136,9 +125,8 @@ bool exceeds_bound(const ErrorView& view, const Split& split) {
     // scaled * (lateral + reach) > max_error * depth², without a root.
     const double room = view.max_error * depth * depth - scaled * (view.stretch * split.radius);
     const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
-    return depth <= 0.0 || room < 0.0 ||
-           scaled * scaled * glm::dot(lateral, lateral) > room * room ||
-           is_too_long(view, split, depth);
+    return split.error > 0.0 && (depth <= 0.0 || room < 0.0 ||
+                                 scaled * scaled * glm::dot(lateral, lateral) > room * room);
 }
 
 // Screen-space error over max_error. Precondition: visible, with a finite error.

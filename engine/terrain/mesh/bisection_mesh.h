@@ -23,7 +23,6 @@ struct ErrorView {
     bool perspective = true;
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
-    glm::dvec3 eye{0.0};               ///< perspective only
     glm::dmat3 lateral_axes{1.0};      ///< the lateral distance is |lateral_axes · p + origin|
     glm::dvec3 lateral_origin{0.0};
     double stretch = 1.0; ///< metres of depth and lateral distance per metre of the scene frame

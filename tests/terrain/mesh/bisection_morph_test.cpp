@@ -35,7 +35,6 @@ ErrorView view_around(glm::dvec3 eye) {
     view.scale = 300.0;
     view.depth = {0.0, 0.0, -1.0, eye.z};
     view.lateral_origin = -eye;
-    view.eye = eye;
     view.lateral_axes[2][2] = 0.0;
     return view;
 }

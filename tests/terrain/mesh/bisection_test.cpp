@@ -93,7 +93,6 @@ ErrorView random_view(test::Chance& chance, const Heightfield& heightfield) {
         view.scale = 700.0;
         view.depth = glm::dvec4(forward, -glm::dot(forward, eye));
         view.lateral_origin = -eye;
-        view.eye = eye;
         view.sides[4] = view.depth;
     }
     return view;
