@@ -9,7 +9,7 @@
 
 namespace reljef::view {
 
-/// The samples that a tile shows, and where they lie.
+/// The samples that a tile shows, and their places.
 struct TileSurface {
     const terrain::Heightfield& heightfield;
     const terrain::Placement& placement;

@@ -312,9 +312,12 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
     if (placement.kind() == PlacementKind::plane) {
         return {glm::length(heightfield.spacing), 0.0, 0.0};
     }
-    const glm::dvec2 step =
-        glm::dvec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1) /
-        static_cast<double>(lattice);
+    // Shorter last cells bend less than the others.
+    const glm::ivec2 equal_cells =
+        placement.lattice() != nullptr
+            ? glm::max(placement.lattice()->shorter_from(), 1)
+            : glm::ivec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    const glm::dvec2 step = glm::dvec2(equal_cells) / static_cast<double>(lattice);
     Derivatives bound;
     for (int j = 0; j <= lattice - 2; ++j) {
         for (int i = 0; i <= lattice - 2; ++i) {

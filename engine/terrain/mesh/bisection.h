@@ -82,6 +82,8 @@ public:
     /// file makes them others for each content. Meaningless after a stop request.
     [[nodiscard]] bool is_valid(std::uint32_t seed, const ParallelOptions& parallel = {}) const;
 
+    /// Whether the ground is curved.
+    [[nodiscard]] bool bends() const { return bending_.curvature > 0.0; }
     /// Last sample, steps.
     [[nodiscard]] Steps end() const { return end_; }
 

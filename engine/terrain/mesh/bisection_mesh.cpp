@@ -176,10 +176,16 @@ private:
     std::unordered_map<std::uint64_t, VertexMove> moves_;
 };
 
+// Steps: the middle of the smallest square is a step. On the ellipsoid the bounds inside a cell are
+// those of the whole heightfield: near a pole they would cut millions of triangles.
+constexpr int min_size_plane = 2;
+constexpr int min_size_bent = steps_per_sample / 32;
+
 class TileBisector {
 public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
         : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
+          min_size_(bisection.bends() ? min_size_bent : min_size_plane),
           morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
@@ -265,8 +271,7 @@ private:
     }
 
     [[nodiscard]] Choice choice_at(Steps middle, SplitKind kind, bool is_seen) {
-        constexpr int min_size = 2; // steps: their middle is a step
-        if (kind.size < min_size) {
+        if (kind.size < min_size_) {
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {
@@ -303,6 +308,7 @@ private:
     const ErrorView& morphed_;
     ErrorView view_; // its max_error is the error where morphing begins
     bool morphs_;
+    int min_size_; // steps
     MorphedVertices morphed_vertices_;
     glm::ivec2 first_;        // sample of the tile
     bool is_whole_;           // the tile has tile_cells cells on each side
