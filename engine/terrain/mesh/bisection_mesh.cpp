@@ -178,7 +178,7 @@ private:
 
 // Steps: the middle of the smallest square is a step. On the ellipsoid the bounds inside a cell are
 // those of the whole heightfield: near a pole they would cut millions of triangles.
-constexpr int min_size_plane = 2;
+constexpr int min_size_plane = steps_per_sample / 2048;
 constexpr int min_size_bent = steps_per_sample / 32;
 
 class TileBisector {
