@@ -39,8 +39,8 @@ struct TileDraw {
     DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
     bool flat = false;                      ///< the reference surface instead of its heights
     bool coarse = false;                    ///< with fewer triangles than its samples have
-    bool is_hidden = false; ///< behind nearer ground
-    double error = 0.0;     ///< estimated error of its vertices, pixels
+    bool is_hidden = false;                 ///< behind nearer ground
+    double error = 0.0;                     ///< estimated error of its vertices, pixels
 };
 
 /// A terrain whose tiles need not have a vertex at every sample.

@@ -62,6 +62,14 @@ TerrainMeshes::TileBisection::TileBisection(std::shared_ptr<const scene::Terrain
     : tile(std::move(of)),
       bisection(tile->heightfield, *tile->placement, {.threads = 1, .stop = {}, .progress = {}}) {}
 
+const terrain::Bisection&
+TerrainMeshes::Entry::own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile) {
+    if (bisection == nullptr) {
+        bisection = std::make_unique<const TileBisection>(tile);
+    }
+    return bisection->bisection;
+}
+
 TerrainMeshes::Key TerrainMeshes::key_of(const view::TileDraw& draw) {
     if (!draw.tile->borrows) {
         return {draw.terrain->stream.get(), draw.flat, draw.coarse, nullptr, std::nullopt};
@@ -225,13 +233,10 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
     parallel_for(static_cast<int>(outdated.size()), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
         const auto& [draw, entry, skirt] = outdated[at];
-        if (by_error && shared == nullptr && entry->bisection == nullptr) {
-            entry->bisection = std::make_unique<const TileBisection>(draw->tile);
-        }
-        const auto* const own = entry->bisection ? &entry->bisection->bisection : nullptr;
-        cuts[at] =
-            view::cut_tile(coarseness, view::surface_of(*draw),
-                           {shared != nullptr ? shared : own, draw->error, skirt}, entry->last);
+        const terrain::Bisection* const bisection =
+            by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
+        cuts[at] = view::cut_tile(coarseness, view::surface_of(*draw),
+                                  {bisection, draw->error, skirt}, entry->last);
     });
     for (std::size_t i = 0; i < outdated.size(); ++i) {
         const auto& [draw, entry, skirt] = outdated[i];

@@ -46,6 +46,9 @@ private:
         double error = 0.0;        // of the vertices, pixels
         view::CutMesh last;
         std::unique_ptr<const TileBisection> bisection; // of a loaded tile
+
+        const terrain::Bisection&
+        own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile);
     };
     // Tiles of one terrain that are drawn alike.
     struct Group {
