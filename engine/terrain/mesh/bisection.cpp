@@ -267,7 +267,7 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
       is_regular_(placement.kind() == PlacementKind::plane && placement.lattice() == nullptr),
       middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
       metres_(heightfield.spacing, placement.exaggeration()),
-      bending_(bending_of(heightfield, placement)) {
+      bending_(bending_of(heightfield, placement)), min_size_(min_size_for(heightfield)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
     const glm::ivec2 samples(heights_.cols(), heights_.rows());
     for (std::size_t level = 0; level < levels; ++level) {
@@ -327,6 +327,20 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
         }
     }
     return {first_margin * bound.first, second_margin * bound.second, first_margin * bound.turn};
+}
+
+// On the ellipsoid the bounds inside a cell are those of the whole heightfield: near a pole finer
+// squares would cut millions of triangles. Floats from the eye hold 2^-24 of their length: of
+// ground that is 2^20 samples high, finer triangles would have lost their shape.
+int Bisection::min_size_for(const Heightfield& heightfield) const {
+    constexpr double max_height = 0x1p20; // samples
+    if (bending_.curvature > 0.0) {
+        return steps_per_sample / 32;
+    }
+    const double height = placement_->exaggeration() *
+                          (static_cast<double>(heightfield.range.high) - heightfield.range.low);
+    const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
+    return steps_per_sample / (height > max_height * spacing ? 64 : 2048);
 }
 
 void Bisection::store_positions(const ParallelOptions& parallel) {

@@ -82,8 +82,8 @@ public:
     /// file makes them others for each content. Meaningless after a stop request.
     [[nodiscard]] bool is_valid(std::uint32_t seed, const ParallelOptions& parallel = {}) const;
 
-    /// Whether the ground is curved.
-    [[nodiscard]] bool bends() const { return bending_.curvature > 0.0; }
+    /// Size of the smallest squares that are split, steps.
+    [[nodiscard]] int min_size() const { return min_size_; }
     /// Last sample, steps.
     [[nodiscard]] Steps end() const { return end_; }
 
@@ -137,6 +137,7 @@ private:
     static glm::ivec2 splits_in_middles(glm::ivec2 samples, std::size_t level);
     static glm::ivec2 splits_on_sides(glm::ivec2 samples, std::size_t level);
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
+    [[nodiscard]] int min_size_for(const Heightfield& heightfield) const;
     void store_positions(const ParallelOptions& parallel);
     [[nodiscard]] const StoredSplit& stored(glm::ivec2 sample, int size, bool on_side) const {
         const int shift = std::countr_zero(static_cast<unsigned>(size));
@@ -170,6 +171,7 @@ private:
     glm::dvec2 middle_{0.0}; // sample
     glm::dvec3 metres_{1.0}; // scene metres per sample, sample and metre
     Bending bending_;
+    int min_size_; // steps
     // Of squares of 1, 2, 4 … samples. A view reads neighbours, which lie side by side.
     static constexpr std::size_t levels = 8;
     std::array<Grid<StoredSplit>, levels> in_middles_; // (col, row) of the square

@@ -176,16 +176,10 @@ private:
     std::unordered_map<std::uint64_t, VertexMove> moves_;
 };
 
-// Steps: the middle of the smallest square is a step. On the ellipsoid the bounds inside a cell are
-// those of the whole heightfield: near a pole they would cut millions of triangles.
-constexpr int min_size_plane = steps_per_sample / 2048;
-constexpr int min_size_bent = steps_per_sample / 32;
-
 class TileBisector {
 public:
     TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
         : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
-          min_size_(bisection.bends() ? min_size_bent : min_size_plane),
           morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
@@ -271,7 +265,7 @@ private:
     }
 
     [[nodiscard]] Choice choice_at(Steps middle, SplitKind kind, bool is_seen) {
-        if (kind.size < min_size_) {
+        if (kind.size < bisection_.min_size()) {
             return {false, is_seen};
         }
         if (kind.size <= steps_per_sample) {
@@ -308,7 +302,6 @@ private:
     const ErrorView& morphed_;
     ErrorView view_; // its max_error is the error where morphing begins
     bool morphs_;
-    int min_size_; // steps
     MorphedVertices morphed_vertices_;
     glm::ivec2 first_;        // sample of the tile
     bool is_whole_;           // the tile has tile_cells cells on each side
