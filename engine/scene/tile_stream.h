@@ -18,6 +18,7 @@
 
 #include "engine/core/back_off.h"
 #include "engine/scene/streamed_tile.h"
+#include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::scene {
 
@@ -34,9 +35,13 @@ struct TileContent {
     std::vector<FileError> errors;         ///< one per file
     std::vector<FileError> picture_errors; ///< also of heights that the overview replaces
     bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
+    bool is_proven = false;                ///< TileStreamOptions::find_proof holds for the heights
     std::size_t bytes_read = 0;            ///< from files
     std::vector<std::string> notes;        ///< new ones: each once in the stream's life
 };
+
+/// What is proven of a tile; absent: nothing. Called from several threads.
+using TileProofFinder = std::function<std::optional<terrain::TileProof>(terrain::TreeTile)>;
 
 /// Reads a tile; called from several threads. May return early after a stop request.
 using TileContentReader = std::function<TileContent(terrain::TreeTile, std::stop_token)>;
@@ -47,6 +52,7 @@ struct TileStreamOptions {
     unsigned threads = 0; ///< 0: as many as the machine has
     /// As the stream's reader, without pictures; empty: that reader.
     TileContentReader read_heights = {};
+    TileProofFinder find_proof = {}; ///< empty: no tile is proven
     /// Pause after the first failure of a file; each further pause is four times as long.
     std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };

@@ -25,7 +25,7 @@ using terrain::TreeTile;
 
 namespace {
 
-constexpr std::uint32_t index_version = 1; // increase when heights or errors change
+constexpr std::uint32_t index_version = 2; // increase when heights or errors change
 
 struct IndexHeader {
     std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
@@ -44,9 +44,10 @@ struct ProofRecord {
     float low = 0.0F;
     float high = 0.0F;
     float error = 0.0F;
+    std::uint32_t has_voids = 0;
     std::uint32_t seal = 0; // 0: not written
 };
-static_assert(sizeof(ProofRecord) == 16 && std::is_trivially_copyable_v<ProofRecord>);
+static_assert(sizeof(ProofRecord) == 20 && std::is_trivially_copyable_v<ProofRecord>);
 
 constexpr int side_of_heights = tile_cells + 3;
 constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
@@ -66,6 +67,7 @@ std::uint32_t seal_of(const ProofRecord& record, TreeTile tile, std::uint64_t so
     for (const float value : {record.low, record.high, record.error}) {
         hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
     }
+    hash = sealed(hash, record.has_voids);
     for (const int value : {tile.level, tile.col, tile.row}) {
         hash = sealed(hash, static_cast<std::uint32_t>(value));
     }
@@ -299,7 +301,8 @@ std::optional<TileProof> ErrorIndex::find(TreeTile tile) const {
     ProofRecord record;
     const bool found = read_at(proof_at(tile), std::as_writable_bytes(std::span(&record, 1)));
     return found && record.seal == seal_of(record, tile, fingerprint_)
-               ? std::optional(TileProof{record.low, record.high, record.error})
+               ? std::optional(
+                     TileProof{record.low, record.high, record.error, record.has_voids != 0})
                : std::nullopt;
 }
 
@@ -345,7 +348,7 @@ Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<Ti
         for (int col = 0; col < tiles.cols(); ++col) {
             const TileProof& proof = tiles(col, row);
             ProofRecord& record = records[static_cast<std::size_t>(col)];
-            record = {proof.low, proof.high, proof.error, 0};
+            record = {proof.low, proof.high, proof.error, proof.has_voids ? 1U : 0U, 0};
             record.seal = seal_of(record, {level, first.x + col, first.y + row}, fingerprint_);
         }
         if (auto written = write_at(proof_at({level, first.x, first.y + row}),

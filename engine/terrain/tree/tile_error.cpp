@@ -26,7 +26,7 @@ class BaseRanges {
 public:
     BaseRanges(glm::ivec2 tiles, int cols)
         : tiles_(tiles.x, tiles.y), low_(static_cast<std::size_t>(cols), infinite),
-          high_(low_.size(), -infinite) {}
+          high_(low_.size(), -infinite), voids_(low_.size(), 0.0F) {}
 
     /// Rows in order, with the chunk's border.
     void add(int row, std::span<const float> heights, bool is_last) {
@@ -45,9 +45,11 @@ private:
         const float* const more = heights.data();
         float* __restrict const low = low_.data();
         float* __restrict const high = high_.data();
+        float* __restrict const voids = voids_.data();
         for (std::size_t i = 0; i < heights.size(); ++i) {
             low[i] = lower(low[i], more[i]);
             high[i] = higher(high[i], more[i]);
+            voids[i] = more[i] == more[i] ? voids[i] : 1.0F; // NaN: void
         }
     }
     /// Ends a row of tiles; rows outside the chunk have none.
@@ -60,6 +62,7 @@ private:
             for (std::size_t i = first; i < end; ++i) {
                 tile.low = lower(tile.low, low_[i]);
                 tile.high = higher(tile.high, high_[i]);
+                tile.has_voids = tile.has_voids || voids_[i] > 0.0F;
             }
         }
         for (std::size_t i = 0; i < low_.size(); ++i) {
@@ -67,11 +70,13 @@ private:
         }
         std::fill(low_.begin(), low_.end(), infinite);
         std::fill(high_.begin(), high_.end(), -infinite);
+        std::fill(voids_.begin(), voids_.end(), 0.0F);
     }
 
     Grid<TileProof> tiles_;
     std::vector<float> low_; // of the vertices of a column, so far in a row of tiles
     std::vector<float> high_;
+    std::vector<float> voids_; // 1: there is one
     float largest_ = 0.0F;
 };
 
@@ -103,6 +108,7 @@ Grid<TileProof> tiles_of(const Grid<TileProof>& below, const Residuals& residual
             TileProof& tile = tiles(col / 2, row / 2);
             tile.low = lower(tile.low, below(col, row).low);
             tile.high = higher(tile.high, below(col, row).high);
+            tile.has_voids = tile.has_voids || below(col, row).has_voids;
         }
     }
     add_errors(residuals, tiles);
@@ -251,7 +257,9 @@ std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTi
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
             const float height = samples(col - first.x + border, row - first.y + border);
-            if (!std::isnan(height)) {
+            if (std::isnan(height)) {
+                found.has_voids = true;
+            } else {
                 const float difference = height - surface_at(tree, tile, heights, {col, row});
                 found.low = lower(found.low, height);
                 found.high = higher(found.high, height);
@@ -262,6 +270,10 @@ std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTi
     if (found.low != proof.low || found.high != proof.high) {
         return found.low != proof.low ? found_text("a lowest height", proof.low, found.low)
                                       : found_text("a highest height", proof.high, found.high);
+    }
+    if (found.has_voids != proof.has_voids) {
+        return proof.has_voids ? "voids found, none were expected"
+                               : "no voids found, some were expected";
     }
     const float rounding = rounding_per_level * higher(std::abs(found.low), std::abs(found.high));
     return found.error > proof.error + rounding

@@ -32,6 +32,8 @@ struct TileProof {
     float high = -std::numeric_limits<float>::infinity();
     /// No such sample is farther above or below the tile's bilinear surface.
     float error = 0.0F;
+    /// Whether there are voids. What fills them may be outside of the heights and the error.
+    bool has_voids = false;
 
     friend bool operator==(const TileProof&, const TileProof&) = default;
 };

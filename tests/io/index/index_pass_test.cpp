@@ -247,6 +247,7 @@ TEST_F(IndexPass, FindsNonsenseBehindValidChecksums) {
         EXPECT_TRUE(wrong({right.high, right.low, right.error}));
         EXPECT_TRUE(wrong({right.low, right.high, -1.0F}));
         EXPECT_TRUE(wrong({right.low, right.high, std::nanf("")}));
+        EXPECT_EQ(wrong({right.low, right.high, right.error, !right.has_voids}), level == 0);
     }
     auto index = ErrorIndex::open_to_write(terrain);
     ASSERT_TRUE(index);

@@ -184,7 +184,9 @@ TileProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& sa
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
             const float height = samples(col, row);
-            if (!std::isnan(height)) {
+            if (std::isnan(height)) {
+                proof.has_voids = true;
+            } else {
                 proof.low = std::min(proof.low, height);
                 proof.high = std::max(proof.high, height);
                 const double surface = surface_at(tree, level, tile.level, col, row);
@@ -236,6 +238,7 @@ std::vector<double> expect_proven(const Grid<float>& samples) {
             exact_proof(tree, tile, samples, proven.heights[static_cast<std::size_t>(tile.level)]);
         EXPECT_EQ(proof.low, exact.low);
         EXPECT_EQ(proof.high, exact.high);
+        EXPECT_EQ(proof.has_voids, exact.has_voids);
         EXPECT_GE(proof.error, exact.error) << tile.level << " " << tile.col << " " << tile.row;
         if (tile.level > 0 && exact.error > 0.0F) {
             ratios.push_back(static_cast<double>(proof.error) / exact.error);
