@@ -236,6 +236,37 @@ Box TileBuilder::bounds(terrain::TreeTile tile, terrain::HeightRange range) cons
     return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
 }
 
+TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProof& proof) const {
+    TileSummary summary;
+    summary.id = tile;
+    summary.range = {proof.low, proof.high};
+    if (proof.has_voids) {
+        const terrain::HeightRange filled = overview_range(tile);
+        summary.range.low = std::min(summary.range.low, filled.low);
+        summary.range.high = std::max(summary.range.high, filled.high);
+    }
+    summary.bounds =
+        bounds(tile, {summary.range.low - proof.error, summary.range.high + proof.error});
+    summary.error = overview_->placement().exaggeration() * proof.error;
+    const bool has_finer = imagery_.finest_pixel > 0.0 && tile.level > 0;
+    summary.coarse_texel = has_finer ? texel(tile.level) : 0.0;
+    summary.is_proven = true;
+    return summary;
+}
+
+// Of the overview's samples on a tile and around it: they fill its voids.
+terrain::HeightRange TileBuilder::overview_range(terrain::TreeTile tile) const {
+    const Grid<float>& heights = overview_->heightfield().heights;
+    const glm::ivec2 last_cell(heights.cols() - 2, heights.rows() - 2);
+    const auto cell = [&](glm::ivec2 vertex, int more) {
+        const glm::ivec2 at(glm::floor(on_overview(sample(tile, vertex))));
+        return glm::clamp(at + more, glm::ivec2(0), last_cell);
+    };
+    const terrain::MinMax filled =
+        overview_->pyramid().bounds(cell({0, 0}, -1), cell(tree_.cells(tile), 1));
+    return {filled.low, filled.high};
+}
+
 Grid<float> TileBuilder::overview_heights(terrain::TreeTile tile) const {
     const terrain::Heightfield& overview = overview_->heightfield();
     const int taps = std::max(1, static_cast<int>(step(tile) / reduction_.factor));

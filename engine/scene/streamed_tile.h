@@ -15,6 +15,7 @@
 #include "engine/scene/graph/terrain_tile.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/tint.h"
+#include "engine/terrain/tree/tile_error.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::scene {
@@ -104,6 +105,9 @@ public:
     /// tile and level.
     [[nodiscard]] float void_height(glm::dvec2 sample) const;
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
+    /// Of a tile with a proof, whether it was read or not; coarse_texel as if there were images.
+    [[nodiscard]] TileSummary summary(terrain::TreeTile tile,
+                                      const terrain::TileProof& proof) const;
     /// A vertex at another height, local metres.
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;
 
@@ -115,6 +119,7 @@ private:
                                       const Grid<float>& around, const Grid<std::uint8_t>& voids,
                                       bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
+    [[nodiscard]] terrain::HeightRange overview_range(terrain::TreeTile tile) const;
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;
     terrain::Reduction reduction_;

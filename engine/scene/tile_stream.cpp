@@ -74,8 +74,16 @@ std::optional<TileSummary> TileStream::recall(terrain::TreeTile tile) const {
     if (const auto found = tiles_.find(tile); found != tiles_.end()) {
         return *found->second.made.tile;
     }
-    const auto found = remembered_.find(tile);
-    return found != remembered_.end() ? std::optional(found->second) : std::nullopt;
+    if (const auto found = remembered_.find(tile); found != remembered_.end()) {
+        return found->second;
+    }
+    const auto proof = options_.find_proof ? options_.find_proof(tile) : std::nullopt;
+    if (!proof) {
+        return std::nullopt;
+    }
+    const TileSummary summary = maker_.summary(tile, *proof);
+    remember(summary);
+    return summary;
 }
 
 std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sample) const {
@@ -277,6 +285,13 @@ TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
     if (content.of_overview) {
         made.error = std::max(made.error, maker_.overview_error(tile));
     }
+    const auto proof =
+        content.is_proven && options_.find_proof ? options_.find_proof(tile) : std::nullopt;
+    if (proof) {
+        const double coarse_texel = made.coarse_texel;
+        static_cast<TileSummary&>(made) = maker_.summary(tile, *proof);
+        made.coarse_texel = coarse_texel;
+    }
     Made now{std::make_shared<const TerrainTile>(std::move(made)),
              texels_shown(content.picture.texels)};
     return before.tile == nullptr
@@ -393,7 +408,7 @@ void TileStream::evict() {
     }
 }
 
-void TileStream::remember(const TileSummary& tile) {
+void TileStream::remember(const TileSummary& tile) const {
     if (remembered_.insert_or_assign(tile.id, tile).second) {
         remembered_order_.push_back(tile.id);
     }

@@ -88,8 +88,8 @@ public:
 
     /// A loaded tile; null if it is not in memory.
     [[nodiscard]] std::shared_ptr<const TerrainTile> find(terrain::TreeTile tile) const;
-    /// Summary of a loaded or evicted tile. Avoids re-reading tiles that were rejected. Empty for
-    /// tiles that were evicted long ago.
+    /// Summary of a loaded, proven or evicted tile. Avoids re-reading tiles that were rejected.
+    /// Empty for unproven tiles that were evicted long ago.
     [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
     struct Found {
         std::shared_ptr<const TerrainTile> tile;
@@ -157,7 +157,7 @@ private:
     [[nodiscard]] std::vector<terrain::TreeTile>
     requests_for(std::span<const terrain::TreeTile> tiles) const;
     void evict();
-    void remember(const TileSummary& tile);
+    void remember(const TileSummary& tile) const;
     [[nodiscard]] bool is_settled() const;
     [[nodiscard]] bool has_failed_for_good(terrain::TreeTile tile) const;
 
@@ -168,9 +168,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable_any changed_;
     std::map<terrain::TreeTile, Entry> tiles_;
-    std::map<terrain::TreeTile, TileSummary> remembered_; // evicted tiles
-    std::deque<terrain::TreeTile> remembered_order_;      // the oldest first
-    std::vector<terrain::TreeTile> requested_;            // the most urgent first
+    mutable std::map<terrain::TreeTile, TileSummary> remembered_; // evicted or proven
+    mutable std::deque<terrain::TreeTile> remembered_order_;      // the oldest first
+    std::vector<terrain::TreeTile> requested_;                    // the most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
     std::map<std::string, BackOff> file_failures_; // shared by all tiles of a file

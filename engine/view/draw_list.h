@@ -40,7 +40,10 @@ struct TileDraw {
     bool flat = false;                      ///< the reference surface instead of its heights
     bool coarse = false;                    ///< with fewer triangles than its samples have
     bool is_hidden = false;                 ///< behind nearer ground
-    double error = 0.0;                     ///< estimated error of its vertices, pixels
+    /// Of the tile against all samples, pixels: a bound if it is proven, otherwise an estimate.
+    double error = 0.0;
+
+    [[nodiscard]] bool is_proven() const { return tile->borrows || tile->is_proven; }
 };
 
 /// A terrain whose tiles need not have a vertex at every sample.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
@@ -80,6 +82,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     view.stretch = max_stretch(axes);
     view.sides = frustum_sides(scene::clip_from_world(camera, size) * world_from_local);
     view.depth = glm::dvec4(glm::transpose(axes) * forward, glm::dot(forward, offset));
+    view.near = camera.near;
     const glm::dvec3 metre_up = axes[2];
     if (!view.perspective) {
         const double across = glm::length(metre_up - forward * glm::dot(forward, metre_up));
@@ -92,6 +95,47 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     view.lateral_axes = lateral * axes;
     view.lateral_origin = lateral * offset;
     return view;
+}
+
+PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
+                           const glm::dmat4& world_from_local, terrain::PlacementKind kind)
+    : view_(error_view(camera, size, world_from_local, kind, 1.0)),
+      world_from_local_(world_from_local), eye_(camera.eye), near_(camera.near),
+      is_vertical_(kind == terrain::PlacementKind::plane) {
+    const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
+    corner_angle_ = std::atan(half_height * glm::length(glm::dvec2(size)) / size.y);
+}
+
+// As above, with A and B in the box. A is visible, so that its depth is at least its distance times
+// the cosine of the corner's angle, and |D × A| is at most |D| Az over the cosine of its own angle.
+double PictureError::in_box(const Box& box, double error) const {
+    if (!view_.perspective || error == 0.0) {
+        return view_.scale * error;
+    }
+    const glm::dvec3 middle = box.center();
+    const glm::dvec3 half = 0.5 * box.size();
+    const glm::dvec3 forward(view_.depth);
+    const double depth_of_middle = glm::dot(forward, middle) + view_.depth.w;
+    const Box bounds = transformed(world_from_local_, box);
+    const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
+    const double depth = std::max({depth_of_middle - glm::dot(glm::abs(forward), half),
+                                   distance * std::cos(corner_angle_), near_});
+    const double depth_of_true_place = depth - view_.stretch * error;
+    if (!(depth_of_true_place > 0.0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double distance_of_middle = glm::distance(eye_, bounds.center());
+    const double radius = 0.5 * glm::length(bounds.size());
+    const double angle =
+        radius < distance_of_middle
+            ? std::acos(std::clamp(depth_of_middle / distance_of_middle, -1.0, 1.0)) +
+                  std::asin(radius / distance_of_middle)
+            : corner_angle_;
+    const double lateral =
+        glm::length(view_.lateral_axes * middle + view_.lateral_origin) +
+        view_.stretch * (is_vertical_ ? glm::length(glm::dvec2(half)) : glm::length(half));
+    return view_.scale * error / depth_of_true_place *
+           std::min(1.0 / std::cos(std::min(angle, corner_angle_)), lateral / depth);
 }
 
 std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,

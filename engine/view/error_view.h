@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
+#include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/terrain/field/horizon.h"
@@ -33,6 +34,27 @@ inline constexpr double morph_from = 0.5;
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
                               double max_error);
+
+/// How far errors of a terrain move the pixels that show it.
+class PictureError {
+public:
+    /// As error_view().
+    PictureError(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
+                 terrain::PlacementKind kind);
+
+    /// Upper bound for visible places in a box, pixels, without the rasterizer's error. Each place
+    /// is off by at most `error` scene metres along the vertical; the box (local metres) contains
+    /// what is drawn. Infinite if the box reaches the eye.
+    [[nodiscard]] double in_box(const Box& box, double error) const;
+
+private:
+    terrain::ErrorView view_;
+    glm::dmat4 world_from_local_;
+    glm::dvec3 eye_;
+    double near_;
+    double corner_angle_; // from the middle of the picture, radians
+    bool is_vertical_;
+};
 
 /// The view for a horizon in a terrain's local frame, if pixels may be off by `error` pixels. Empty
 /// for orthographic cameras, and if the transform changes angles or lengths.

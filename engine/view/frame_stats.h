@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 namespace reljef::view {
 
@@ -11,6 +12,10 @@ struct FrameStats {
     std::size_t triangles = 0;
     int tiles_missing = 0; ///< streamed tiles that are not loaded; coarser ones are drawn
     int tiles_cut = 0;     ///< tiles with new triangles
+    /// Drawn tiles whose error is an estimate; their pixels may be farther off than `kept_error`.
+    int tiles_unproven = 0;
+    /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound.
+    std::optional<double> kept_error;
     int draws = 0;         ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures, uniform blocks and modes set
     int uploads = 0;       ///< buffers and textures filled

@@ -143,6 +143,7 @@ private:
             draw.error = drawn.error;
             draw.is_hidden = is_hidden;
             draw.coarse = coarseness && !is_hidden;
+            list_.stats.tiles_unproven += draw.is_proven() ? 0 : 1;
             see(draw, drawn.distance * drawn.distance);
         };
         for (TileSelection::Drawn& drawn : choice.drawn) {

@@ -85,7 +85,10 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
         terrain::ErrorView view = *bound;
         view.max_error =
             std::max(view.max_error - options.error, min_share_of_triangles * view.max_error);
-        cut.parts = terrain::triangulate(*options.bisection, surface.samples, view);
+        terrain::TileTriangles triangles =
+            terrain::triangulate(*options.bisection, surface.samples, view);
+        cut.parts = std::move(triangles.parts);
+        cut.error = options.error + triangles.error + rasterizer_error;
     } else {
         cut.parts = {terrain::triangulate_patches(std::get<Grid<std::uint8_t>>(coarseness),
                                                   surface.samples)};
@@ -97,7 +100,7 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
         std::move(walls.begin(), walls.end(), std::back_inserter(cut.parts));
     }
     if (cut.parts == last.parts) {
-        return {};
+        return {{}, {}, cut.error};
     }
     cut.vertices = vertices_of(cut.parts, surface, last);
     return cut;

@@ -21,6 +21,8 @@ TileSurface surface_of(const TileDraw& draw);
 struct CutMesh {
     std::vector<terrain::Triangulation> parts; ///< the skirt's last
     std::vector<std::vector<GridVertex>> vertices;
+    /// Bound of what is drawn with all errors, pixels; 0 without an error bound.
+    double error = 0.0;
 };
 
 /// The walls that close the gaps between a tile and its neighbours; a tile of a terrain in memory
@@ -31,13 +33,13 @@ terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw, double error
 /// How to draw a tile with fewer triangles.
 struct CutOptions {
     const terrain::Bisection* bisection = nullptr; ///< of its heightfield; null for patches
-    double error = 0.0;                            ///< of its vertices, pixels
+    double error = 0.0;                            ///< of the tile, pixels
     terrain::Skirt skirt;
 };
 
-/// The triangles of a tile and its skirt. They get what the error of the vertices leaves of the
-/// bound, at least half of it. `last`: the tile's triangles before, whose vertices are used again.
-/// Empty if the triangles are still those of `last`.
+/// The triangles of a tile and its skirt. They get what the error of the tile leaves of the bound,
+/// at least half of it. `last`: the tile's triangles before, whose vertices are used again. Without
+/// parts if the triangles are still those of `last`.
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
                  const CutOptions& options, const CutMesh& last);
 

@@ -19,9 +19,9 @@
 namespace reljef::view {
 namespace {
 
-// Estimated margin of the finer tiles' heights beyond a tile's own (averages are lower than peaks):
-// a share of its range, plus a number of its errors. The margin for hiding is larger: a tower where
-// four averages meet is 16 times as high in the next level.
+// Of unproven tiles: estimated margin of the finer tiles' heights beyond a tile's own (averages are
+// lower than peaks): a share of its range, plus a number of its errors. The margin for hiding is
+// larger: a tower where four averages meet is 16 times as high in the next level.
 constexpr double margin_of_range = 0.25;
 constexpr double errors_seen = 1.0;
 constexpr double errors_hidden = 16.0;
@@ -55,8 +55,11 @@ struct Candidate {
     }
 };
 
-// Expected heights of the finer tiles below a tile.
+// Heights of the finer tiles below a tile: of all samples, or expected.
 terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
+    if (tile.is_proven) {
+        return tile.range;
+    }
     const double margin =
         margin_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
     return {tile.range.low - margin, tile.range.high + margin};
@@ -72,10 +75,11 @@ public:
     StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera, glm::ivec2 size,
                const glm::dmat4& world_from_local)
         : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
-          frustum_(scene::clip_from_world(camera, size)) {
+          frustum_(scene::clip_from_world(camera, size)),
+          picture_error_(camera, size, world_from_local, terrain.surface->placement().kind()) {
         const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons;
         const double error = scene::error_bound(terrain.material.technique);
-        max_error_ = error > 0.0 ? error : default_error;
+        max_error_ = error > 0.0 ? std::max(error, min_error) - rasterizer_error : default_error;
         is_perspective_ = camera.projection == scene::ProjectionKind::perspective;
         pixels_per_metre_ = is_perspective_
                                 ? 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov))
@@ -106,7 +110,15 @@ public:
 
     [[nodiscard]] bool may_see_child(const scene::TileSummary& parent,
                                      terrain::TreeTile child) const {
-        return may_see(builder().bounds(child, range_below(parent, errors_seen)));
+        return may_see(child_bounds(parent, child, errors_seen));
+    }
+
+    /// Of a child's samples: proven, or expected with a margin of so many of the parent's errors.
+    [[nodiscard]] Box child_bounds(const scene::TileSummary& parent, terrain::TreeTile child,
+                                   double errors) const {
+        const auto summary = parent.is_proven ? stream_.recall(child) : std::nullopt;
+        return summary && summary->is_proven ? summary->bounds
+                                             : builder().bounds(child, range_below(parent, errors));
     }
 
     /// Distance to the nearest point of a box along the local ground, metres.
@@ -117,8 +129,7 @@ public:
 
     [[nodiscard]] TileSelection::Drawn drawn(std::shared_ptr<const scene::TerrainTile> tile) const {
         const double distance = distance_to(*tile);
-        const bool is_whole = tile->id.level == 0 || builder().has_all_samples(tile->id);
-        const double error = is_whole ? 0.0 : tile->error * pixels_per_metre(distance);
+        const double error = error_of(*tile);
         return {std::move(tile), distance, error};
     }
 
@@ -132,14 +143,24 @@ public:
         if (builder().has_all_samples(tile.id)) {
             return texels;
         }
-        const double spacing = builder().spacing(tile.id.level);
-        const double errors =
-            std::max(tile.error / share_of_tiles, spacing / samples_apart_in_errors) * pixels /
-            max_error_;
-        return std::max(errors, texels);
+        const double error = error_of(tile) / share_of_tiles;
+        const double apart =
+            tile.is_proven ? 0.0
+                           : builder().spacing(tile.id.level) * pixels / samples_apart_in_errors;
+        return std::max({error / max_error_, apart / max_error_, texels});
     }
 
 private:
+    /// Of its vertices on the picture, pixels: a bound if it is proven, otherwise an estimate.
+    [[nodiscard]] double error_of(const scene::TileSummary& tile) const {
+        if (tile.is_proven) {
+            return picture_error_.in_box(tile.bounds, tile.error);
+        }
+        return builder().has_all_samples(tile.id)
+                   ? 0.0
+                   : tile.error * pixels_per_metre(distance_to(tile));
+    }
+
     [[nodiscard]] double distance_to(const scene::TileSummary& tile) const {
         const Box bounds = transformed(world_from_local_, tile.bounds);
         return glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
@@ -153,6 +174,7 @@ private:
     const scene::Camera& camera_;
     const glm::dmat4& world_from_local_;
     Frustum frustum_;
+    PictureError picture_error_;
     glm::dvec3 eye_{0.0}; // local metres
     double max_error_ = default_error;
     bool is_perspective_ = true;
@@ -238,8 +260,9 @@ private:
         const bool is_refined =
             relative_error > limits_.max_relative_error && !limits_.leaves.contains(summary.id);
         const Box box =
-            is_refined ? view_.builder().bounds(summary.id, range_below(summary, errors_hidden))
-                       : summary.bounds;
+            is_refined && !summary.is_proven
+                ? view_.builder().bounds(summary.id, range_below(summary, errors_hidden))
+                : summary.bounds;
         const bool is_hidden = is_above_hidden || nearer_.hides(box, candidate.along);
         if (is_hidden && !options_.keeps_hidden) {
             leave_out(std::move(known.tile));
@@ -257,8 +280,7 @@ private:
                        bool is_hidden) {
         const bool is_foreseen = candidate.is_foreseen || known.tile == nullptr;
         for (const terrain::TreeTile child : view_.stream().tree().children(candidate.id)) {
-            const Box expected =
-                view_.builder().bounds(child, range_below(known.summary, errors_hidden));
+            const Box expected = view_.child_bounds(known.summary, child, errors_hidden);
             const double along = view_.along(expected);
             if (view_.may_see_child(known.summary, child)) {
                 open_.push({along, child, expected, urgency, candidate.id, is_hidden, is_foreseen});

@@ -16,7 +16,8 @@ struct TileSelection {
     struct Drawn {
         std::shared_ptr<const scene::TerrainTile> tile;
         double distance = 0.0; ///< from the eye to the nearest point of its bounds, metres
-        double error = 0.0;    ///< estimated error of its vertices, pixels
+        /// Of its vertices, pixels: a bound if the tile is proven, otherwise an estimate.
+        double error = 0.0;
     };
     std::vector<Drawn> drawn;                 ///< from the eye outwards
     std::vector<Drawn> hidden;                ///< loaded tiles behind the drawn ones

@@ -55,7 +55,7 @@ inline std::vector<Triangle> all_triangles(const PlacedTerrain& made,
     std::vector<Triangle> triangles;
     for (const terrain::Tile& tile : made.tiles) {
         for (const terrain::Triangulation& part :
-             terrain::triangulate(made.bisection, tile, view)) {
+             terrain::triangulate(made.bisection, tile, view).parts) {
             for (std::size_t i = 0; i < part.indices.size(); i += 3) {
                 triangles.push_back({part.vertices[part.indices[i]],
                                      part.vertices[part.indices[i + 1]],

@@ -243,6 +243,7 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
         entry->version = group.version;
         entry->error = draw->error;
         entry->skirt = skirt;
+        entry->kept_error = cuts[i].error;
         if (cuts[i].parts.empty()) {
             ++stats.skipped.uploads_unchanged;
             continue;
@@ -254,7 +255,21 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
         entry->meshes = std::move(*meshes);
         entry->last = std::move(cuts[i]);
     }
+    if (by_error) {
+        add_kept_errors(group, draws, stats);
+    }
     return {};
+}
+
+void TerrainMeshes::add_kept_errors(const Group& group, const Draws& draws,
+                                    view::FrameStats& stats) {
+    double largest = stats.kept_error.value_or(0.0);
+    for (const view::TileDraw* const draw : draws) {
+        if (draw->is_proven()) {
+            largest = std::max(largest, group.tiles.at(draw->tile->id).kept_error);
+        }
+    }
+    stats.kept_error = largest;
 }
 
 const terrain::Bisection& TerrainMeshes::bisection_of(const scene::TerrainNode& terrain) {

@@ -43,7 +43,8 @@ private:
         terrain::Skirt skirt;
         // Of tiles that are cut.
         std::uint64_t version = 0; // of the coarseness
-        double error = 0.0;        // of the vertices, pixels
+        double error = 0.0;        // of the tile, pixels
+        double kept_error = 0.0;   // of all that is drawn, pixels
         view::CutMesh last;
         std::unique_ptr<const TileBisection> bisection; // of a loaded tile
 
@@ -87,6 +88,7 @@ private:
                      view::FrameStats& stats);
     static std::vector<Outdated> outdated_cuts(const view::DrawList& list, Group& group,
                                                const Draws& draws, view::FrameStats& stats);
+    static void add_kept_errors(const Group& group, const Draws& draws, view::FrameStats& stats);
     const terrain::Bisection& bisection_of(const scene::TerrainNode& terrain);
 
     std::uint64_t frame_ = 0;

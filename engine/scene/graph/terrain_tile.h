@@ -21,12 +21,15 @@ inline constexpr int cells_per_block = 8;
 
 struct TileSummary {
     terrain::TreeTile id;
-    Box bounds; ///< local metres
-    terrain::HeightRange range;
-    /// Estimated error against the next finer level, metres: the largest distance of every second
-    /// vertex from the middle between its neighbours.
+    Box bounds;                 ///< local metres
+    terrain::HeightRange range; ///< true metres
+    /// Scene metres. If proven, no sample that is no void is farther above or below the tile's
+    /// surface, and range and bounds contain all samples and what fills voids. Otherwise an
+    /// estimate against the next finer level: the largest distance of every second vertex from the
+    /// middle between its neighbours.
     double error = 0.0;
     double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
+    bool is_proven = false;
 };
 
 /// A tile of a terrain's quadtree, ready to be drawn.

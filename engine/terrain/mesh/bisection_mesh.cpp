@@ -141,6 +141,21 @@ double relative_error(const ErrorView& view, const Split& split) {
                         : view.scale * split.error * lateral / (view.max_error * depth * depth);
 }
 
+// Bounds the screen-space error in the visible part of a split, pixels. Precondition: a finite
+// error.
+double visible_error(const ErrorView& view, const Split& split) {
+    if (!view.perspective || split.error == 0.0) {
+        return view.scale * split.error;
+    }
+    const double depth = std::max(depth_of(view, split), view.near);
+    const double depth_of_true_place = depth - view.stretch * split.error;
+    const double lateral = glm::length(view.lateral_axes * split.center + view.lateral_origin) +
+                           view.stretch * split.radius;
+    return depth_of_true_place > 0.0
+               ? view.scale * split.error * lateral / (depth * depth_of_true_place)
+               : std::numeric_limits<double>::infinity();
+}
+
 // The vertices of a tile that are not at their own positions.
 class MorphedVertices {
 public:
@@ -182,11 +197,12 @@ public:
         : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
           morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
-          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}), writer_(tile) {
+          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}),
+          error_(view.max_error), writer_(tile) {
         view_.max_error *= view.morph_from;
     }
 
-    std::vector<Triangulation> bisect(const Tile& tile) {
+    TileTriangles bisect(const Tile& tile) {
         constexpr int side = steps_per_sample * tile_cells;
         const Steps first = steps_of({tile.col, tile.row});
         const Steps middle = first + std::int64_t{side / 2};
@@ -195,7 +211,7 @@ public:
         for (std::size_t i = 0; i < 4; ++i) {
             add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
         }
-        return take();
+        return {take(), error_};
     }
 
 private:
@@ -265,11 +281,15 @@ private:
     }
 
     [[nodiscard]] Choice choice_at(Steps middle, SplitKind kind, bool is_seen) {
-        if (kind.size < bisection_.min_size()) {
-            return {false, is_seen};
-        }
         if (kind.size <= steps_per_sample) {
-            return choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
+            const Split split = bisection_.split(middle, kind.size, kind.on_side);
+            if (kind.size >= bisection_.min_size()) {
+                return choice_of(split, is_seen);
+            }
+            if (is_seen || visibility_of(view_, split) != Visibility::none) {
+                error_ = std::max(error_, visible_error(view_, split));
+            }
+            return {false, is_seen};
         }
         const glm::ivec2 sample = sample_before(middle) - first_;
         // The triangles on both sides need it.
@@ -306,6 +326,7 @@ private:
     glm::ivec2 first_;        // sample of the tile
     bool is_whole_;           // the tile has tile_cells cells on each side
     Grid<Choice> at_samples_; // by sample of the tile
+    double error_;            // pixels
     TriangulationWriter writer_;
 };
 
@@ -316,8 +337,7 @@ bool exceeds(const ErrorView& view, const Split& split) {
            (visibility_of(view, split) != Visibility::none && exceeds_bound(view, split));
 }
 
-std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
-                                       const ErrorView& view) {
+TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view) {
     return TileBisector(bisection, tile, view).bisect(tile);
 }
 

@@ -23,6 +23,7 @@ struct ErrorView {
     bool perspective = true;
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
+    double near = 0.0;                 ///< smallest depth of what is visible
     glm::dmat3 lateral_axes{1.0};      ///< the lateral distance is |lateral_axes · p + origin|
     glm::dvec3 lateral_origin{0.0};
     double stretch = 1.0; ///< metres of depth and lateral distance per metre of the scene frame
@@ -54,10 +55,15 @@ struct Triangulation {
     friend bool operator==(const Triangulation&, const Triangulation&) = default;
 };
 
+struct TileTriangles {
+    std::vector<Triangulation> parts; ///< several if the vertices exceed 16-bit indices
+    /// No visible point is farther off, pixels: the view's bound, or more where the smallest
+    /// squares are too large.
+    double error = 0.0;
+};
+
 /// The coarsest triangulation of a tile within the error bound. Neighbours share their border
-/// vertices and moves, because a move depends on the vertex and the view only. Returns several
-/// parts if the vertices exceed 16-bit indices.
-std::vector<Triangulation> triangulate(const Bisection& bisection, const Tile& tile,
-                                       const ErrorView& view);
+/// vertices and moves, because a move depends on the vertex and the view only.
+TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view);
 
 } // namespace reljef::terrain

@@ -72,7 +72,7 @@ TEST_F(SkirtTest, HasTheBorderEdgesOfTheTrianglesAndNoOthers) {
     ErrorView view;
     view.perspective = false;
     view.max_error = 5.0;
-    const auto parts = triangulate(bisection, tile, view);
+    const auto parts = triangulate(bisection, tile, view).parts;
     std::map<std::pair<std::int64_t, std::int64_t>, int> ends; // of upper edges
     for (const Triangulation& part :
          skirt_below(parts, tile, heightfield_, placement_, {.depth = 1.0})) {
