@@ -50,8 +50,8 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
                                  .shader_dir = choice.view.shader_dir,
                                  .samples = choice.view.samples.value_or(render::automatic_samples),
                                  .threads = choice.terrain.threads});
-    return device ? Result<Maker>(
-                        Maker(new session::DeviceFrames(std::move(*device), log, {choice.stats})))
+    return device ? Result<Maker>(Maker(new session::DeviceFrames(
+                        std::move(*device), log, {choice.stats, choice.terrain.memory_megabytes})))
                   : device.error();
 }
 
@@ -321,6 +321,9 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     }
     if (auto committed = commit_all(outputs); !committed) {
         return committed;
+    }
+    if (const auto note = maker.kept_error_note()) {
+        log.note(*note);
     }
     return *path ? lifted.report(log, choice.view.path)
                  : report_lift(lift, choice, has_camera_of_file, log);

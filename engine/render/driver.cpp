@@ -111,7 +111,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     return stats;
 }
 
-Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
+Result<DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
         auto target = gl::Framebuffer::create(
             {.size = size(), .color = gl::Format::rgba32f, .second_color = gl::Format::rg32f});
@@ -121,7 +121,7 @@ Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
         hit_target_ = std::move(*target);
     }
     const view::DrawList& list = frame.list;
-    view::FrameStats stats;
+    view::FrameStats stats = list.stats;
     if (auto done = prepare(list, true, stats); !done) {
         return done.error();
     }
@@ -138,7 +138,7 @@ Result<HitBuffer> Driver::draw_hits(const view::FrameView& frame) {
                            [](const glm::vec4& hit, const glm::vec4& rest) {
                                return Hit{hit.x, hit.y, hit.z, hit.w, rest.x, rest.y};
                            });
-    return hits;
+    return DrawnHits{std::move(hits), stats};
 }
 
 Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameStats& stats) {

@@ -37,6 +37,12 @@ struct DriverOptions {
     int samples = 1;
 };
 
+/// The stats' times are 0.
+struct DrawnHits {
+    HitBuffer hits;
+    view::FrameStats stats;
+};
+
 /// Draws selected frames with the current context into its own framebuffer object with reversed
 /// 32-bit float depth. Keeps drawn content in GPU memory as long as the scene lives. Destroy while
 /// the context is current, like all objects of this room that own GL objects.
@@ -49,7 +55,7 @@ public:
     /// check_techniques() and check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
-    Result<HitBuffer> draw_hits(const view::FrameView& frame);
+    Result<DrawnHits> draw_hits(const view::FrameView& frame);
 
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;

@@ -132,7 +132,7 @@ bool shows_something(const Image& texels) {
 
 std::size_t bytes_of_tile(int texels_per_cell) {
     const auto samples = [](int texels) {
-        const double side = terrain::tile_cells * texels + 1;
+        const double side = terrain::tree_tile_cells * texels + 1;
         return side * side;
     };
     const double more = samples(texels_per_cell) - samples(1);
@@ -191,7 +191,7 @@ bool TileBuilder::has_all_samples(terrain::TreeTile tile) const {
 
 terrain::TreeTile TileBuilder::tile_at(int level, glm::dvec2 sample) const {
     const glm::dvec2 last(tree_.cols() - 1, tree_.rows() - 1);
-    const int side = terrain::tile_cells << level;
+    const int side = terrain::tree_tile_cells << level;
     const glm::ivec2 at =
         glm::ivec2(glm::clamp(tree_sample(sample), glm::dvec2(0.0), last - 0.5)) / side;
     return {level, at.x, at.y};
@@ -232,8 +232,13 @@ glm::dvec3 TileBuilder::place(terrain::TreeTile tile, glm::ivec2 vertex, double 
 }
 
 Box TileBuilder::bounds(terrain::TreeTile tile, terrain::HeightRange range) const {
-    const auto at = [&](glm::ivec2 vertex) { return on_overview(sample(tile, vertex)); };
-    return terrain::placed_bounds(overview_->placement(), at({0, 0}), at(tree_.cells(tile)), range);
+    return bounds(tile, {0, 0}, tree_.cells(tile), range);
+}
+
+Box TileBuilder::bounds(terrain::TreeTile tile, glm::ivec2 first_vertex, glm::ivec2 last_vertex,
+                        terrain::HeightRange range) const {
+    return terrain::placed_bounds(overview_->placement(), on_overview(sample(tile, first_vertex)),
+                                  on_overview(sample(tile, last_vertex)), range);
 }
 
 TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProof& proof) const {
@@ -251,6 +256,7 @@ TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProo
     const bool has_finer = imagery_.finest_pixel > 0.0 && tile.level > 0;
     summary.coarse_texel = has_finer ? texel(tile.level) : 0.0;
     summary.is_proven = true;
+    summary.error_shares = proof.block_shares;
     return summary;
 }
 

@@ -105,6 +105,9 @@ public:
     /// tile and level.
     [[nodiscard]] float void_height(glm::dvec2 sample) const;
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
+    /// Between two vertices of a tile.
+    [[nodiscard]] Box bounds(terrain::TreeTile tile, glm::ivec2 first_vertex,
+                             glm::ivec2 last_vertex, terrain::HeightRange range) const;
     /// Of a tile with a proof, whether it was read or not; coarse_texel as if there were images.
     [[nodiscard]] TileSummary summary(terrain::TreeTile tile,
                                       const terrain::TileProof& proof) const;

@@ -14,7 +14,7 @@ namespace {
 
 // The drawn tiles' share of memory. The rest is for their ancestors, a third as many, and for tiles
 // that are read ahead.
-constexpr double drawn_share = 0.5;
+constexpr double drawn_share = 0.6;
 
 std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
     return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
@@ -95,7 +95,7 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
     sample = glm::clamp(sample, glm::dvec2(0.0), last);
     const std::lock_guard lock(mutex_);
     for (int level = 0; level <= tree().root().level; ++level) {
-        const int side = terrain::tile_cells << level;
+        const int side = terrain::tree_tile_cells << level;
         const glm::ivec2 at = glm::ivec2(glm::min(sample, last - 0.5)) / side;
         const auto found = tiles_.find({level, at.x, at.y});
         if (found != tiles_.end()) {
@@ -110,6 +110,11 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
 
 std::size_t TileStream::max_drawn() const {
     return std::max(min_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
+}
+
+std::size_t TileStream::budget_for(std::size_t drawn_tiles) const {
+    return static_cast<std::size_t>(
+        std::ceil(static_cast<double>(drawn_tiles * maker_.bytes_per_tile()) / drawn_share));
 }
 
 int TileStream::texels_within(std::size_t memory_budget) {

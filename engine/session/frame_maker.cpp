@@ -1,6 +1,7 @@
 #include "engine/session/frame_maker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -109,6 +110,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
     }
     times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
     stats_ = *stats;
+    note_kept_error(scene);
     return device_.renderer().read_color();
 }
 
@@ -116,7 +118,35 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
                                           const ParallelOptions& parallel) {
     SceneRenderer& renderer = device_.renderer();
     session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, parallel.stop);
-    return renderer.draw_selected_hits();
+    auto drawn = renderer.draw_selected_hits();
+    if (!drawn) {
+        return drawn.error();
+    }
+    stats_ = drawn->stats;
+    note_kept_error(scene);
+    return std::move(drawn->hits);
+}
+
+void DeviceFrames::note_kept_error(const scene::Scene& scene) {
+    if (!stats_.kept_error || *stats_.kept_error <= (worst_ ? worst_->kept_error : 0.0)) {
+        return;
+    }
+    const auto needed = memory_for_bound(scene, device_.renderer().size());
+    if (needed && *stats_.kept_error > needed->bound) {
+        worst_ = {*stats_.kept_error, needed->bound, needed->growth};
+    }
+}
+
+std::optional<std::string> DeviceFrames::kept_error_note() const {
+    if (!worst_) {
+        return std::nullopt;
+    }
+    const double megabytes = std::ceil(worst_->memory_growth * options_.memory_megabytes);
+    const std::string remedy = megabytes > options_.memory_megabytes
+                                   ? fmt::format("--memory {:.0f} keeps it", megabytes)
+                                   : "the eye is too near to the ground";
+    return fmt::format("pixels are off by up to {:.3g}, and {:g} was the error bound: {}",
+                       worst_->kept_error, worst_->bound, remedy);
 }
 
 std::string DeviceFrames::stats() const {
@@ -125,7 +155,7 @@ std::string DeviceFrames::stats() const {
                "renderer: {}\n"
                "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
                "uploads: {} ({:.1f} MB)\n"
-               "tiles cut: {}\n"
+               "tiles cut: {}, unproven: {}, kept error: {}\n"
                "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
                "frustum, {} tiles behind nearer ground, {} "
                "triangles under the error, {} details too small, {} selections, {} cuts and {} "
@@ -134,6 +164,9 @@ std::string DeviceFrames::stats() const {
                device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
                stats_.draws, stats_.state_changes, stats_.uploads,
                static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
+               stats_.tiles_unproven,
+               stats_.kept_error ? fmt::format("{:.2f} px", *stats_.kept_error)
+                                 : std::string("none"),
                stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
                stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
                stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,

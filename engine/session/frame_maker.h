@@ -31,6 +31,8 @@ public:
                                         const ParallelOptions& parallel) = 0;
     /// Counts and times of the last frame, one per line.
     [[nodiscard]] virtual std::string stats() const = 0;
+    /// A sentence if a frame so far did not keep its error bound.
+    [[nodiscard]] virtual std::optional<std::string> kept_error_note() const { return {}; }
 };
 
 struct FrameTimes {
@@ -40,7 +42,8 @@ struct FrameTimes {
 };
 
 struct DeviceFramesOptions {
-    bool timed = false; ///< waits for the end of each frame
+    bool timed = false;       ///< waits for the end of each frame
+    int memory_megabytes = 0; ///< SourceOptions::memory_megabytes of the scene
 };
 
 class DeviceFrames : public FrameMaker {
@@ -52,11 +55,22 @@ public:
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
     [[nodiscard]] std::string stats() const override;
+    [[nodiscard]] std::optional<std::string> kept_error_note() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }
+    /// Of the last frame, or hits.
+    [[nodiscard]] const view::FrameStats& frame_stats() const { return stats_; }
     [[nodiscard]] const platform::Context& context() const { return device_.context(); }
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:
+    // The frame so far that is farthest over its error bound.
+    struct WorstFrame {
+        double kept_error = 0.0; // pixels
+        double bound = 0.0;
+        double memory_growth = 1.0; // with which it would be kept
+    };
+    void note_kept_error(const scene::Scene& scene);
+
     Device device_;
     Log& log_;
     DeviceFramesOptions options_;
@@ -64,6 +78,7 @@ private:
     std::optional<scene::Camera> ready_for_; // the next view, if its tiles are loaded
     double waited_ms_ = 0.0;                 // for the next view
     view::FrameStats stats_;
+    std::optional<WorstFrame> worst_;
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 

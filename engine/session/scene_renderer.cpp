@@ -29,7 +29,8 @@ Result<view::FrameStats> SceneRenderer::draw(const scene::Scene& scene, bool wai
 
 Result<HitBuffer> SceneRenderer::draw_hits(const scene::Scene& scene) {
     select(scene);
-    return draw_selected_hits();
+    auto drawn = draw_selected_hits();
+    return drawn ? Result<HitBuffer>(std::move(drawn->hits)) : drawn.error();
 }
 
 void limit_software_threads(int threads) {

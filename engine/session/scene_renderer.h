@@ -36,7 +36,9 @@ public:
     /// Draws the frame selected last; `wait`: until it is finished. Precondition: the scene has not
     /// changed since.
     Result<view::FrameStats> draw_selected(bool wait = false);
-    Result<HitBuffer> draw_selected_hits() { return driver_.draw_hits(selector_.selected()); }
+    Result<render::DrawnHits> draw_selected_hits() {
+        return driver_.draw_hits(selector_.selected());
+    }
 
     /// Selects and draws; FrameStats::cpu_ms includes the selection.
     Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);

@@ -17,6 +17,7 @@
 
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tree_tile.h"
+#include "engine/view/tile_selection.h"
 
 namespace reljef::session {
 namespace {
@@ -36,7 +37,7 @@ void return_freed_blocks() {
 #ifdef __GLIBC__
     // The smallest array of a tile, bytes. It exceeds the 64 kB blocks that a software renderer
     // allocates in each frame.
-    constexpr int vertices_a_side = terrain::tile_cells + 1;
+    constexpr int vertices_a_side = terrain::tree_tile_cells + 1;
     constexpr int mapped_from = vertices_a_side * vertices_a_side * int{sizeof(float)};
     ::mallopt(M_MMAP_THRESHOLD, mapped_from);
 #endif
@@ -240,6 +241,28 @@ void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token&
             stream.wait(stop);
         }
     });
+}
+
+std::optional<MemoryForBound> memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
+    std::optional<MemoryForBound> needed;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        const double bound =
+            terrain != nullptr ? scene::error_bound(terrain->material.technique) : 0.0;
+        if (bound <= 0.0) {
+            return;
+        }
+        double growth = 1.0;
+        if (const scene::TileStream* const stream = terrain->stream.get()) {
+            const std::size_t tiles = view::tiles_for_bound(*terrain, scene.camera(), size, matrix);
+            growth = static_cast<double>(stream->budget_for(tiles)) /
+                     static_cast<double>(stream->options().memory_budget);
+        }
+        needed = needed ? MemoryForBound{std::min(needed->bound, bound),
+                                         std::max(needed->growth, growth)}
+                        : MemoryForBound{bound, growth};
+    });
+    return needed;
 }
 
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,

@@ -32,6 +32,13 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
 /// for good, or `stop` is requested.
 void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token& stop);
 
+struct MemoryForBound {
+    double bound = 0.0;  ///< the smallest error bound of the scene's terrains, pixels
+    double growth = 1.0; ///< of the memory, with which streamed ones keep theirs in this view
+};
+/// Empty if no terrain has an error bound.
+std::optional<MemoryForBound> memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
+
 /// Extrapolates a camera that moved from `before` to `now` in `seconds` by `ahead` more seconds.
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
                            double ahead);

@@ -92,7 +92,7 @@ struct SetOrImagery {
 constexpr int min_megabytes = 64;
 
 // Largest step of tiles that are read from a file without overviews: 4096 samples a side.
-constexpr int max_step_read = 4096 / terrain::tile_cells;
+constexpr int max_step_read = 4096 / terrain::tree_tile_cells;
 
 // Chooses which levels come from the overview; adds notes.
 void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,

@@ -22,7 +22,7 @@ constexpr std::size_t max_tiles_of_load = 64;
 
 // Samples, and a third more bounds than cells.
 constexpr std::size_t bytes_of_surface_tile =
-    (terrain::tile_cells + 1) * (terrain::tile_cells + 1) *
+    (terrain::tree_tile_cells + 1) * (terrain::tree_tile_cells + 1) *
     (sizeof(float) + sizeof(terrain::MinMax) + sizeof(terrain::MinMax) / 2);
 
 std::uint64_t key_of(glm::ivec2 at) {
@@ -154,7 +154,7 @@ Result<StreamedSurface::Read> StreamedSurface::read(glm::ivec2 at,
                                  range.high > -range.low ? range.high : range.low,
                                  terrain::max_height_on_ellipsoid)};
     }
-    read.loaded->tile = {heights.view(), &read.loaded->pyramid, at * terrain::tile_cells};
+    read.loaded->tile = {heights.view(), &read.loaded->pyramid, at * terrain::tree_tile_cells};
     return read;
 }
 

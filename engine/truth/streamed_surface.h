@@ -38,7 +38,7 @@ public:
     StreamedSurface(std::shared_ptr<scene::TileStream> stream, std::size_t memory_budget);
 
     [[nodiscard]] glm::ivec2 last_sample() const override { return last_; }
-    [[nodiscard]] int tile_cells() const override { return terrain::tile_cells; }
+    [[nodiscard]] int tile_cells() const override { return terrain::tree_tile_cells; }
     [[nodiscard]] const terrain::SurfaceTile* tile(glm::ivec2 at) const override;
     [[nodiscard]] std::optional<terrain::MinMax> range(glm::ivec2 at) const override;
     [[nodiscard]] std::optional<Ray> sample_ray(const Ray& world_ray) const override;

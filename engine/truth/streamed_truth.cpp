@@ -298,7 +298,7 @@ Result<Grid<double>> StreamedTruth::reprojection_errors(const scene::Camera& cam
             }
             errors(col, row) = std::numeric_limits<double>::infinity();
             if (std::isfinite(hit.col) && std::isfinite(hit.row)) {
-                samples.emplace_back(hit.col, hit.row);
+                samples.push_back(hit.place());
                 pixels.emplace_back(col, row);
             }
         }

@@ -98,44 +98,48 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 }
 
 PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
-                           const glm::dmat4& world_from_local, terrain::PlacementKind kind)
-    : view_(error_view(camera, size, world_from_local, kind, 1.0)),
-      world_from_local_(world_from_local), eye_(camera.eye), near_(camera.near),
-      is_vertical_(kind == terrain::PlacementKind::plane) {
+                           const glm::dmat4& world_from_local)
+    : world_from_local_(world_from_local), axes_(scene::view_axes(camera)), eye_(camera.eye),
+      near_(camera.near), stretch_(max_stretch(glm::dmat3(world_from_local))) {
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        corner_angle_ = 0.0;
+        pixels_per_metre_ = size.y / camera.view_height;
+        return;
+    }
     const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
     corner_angle_ = std::atan(half_height * glm::length(glm::dvec2(size)) / size.y);
+    pixels_per_metre_ = 0.5 * size.y / half_height;
 }
 
-// As above, with A and B in the box. A is visible, so that its depth is at least its distance times
-// the cosine of the corner's angle, and |D × A| is at most |D| Az over the cosine of its own angle.
-double PictureError::in_box(const Box& box, double error) const {
-    if (!view_.perspective || error == 0.0) {
-        return view_.scale * error;
+// As above, with a visible A in the box and D = error · u. Over Az, the numerator is at most
+// |(ux, uy)| + |uz| tan(a), where a is A's angle from the middle of the picture. Where the vertical
+// turns by t, D changes by t · error, and this by at most t / cos(a). Az is at least A's distance
+// times cos(a).
+double PictureError::of(const Places& places) const {
+    const double error = stretch_ * places.error;
+    if (error == 0.0 || corner_angle_ == 0.0) {
+        return pixels_per_metre_ * error;
     }
-    const glm::dvec3 middle = box.center();
-    const glm::dvec3 half = 0.5 * box.size();
-    const glm::dvec3 forward(view_.depth);
-    const double depth_of_middle = glm::dot(forward, middle) + view_.depth.w;
-    const Box bounds = transformed(world_from_local_, box);
-    const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
-    const double depth = std::max({depth_of_middle - glm::dot(glm::abs(forward), half),
-                                   distance * std::cos(corner_angle_), near_});
-    const double depth_of_true_place = depth - view_.stretch * error;
-    if (!(depth_of_true_place > 0.0)) {
-        return std::numeric_limits<double>::infinity();
-    }
-    const double distance_of_middle = glm::distance(eye_, bounds.center());
+    const Box bounds = transformed(world_from_local_, places.box);
+    const glm::dvec3 to_middle = bounds.center() - eye_;
     const double radius = 0.5 * glm::length(bounds.size());
-    const double angle =
-        radius < distance_of_middle
-            ? std::acos(std::clamp(depth_of_middle / distance_of_middle, -1.0, 1.0)) +
-                  std::asin(radius / distance_of_middle)
-            : corner_angle_;
-    const double lateral =
-        glm::length(view_.lateral_axes * middle + view_.lateral_origin) +
-        view_.stretch * (is_vertical_ ? glm::length(glm::dvec2(half)) : glm::length(half));
-    return view_.scale * error / depth_of_true_place *
-           std::min(1.0 / std::cos(std::min(angle, corner_angle_)), lateral / depth);
+    const double distance_of_middle = glm::length(to_middle);
+    double angle = corner_angle_;
+    if (radius < distance_of_middle) {
+        const double cosine = glm::dot(axes_.forward, to_middle) / distance_of_middle;
+        angle = std::min(angle, std::acos(std::clamp(cosine, -1.0, 1.0)) +
+                                    std::asin(radius / distance_of_middle));
+    }
+    const glm::dvec3 up = glm::normalize(glm::dmat3(world_from_local_) * places.up);
+    const glm::dvec2 across(glm::dot(axes_.right, up), glm::dot(axes_.up, up));
+    const double along = std::abs(glm::dot(axes_.forward, up));
+    const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
+    const double depth = std::max(distance * std::cos(angle), near_);
+    const double depth_of_true_place = depth - error * (along + places.turn);
+    return depth_of_true_place > 0.0
+               ? pixels_per_metre_ * error / depth_of_true_place *
+                     (glm::length(across) + along * std::tan(angle) + places.turn / std::cos(angle))
+               : std::numeric_limits<double>::infinity();
 }
 
 std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,

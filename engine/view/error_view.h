@@ -38,22 +38,28 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 /// How far errors of a terrain move the pixels that show it.
 class PictureError {
 public:
-    /// As error_view().
-    PictureError(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
-                 terrain::PlacementKind kind);
+    /// Precondition: world_from_local is affine.
+    PictureError(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local);
 
-    /// Upper bound for visible places in a box, pixels, without the rasterizer's error. Each place
-    /// is off by at most `error` scene metres along the vertical; the box (local metres) contains
-    /// what is drawn. Infinite if the box reaches the eye.
-    [[nodiscard]] double in_box(const Box& box, double error) const;
+    /// Places in a box that are off along their verticals.
+    struct Places {
+        Box box;            ///< contains what is drawn, local metres
+        double error = 0.0; ///< at most, scene metres
+        glm::dvec3 up{0.0}; ///< unit, local: the vertical in the middle
+        double turn = 0.0;  ///< of the vertical to those of the other places, at most; radians
+    };
+    /// Upper bound for the visible places, pixels, without the rasterizer's error. Infinite if the
+    /// true places may be at the eye.
+    [[nodiscard]] double of(const Places& places) const;
 
 private:
-    terrain::ErrorView view_;
     glm::dmat4 world_from_local_;
+    scene::ViewAxes axes_;
     glm::dvec3 eye_;
     double near_;
-    double corner_angle_; // from the middle of the picture, radians
-    bool is_vertical_;
+    double corner_angle_;     // from the middle of the picture, radians; 0: orthographic
+    double pixels_per_metre_; // in perspective at a depth of one metre
+    double stretch_;          // world metres per local metre
 };
 
 /// The view for a horizon in a terrain's local frame, if pixels may be off by `error` pixels. Empty

@@ -16,7 +16,8 @@
 namespace reljef::view {
 namespace {
 
-constexpr double min_share_of_triangles = 0.5; // of the error bound
+// Of the error bound, where memory leaves tiles too coarse for it.
+constexpr double min_share_of_triangles = 0.25;
 
 std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Triangulation>& parts,
                                                  const TileSurface& surface, const CutMesh& last) {

@@ -38,8 +38,8 @@ struct CutOptions {
 };
 
 /// The triangles of a tile and its skirt. They get what the error of the tile leaves of the bound,
-/// at least half of it. `last`: the tile's triangles before, whose vertices are used again. Without
-/// parts if the triangles are still those of `last`.
+/// at least a quarter of it. `last`: the tile's triangles before, whose vertices are used again.
+/// Without parts if the triangles are still those of `last`.
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
                  const CutOptions& options, const CutMesh& last);
 

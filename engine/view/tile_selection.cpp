@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <queue>
 #include <set>
@@ -32,11 +33,19 @@ constexpr double default_error = 1.0; // pixels, if the technique has no bound
 constexpr double share_of_tiles = 0.5;
 
 // Error bounds by which an occluder may appear lower, and a hidden tile higher, than the heights of
-// its tile. On a border both tiles' errors count, on either side; fewer triangles take up to a
-// whole bound.
-constexpr double errors_of_horizon = 2.0 * (share_of_tiles + share_of_tiles) + 1.0;
+// its tile: fewer triangles take up to a whole bound of each. The heights of unproven tiles that
+// were not read are estimates.
+constexpr double errors_of_horizon = 2.0;
+constexpr double errors_of_unproven_horizon = 3.0;
+
+// Metres: the smallest radius of curvature of WGS 84, b²/a. Two verticals that are a chord apart
+// turn by at most pi/2 times chord over radius.
+constexpr double min_radius_of_earth = 6'335'439.0;
 
 constexpr double max_texel = 1.0; // pixels between texels, if there are finer images
+
+// More would take gigabytes.
+constexpr std::size_t max_tiles_counted = 100'000;
 
 // Requests of one view. These tiles may make less urgent ones unnecessary.
 constexpr std::size_t max_requests = 16;
@@ -76,7 +85,7 @@ public:
                const glm::dmat4& world_from_local)
         : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
           frustum_(scene::clip_from_world(camera, size)),
-          picture_error_(camera, size, world_from_local, terrain.surface->placement().kind()) {
+          picture_error_(camera, size, world_from_local) {
         const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons;
         const double error = scene::error_bound(terrain.material.technique);
         max_error_ = error > 0.0 ? std::max(error, min_error) - rasterizer_error : default_error;
@@ -87,7 +96,9 @@ public:
         eye_ = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
         if (is_solid && !terrain.material.wireframe &&
             builder().overview().placement().kind() == terrain::PlacementKind::plane) {
-            horizon_ = horizon_view(camera, size, world_from_local, errors_of_horizon * max_error_);
+            const bool is_proven = stream_.recall(stream_.tree().root()).value().is_proven;
+            const double errors = is_proven ? errors_of_horizon : errors_of_unproven_horizon;
+            horizon_ = horizon_view(camera, size, world_from_local, errors * max_error_);
         }
     }
 
@@ -129,7 +140,10 @@ public:
 
     [[nodiscard]] TileSelection::Drawn drawn(std::shared_ptr<const scene::TerrainTile> tile) const {
         const double distance = distance_to(*tile);
-        const double error = error_of(*tile);
+        double error = error_of(*tile);
+        if (tile->is_proven && error > share_of_tiles * max_error_) {
+            error = std::min(error, error_of_drawn(*tile));
+        }
         return {std::move(tile), distance, error};
     }
 
@@ -154,11 +168,60 @@ private:
     /// Of its vertices on the picture, pixels: a bound if it is proven, otherwise an estimate.
     [[nodiscard]] double error_of(const scene::TileSummary& tile) const {
         if (tile.is_proven) {
-            return picture_error_.in_box(tile.bounds, tile.error);
+            const double error = error_in(tile.bounds, tile.error);
+            return error <= share_of_tiles * max_error_ ? error : error_of_blocks(tile);
         }
         return builder().has_all_samples(tile.id)
                    ? 0.0
                    : tile.error * pixels_per_metre(distance_to(tile));
+    }
+
+    [[nodiscard]] double error_in(const Box& box, double error) const {
+        const terrain::Placement& placement = builder().overview().placement();
+        const bool is_plane = placement.kind() == terrain::PlacementKind::plane;
+        const double turn =
+            is_plane ? 0.0
+                     : 0.5 * std::numbers::pi * 0.5 * glm::length(box.size()) / min_radius_of_earth;
+        return picture_error_.of({box, error, placement.up(box.center()), turn});
+    }
+
+    /// The largest of the visible blocks of a proven tile.
+    [[nodiscard]] double error_of_blocks(const scene::TileSummary& tile) const {
+        const double true_error = tile.error / builder().overview().placement().exaggeration();
+        const terrain::HeightRange drawn{tile.range.low - true_error, tile.range.high + true_error};
+        return error_of_blocks(tile, terrain::cells_per_error_block,
+                               [&](int /*col*/, int /*row*/) { return drawn; });
+    }
+
+    /// The same, closer: from the heights that are drawn.
+    [[nodiscard]] double error_of_drawn(const scene::TerrainTile& tile) const {
+        return error_of_blocks(tile, scene::cells_per_block, [&](int col, int row) {
+            const terrain::MinMax block = tile.blocks(col, row);
+            return terrain::HeightRange{block.low, block.high};
+        });
+    }
+
+    // `range_of(col, row)`: of the drawn heights of a block of so many cells.
+    template <class RangeOf>
+    double error_of_blocks(const scene::TileSummary& tile, int cells_per_block,
+                           const RangeOf& range_of) const {
+        const glm::ivec2 cells = stream_.tree().cells(tile.id);
+        double largest = 0.0;
+        for (int row = 0; row * cells_per_block < cells.y; ++row) {
+            for (int col = 0; col * cells_per_block < cells.x; ++col) {
+                const glm::ivec2 first = glm::ivec2(col, row) * cells_per_block;
+                const glm::ivec2 last = glm::min(first + cells_per_block, cells);
+                const Box box = builder().bounds(tile.id, first, last, range_of(col, row));
+                if (may_see(box)) {
+                    const glm::ivec2 block = first / terrain::cells_per_error_block;
+                    const double share = tile.error_shares[static_cast<std::size_t>(
+                                             block.y * terrain::error_blocks + block.x)] /
+                                         255.0;
+                    largest = std::max(largest, error_in(box, share * tile.error));
+                }
+            }
+        }
+        return largest;
     }
 
     [[nodiscard]] double distance_to(const scene::TileSummary& tile) const {
@@ -214,6 +277,8 @@ public:
     /// The loaded tiles that would be drawn, and their ancestors.
     [[nodiscard]] const std::vector<terrain::TreeTile>& used() const { return used_; }
     TileSelection take() { return std::move(selection_); }
+    /// The drawn tiles.
+    NearerGround& nearer() { return nearer_; }
 
 private:
     void visit(const Candidate& candidate) {
@@ -317,9 +382,15 @@ private:
     TileSelection selection_;
 };
 
-// The relative error above which tiles may be refined so that all drawn tiles fit in memory.
-// Refines the largest errors first. Depends on known tiles only, loaded or not.
-double relative_error_within_memory(const StreamView& view, const scene::TerrainTile& root) {
+struct Refinement {
+    double relative_error = 1.0; // above which tiles may be refined
+    std::size_t tiles = 1;       // seen
+};
+
+// Refines the largest errors first, as long as all tiles fit that `nearer` does not hide. Depends
+// on known tiles only, loaded or not.
+Refinement refine_within(std::size_t max_tiles, const StreamView& view,
+                         const scene::TerrainTile& root, NearerGround& nearer) {
     struct Open {
         double relative_error;
         scene::TileSummary tile;
@@ -329,7 +400,7 @@ double relative_error_within_memory(const StreamView& view, const scene::Terrain
                                                           : other.tile.id < tile.id;
         }
     };
-    std::size_t leaves = 1;
+    Refinement made;
     std::priority_queue<Open> open;
     open.push({view.relative_error_of(root), root});
     while (!open.empty() && open.top().relative_error > 1.0) {
@@ -337,7 +408,9 @@ double relative_error_within_memory(const StreamView& view, const scene::Terrain
         open.pop();
         std::size_t seen = 0;
         for (const terrain::TreeTile child : view.stream().tree().children(next.tile.id)) {
-            if (!view.may_see_child(next.tile, child)) {
+            const Box expected = view.child_bounds(next.tile, child, errors_hidden);
+            if (!view.may_see_child(next.tile, child) ||
+                nearer.hides(expected, view.along(expected))) {
                 continue;
             }
             ++seen;
@@ -346,12 +419,13 @@ double relative_error_within_memory(const StreamView& view, const scene::Terrain
                 open.push({std::min(next.relative_error, relative_error), known->summary});
             }
         }
-        leaves += std::max<std::size_t>(seen, 1) - 1; // never decreases: the limit is safe
-        if (leaves > view.stream().max_drawn()) {
-            return next.relative_error;
+        made.tiles += std::max<std::size_t>(seen, 1) - 1; // never decreases: the limit is safe
+        if (made.tiles > max_tiles) {
+            made.relative_error = next.relative_error;
+            return made;
         }
     }
-    return 1.0;
+    return made;
 }
 
 std::vector<terrain::TreeTile> by_urgency(std::vector<Candidate> missing) {
@@ -374,6 +448,29 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
            });
 }
 
+// If tiles are hidden, others can be finer than `coarse`, which fits with all of them. Requests
+// them and draws `coarse` meanwhile.
+TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double coarse_error,
+                             const StreamView& view, const scene::TerrainTile& root,
+                             const TileSelectionOptions& options) {
+    WalkLimits limits;
+    limits.max_relative_error =
+        refine_within(view.stream().max_drawn(), view, root, nearer).relative_error;
+    if (limits.max_relative_error >= coarse_error) {
+        return coarse;
+    }
+    TreeWalk walk(view, limits, options);
+    if (!walk.walk(root)) {
+        return coarse;
+    }
+    std::set<terrain::TreeTile> used(coarse.used.begin(), coarse.used.end());
+    used.insert(walk.used().begin(), walk.used().end());
+    TileSelection finer = walk.missing().empty() ? walk.take() : std::move(coarse);
+    finer.requested = by_urgency(walk.missing());
+    finer.used.assign(used.begin(), used.end());
+    return finer;
+}
+
 // Walks until no tile is missing. This ends: each walk but the last raises the error so that all
 // fits in memory, adds a leaf, or is the last that hides.
 TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTile& root,
@@ -384,8 +481,10 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
     while (true) {
         TreeWalk walk(view, limits, options);
         if (!walk.walk(root)) {
-            limits.max_relative_error = relative_error_within_memory(view, root);
-            limits.hides = false;
+            NearerGround nothing(view.builder(), std::nullopt);
+            limits.max_relative_error =
+                refine_within(view.stream().max_drawn(), view, root, nothing).relative_error;
+            limits.hides = limits.hides && root.is_proven;
             continue;
         }
         used.insert(walk.used().begin(), walk.used().end());
@@ -400,7 +499,11 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
             TileSelection selection = walk.take();
             selection.requested = std::move(*requested);
             selection.used.assign(used.begin(), used.end());
-            return selection;
+            const double error = limits.max_relative_error;
+            return limits.hides && error > 1.0 && selection.requested.empty()
+                       ? refined_behind(walk.nearer(), std::move(selection), error, view, root,
+                                        options)
+                       : selection;
         }
         for (const Candidate& candidate : walk.missing()) {
             limits.leaves.insert(candidate.parent);
@@ -425,6 +528,18 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
     }
     const StreamView view(terrain, camera, size, world_from_local);
     return walk_until_complete(view, *root, options);
+}
+
+std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                            glm::ivec2 size, const glm::dmat4& world_from_local) {
+    check(terrain.stream != nullptr, "a streamed terrain was expected");
+    const auto root = terrain.stream->find(terrain.stream->tree().root());
+    if (root == nullptr) {
+        return 1;
+    }
+    const StreamView view(terrain, camera, size, world_from_local);
+    NearerGround nothing(view.builder(), std::nullopt);
+    return refine_within(max_tiles_counted, view, *root, nothing).tiles;
 }
 
 } // namespace reljef::view

@@ -55,4 +55,9 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
                            glm::ivec2 size, const glm::dmat4& world_from_local,
                            const TileSelectionOptions& options = {});
 
+/// Tiles that keep the error bound in a view, hidden ones included; counts proven and known ones.
+/// At most about 100,000.
+std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                            glm::ivec2 size, const glm::dmat4& world_from_local);
+
 } // namespace reljef::view

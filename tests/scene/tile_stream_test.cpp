@@ -97,7 +97,8 @@ TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
 // 1301 tiles of 85 kB: more than are remembered of those that go.
 TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
     constexpr int tiles = 1301;
-    const TileBuilder narrow(overview(), TileTree(tiles * terrain::tile_cells + 1, 3), reduction);
+    const TileBuilder narrow(overview(), TileTree(tiles * terrain::tree_tile_cells + 1, 3),
+                             reduction);
     TileStream stream(narrow,
                       [&](TreeTile tile, const std::stop_token& /*stop*/) {
                           TileContent reading;

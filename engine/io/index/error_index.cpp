@@ -5,6 +5,7 @@
 #include <bit>
 #include <cerrno>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -19,19 +20,19 @@ namespace reljef::io {
 namespace fs = std::filesystem;
 using terrain::Chunk;
 using terrain::levels_per_chunk;
-using terrain::tile_cells;
 using terrain::TileProof;
+using terrain::tree_tile_cells;
 using terrain::TreeTile;
 
 namespace {
 
-constexpr std::uint32_t index_version = 2; // increase when heights or errors change
+constexpr std::uint32_t index_version = 3; // increase when heights or errors change
 
 struct IndexHeader {
     std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
     std::uint32_t version = index_version;
     std::uint32_t endian = 0x01020304;
-    std::int32_t cells_of_tile = tile_cells;
+    std::int32_t cells_of_tile = tree_tile_cells;
     std::int32_t cols = 0;
     std::int32_t rows = 0;
     std::uint32_t is_complete = 0;
@@ -45,11 +46,16 @@ struct ProofRecord {
     float high = 0.0F;
     float error = 0.0F;
     std::uint32_t has_voids = 0;
-    std::uint32_t seal = 0; // 0: not written
+    std::uint32_t seal = 0;                                    // 0: not written
+    terrain::BlockShares block_shares = terrain::whole_shares; // not at level 0
 };
-static_assert(sizeof(ProofRecord) == 20 && std::is_trivially_copyable_v<ProofRecord>);
+static_assert(sizeof(ProofRecord) == 36 && std::is_trivially_copyable_v<ProofRecord>);
 
-constexpr int side_of_heights = tile_cells + 3;
+constexpr std::size_t bytes_of_proof(int level) {
+    return level > 0 ? sizeof(ProofRecord) : offsetof(ProofRecord, block_shares);
+}
+
+constexpr int side_of_heights = tree_tile_cells + 3;
 constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
 constexpr int side_of_residuals = terrain::chunk_cells >> levels_per_chunk;
 constexpr std::size_t floats_of_residuals = std::size_t{2} * side_of_residuals * side_of_residuals;
@@ -68,6 +74,9 @@ std::uint32_t seal_of(const ProofRecord& record, TreeTile tile, std::uint64_t so
         hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
     }
     hash = sealed(hash, record.has_voids);
+    for (const std::uint8_t share : record.block_shares) {
+        hash = sealed(hash, share);
+    }
     for (const int value : {tile.level, tile.col, tile.row}) {
         hash = sealed(hash, static_cast<std::uint32_t>(value));
     }
@@ -149,7 +158,7 @@ ErrorIndex::ErrorIndex(const IndexSource& source, Descriptor file)
     std::uint64_t end = sizeof(IndexHeader);
     for (int level = 0; level <= tree_.root().level; ++level) {
         places_[static_cast<std::size_t>(level)].proofs = end;
-        end += count_of(level_tiles(tree_, level)) * sizeof(ProofRecord);
+        end += count_of(level_tiles(tree_, level)) * bytes_of_proof(level);
     }
     for (int level = first_stored_level; level <= tree_.root().level; ++level) {
         places_[static_cast<std::size_t>(level)].heights = end;
@@ -230,7 +239,8 @@ bool ErrorIndex::has_level(int level) const {
 
 std::uint64_t ErrorIndex::proof_at(TreeTile tile) const {
     return places_[static_cast<std::size_t>(tile.level)].proofs +
-           index_in(level_tiles(tree_, tile.level), tile.col, tile.row) * sizeof(ProofRecord);
+           index_in(level_tiles(tree_, tile.level), tile.col, tile.row) *
+               bytes_of_proof(tile.level);
 }
 
 std::uint64_t ErrorIndex::heights_at(TreeTile tile) const {
@@ -299,10 +309,11 @@ std::optional<TileProof> ErrorIndex::find(TreeTile tile) const {
         return std::nullopt;
     }
     ProofRecord record;
-    const bool found = read_at(proof_at(tile), std::as_writable_bytes(std::span(&record, 1)));
+    const auto bytes = std::as_writable_bytes(std::span(&record, 1));
+    const bool found = read_at(proof_at(tile), bytes.first(bytes_of_proof(tile.level)));
     return found && record.seal == seal_of(record, tile, fingerprint_)
-               ? std::optional(
-                     TileProof{record.low, record.high, record.error, record.has_voids != 0})
+               ? std::optional(TileProof{record.low, record.high, record.error,
+                                         record.has_voids != 0, record.block_shares})
                : std::nullopt;
 }
 
@@ -329,8 +340,9 @@ std::optional<terrain::Residuals> ErrorIndex::residuals(Chunk chunk) const {
 
 bool ErrorIndex::has(Chunk chunk) const {
     const int level = std::min(chunk.base + levels_per_chunk, tree_.root().level);
-    const glm::ivec2 first = first_vertex(chunk) / (1 << (level - chunk.base)) / tile_cells;
-    const glm::ivec2 side(std::max(1, terrain::chunk_cells / tile_cells >> (level - chunk.base)));
+    const glm::ivec2 first = first_vertex(chunk) / (1 << (level - chunk.base)) / tree_tile_cells;
+    const glm::ivec2 side(
+        std::max(1, terrain::chunk_cells / tree_tile_cells >> (level - chunk.base)));
     const glm::ivec2 end = glm::min(first + side, level_tiles(tree_, level));
     for (int row = first.y; row < end.y; ++row) {
         for (int col = first.x; col < end.x; ++col) {
@@ -343,17 +355,18 @@ bool ErrorIndex::has(Chunk chunk) const {
 }
 
 Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<TileProof>& tiles) {
-    std::vector<ProofRecord> records(static_cast<std::size_t>(tiles.cols()));
+    const std::size_t size = bytes_of_proof(level);
+    std::vector<std::byte> records(size * static_cast<std::size_t>(tiles.cols()));
     for (int row = 0; row < tiles.rows(); ++row) {
         for (int col = 0; col < tiles.cols(); ++col) {
             const TileProof& proof = tiles(col, row);
-            ProofRecord& record = records[static_cast<std::size_t>(col)];
-            record = {proof.low, proof.high, proof.error, proof.has_voids ? 1U : 0U, 0};
+            ProofRecord record{proof.low,   proof.high,
+                               proof.error, proof.has_voids ? 1U : 0U,
+                               0,           level > 0 ? proof.block_shares : terrain::whole_shares};
             record.seal = seal_of(record, {level, first.x + col, first.y + row}, fingerprint_);
+            std::memcpy(records.data() + size * static_cast<std::size_t>(col), &record, size);
         }
-        if (auto written = write_at(proof_at({level, first.x, first.y + row}),
-                                    std::as_bytes(std::span(records)));
-            !written) {
+        if (auto written = write_at(proof_at({level, first.x, first.y + row}), records); !written) {
             return written;
         }
     }
@@ -367,7 +380,7 @@ Result<void> ErrorIndex::write_heights(int level, glm::ivec2 first,
             const TreeTile tile{level, first.x + col, first.y + row};
             const glm::ivec2 size = tree_.cells(tile) + 3;
             std::vector<float> floats(floats_of_heights);
-            const glm::ivec2 from = glm::ivec2(col, row) * tile_cells + (made.border - 1);
+            const glm::ivec2 from = glm::ivec2(col, row) * tree_tile_cells + (made.border - 1);
             for (int y = 0; y < size.y; ++y) {
                 const auto heights = made.heights.row(from.y + y);
                 std::copy_n(heights.begin() + from.x, size.x,
@@ -383,7 +396,7 @@ Result<void> ErrorIndex::write_heights(int level, glm::ivec2 first,
 
 // Proofs come last: they say that a chunk is there.
 Result<void> ErrorIndex::write(Chunk chunk, const terrain::ChunkProof& proof) {
-    const glm::ivec2 first = first_vertex(chunk) / tile_cells;
+    const glm::ivec2 first = first_vertex(chunk) / tree_tile_cells;
     Result<void> written;
     const auto for_each_level = [&](auto&& act) {
         for (int i = 0; i < levels_per_chunk && written; ++i) {
@@ -418,13 +431,14 @@ std::vector<ErrorIndex::Level> ErrorIndex::levels() const {
     for (int level = 0; level <= tree_.root().level; ++level) {
         const glm::ivec2 count = level_tiles(tree_, level);
         Level found{count_of(count), 0, 0.0F};
-        std::vector<ProofRecord> records(static_cast<std::size_t>(count.x));
+        const std::size_t size = bytes_of_proof(level);
+        std::vector<std::byte> records(size * static_cast<std::size_t>(count.x));
         for (int row = 0; row < count.y; ++row) {
-            std::fill(records.begin(), records.end(), ProofRecord{});
-            static_cast<void>(
-                read_at(proof_at({level, 0, row}), std::as_writable_bytes(std::span(records))));
+            std::fill(records.begin(), records.end(), std::byte{0});
+            static_cast<void>(read_at(proof_at({level, 0, row}), records));
             for (int col = 0; col < count.x; ++col) {
-                const ProofRecord& record = records[static_cast<std::size_t>(col)];
+                ProofRecord record;
+                std::memcpy(&record, records.data() + size * static_cast<std::size_t>(col), size);
                 const bool is_proven =
                     record.seal == seal_of(record, {level, col, row}, fingerprint_);
                 found.unproven += is_proven ? 0 : 1;

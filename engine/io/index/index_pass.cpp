@@ -18,8 +18,8 @@ using terrain::chunk_border;
 using terrain::chunk_cells;
 using terrain::ChunkInput;
 using terrain::levels_per_chunk;
-using terrain::tile_cells;
 using terrain::TileProof;
+using terrain::tree_tile_cells;
 using terrain::TreeTile;
 
 std::vector<Chunk> missing_chunks(const terrain::TileTree& tree, const ErrorIndex& index,
@@ -59,14 +59,14 @@ bool add_heights(const terrain::TileTree& tree, const ErrorIndex& index, int lev
                  StoredBase& base) {
     const glm::ivec2 size(base.heights.cols(), base.heights.rows());
     const glm::ivec2 last =
-        glm::min((base.first + size - 1) / tile_cells, level_tiles(tree, level) - 1);
-    for (int row = base.first.y / tile_cells; row <= last.y; ++row) {
-        for (int col = base.first.x / tile_cells; col <= last.x; ++col) {
+        glm::min((base.first + size - 1) / tree_tile_cells, level_tiles(tree, level) - 1);
+    for (int row = base.first.y / tree_tile_cells; row <= last.y; ++row) {
+        for (int col = base.first.x / tree_tile_cells; col <= last.x; ++col) {
             const auto heights = index.heights({level, col, row});
             if (!heights) {
                 return false;
             }
-            put(*heights, glm::ivec2(col, row) * tile_cells - 1 - base.first, base.heights);
+            put(*heights, glm::ivec2(col, row) * tree_tile_cells - 1 - base.first, base.heights);
         }
     }
     return true;
@@ -93,7 +93,7 @@ bool add_residuals(const terrain::TileTree& tree, const ErrorIndex& index, Chunk
 }
 
 bool add_tiles(const ErrorIndex& index, Chunk chunk, StoredBase& base) {
-    const glm::ivec2 first = first_vertex(chunk) / tile_cells;
+    const glm::ivec2 first = first_vertex(chunk) / tree_tile_cells;
     for (int row = 0; row < base.tiles.rows(); ++row) {
         for (int col = 0; col < base.tiles.cols(); ++col) {
             const auto proof = index.find({chunk.base, first.x + col, first.y + row});
@@ -114,8 +114,8 @@ std::optional<StoredBase> stored_base(const terrain::TileTree& tree, const Error
     const glm::ivec2 size = chunk_size(tree, chunk);
     const glm::ivec2 first = glm::max(begin - chunk_border, glm::ivec2(0));
     const glm::ivec2 end = glm::min(begin + size + chunk_border, level_cells(tree, chunk.base)) + 1;
-    const glm::ivec2 tiles = glm::min(level_tiles(tree, chunk.base) - begin / tile_cells,
-                                      glm::ivec2(chunk_cells / tile_cells));
+    const glm::ivec2 tiles = glm::min(level_tiles(tree, chunk.base) - begin / tree_tile_cells,
+                                      glm::ivec2(chunk_cells / tree_tile_cells));
     StoredBase base{Grid<float>(end.x - first.x, end.y - first.y),
                     first,
                     {Grid<float>(size.x, size.y, infinite), Grid<float>(size.x, size.y, -infinite)},

@@ -12,6 +12,7 @@
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
+#include "engine/terrain/tree/tile_error.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::scene {
@@ -30,6 +31,7 @@ struct TileSummary {
     double error = 0.0;
     double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
     bool is_proven = false;
+    terrain::BlockShares error_shares = terrain::whole_shares; ///< of `error`, if proven
 };
 
 /// A tile of a terrain's quadtree, ready to be drawn.
@@ -63,7 +65,7 @@ inline constexpr std::size_t bytes_of_bisection = 40; // per vertex
 inline constexpr std::size_t bytes_per_vertex =
     sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
 inline constexpr std::size_t bytes_per_tile =
-    bytes_per_vertex * (terrain::tile_cells + 1) * (terrain::tile_cells + 1);
+    bytes_per_vertex * (terrain::tree_tile_cells + 1) * (terrain::tree_tile_cells + 1);
 /// For texels beyond one per vertex; on the GPU with mipmaps.
 inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
 

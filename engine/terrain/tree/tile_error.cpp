@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -32,8 +34,8 @@ public:
     void add(int row, std::span<const float> heights, bool is_last) {
         join(heights);
         const int vertex = row - chunk_border;
-        if (is_last || (vertex >= 0 && vertex % tile_cells == 0)) {
-            close(vertex > 0 ? (vertex - 1) / tile_cells : -1);
+        if (is_last || (vertex >= 0 && vertex % tree_tile_cells == 0)) {
+            close(vertex > 0 ? (vertex - 1) / tree_tile_cells : -1);
             join(heights);
         }
     }
@@ -55,9 +57,9 @@ private:
     /// Ends a row of tiles; rows outside the chunk have none.
     void close(int row) {
         for (int col = 0; row >= 0 && row < tiles_.rows() && col < tiles_.cols(); ++col) {
-            const auto first =
-                static_cast<std::size_t>(chunk_border) + static_cast<std::size_t>(col) * tile_cells;
-            const std::size_t end = std::min(first + tile_cells + 1, low_.size());
+            const auto first = static_cast<std::size_t>(chunk_border) +
+                               static_cast<std::size_t>(col) * tree_tile_cells;
+            const std::size_t end = std::min(first + tree_tile_cells + 1, low_.size());
             TileProof& tile = tiles_(col, row);
             for (std::size_t i = first; i < end; ++i) {
                 tile.low = lower(tile.low, low_[i]);
@@ -80,8 +82,11 @@ private:
     float largest_ = 0.0F;
 };
 
-/// Sets the largest distance from the surface in each tile.
-void add_errors(const Residuals& residuals, Grid<TileProof>& tiles) {
+using BlockErrors = std::array<float, std::tuple_size_v<BlockShares>>; // metres
+
+/// The largest distance from the surface in each block of each tile.
+Grid<BlockErrors> block_errors(const Residuals& residuals, glm::ivec2 tiles) {
+    Grid<BlockErrors> blocks(tiles.x, tiles.y);
     std::vector<float> errors(static_cast<std::size_t>(residuals.low.cols()));
     for (int row = 0; row < residuals.low.rows(); ++row) {
         const float* const low = residuals.low.row(row).data();
@@ -90,14 +95,31 @@ void add_errors(const Residuals& residuals, Grid<TileProof>& tiles) {
         for (std::size_t i = 0; i < errors.size(); ++i) {
             error[i] = higher(higher(error[i], -low[i]), high[i]);
         }
-        const bool ends_tiles = row % tile_cells == tile_cells - 1;
-        for (std::size_t i = 0;
-             (ends_tiles || row == residuals.low.rows() - 1) && i < errors.size(); ++i) {
-            float& largest = tiles(static_cast<int>(i) / tile_cells, row / tile_cells).error;
-            largest = higher(largest, errors[i]);
-            errors[i] = 0.0F;
+        if (row % cells_per_error_block != cells_per_error_block - 1 &&
+            row != residuals.low.rows() - 1) {
+            continue;
+        }
+        for (int col = 0; col < residuals.low.cols(); ++col) {
+            const int block = row % tree_tile_cells / cells_per_error_block * error_blocks +
+                              col % tree_tile_cells / cells_per_error_block;
+            float& largest = blocks(col / tree_tile_cells,
+                                    row / tree_tile_cells)[static_cast<std::size_t>(block)];
+            float& found = errors[static_cast<std::size_t>(col)];
+            largest = higher(largest, std::exchange(found, 0.0F));
         }
     }
+    return blocks;
+}
+
+/// `rounding`: metres, of each error.
+void set_errors(const BlockErrors& errors, float rounding, TileProof& tile) {
+    const float largest = *std::max_element(errors.begin(), errors.end());
+    const bool is_exact = tile.low >= tile.high && largest == 0.0F; // means of equal heights
+    tile.error = is_exact ? 0.0F : std::nextafter(largest + rounding, infinite);
+    std::transform(errors.begin(), errors.end(), tile.block_shares.begin(), [&](float error) {
+        const float share = is_exact ? 0.0F : std::ceil(255.0F * ((error + rounding) / tile.error));
+        return static_cast<std::uint8_t>(std::min(share + 1.0F, 255.0F)); // for the division
+    });
 }
 
 /// Tiles of a level from the tiles below it and from its residuals. `rounding`: metres.
@@ -111,10 +133,9 @@ Grid<TileProof> tiles_of(const Grid<TileProof>& below, const Residuals& residual
             tile.has_voids = tile.has_voids || below(col, row).has_voids;
         }
     }
-    add_errors(residuals, tiles);
-    for (TileProof& tile : tiles.samples()) {
-        const bool is_exact = tile.low >= tile.high && tile.error == 0.0F; // means of equal heights
-        tile.error = is_exact ? 0.0F : std::nextafter(tile.error + rounding, infinite);
+    const Grid<BlockErrors> errors = block_errors(residuals, {tiles.cols(), tiles.rows()});
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        set_errors(errors.samples()[i], rounding, tiles.samples()[i]);
     }
     return tiles;
 }
@@ -145,7 +166,7 @@ glm::ivec2 level_cells(const TileTree& tree, int level) {
 }
 
 glm::ivec2 level_tiles(const TileTree& tree, int level) {
-    return (level_cells(tree, level) + tile_cells - 1) / tile_cells;
+    return (level_cells(tree, level) + tree_tile_cells - 1) / tree_tile_cells;
 }
 
 glm::ivec2 level_chunks(const TileTree& tree, int base) {
@@ -168,8 +189,8 @@ ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& inpu
     const glm::ivec2 size = chunk_size(tree, chunk);
     const glm::ivec2 vertices = size + 1 + 2 * chunk_border;
     const glm::ivec2 base_tiles =
-        glm::min(level_tiles(tree, chunk.base) - first_vertex(chunk) / tile_cells,
-                 glm::ivec2(chunk_cells / tile_cells));
+        glm::min(level_tiles(tree, chunk.base) - first_vertex(chunk) / tree_tile_cells,
+                 glm::ivec2(chunk_cells / tree_tile_cells));
     BaseRanges ranges(base_tiles, vertices.x);
     ChunkProof proof;
     FinerLevel finer{[&](int row, std::span<float> heights) {
@@ -245,6 +266,14 @@ std::string found_text(const char* what, double found, double expected) {
     return fmt::format("{} of {} m found, {} m was expected", what, found, expected);
 }
 
+/// Of the cell at a sample.
+std::size_t block_at(const TileTree& tree, TreeTile tile, glm::ivec2 sample) {
+    const glm::ivec2 cell =
+        glm::min((sample - TileTree::first(tile)) / TileTree::step(tile), tree.cells(tile) - 1);
+    const glm::ivec2 block = cell / cells_per_error_block;
+    return static_cast<std::size_t>(block.y * error_blocks + block.x);
+}
+
 /// Compares a proof with all samples of the tile.
 std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTile tile,
                                                     const TileProof& proof,
@@ -254,6 +283,7 @@ std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTi
     const glm::ivec2 first = TileTree::first(tile);
     const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
     TileProof found;
+    BlockErrors errors{};
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
             const float height = samples(col - first.x + border, row - first.y + border);
@@ -263,7 +293,8 @@ std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTi
                 const float difference = height - surface_at(tree, tile, heights, {col, row});
                 found.low = lower(found.low, height);
                 found.high = higher(found.high, height);
-                found.error = higher(found.error, std::abs(difference));
+                float& error = errors.at(block_at(tree, tile, {col, row}));
+                error = higher(error, std::abs(difference));
             }
         }
     }
@@ -276,9 +307,13 @@ std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTi
                                : "no voids found, some were expected";
     }
     const float rounding = rounding_per_level * higher(std::abs(found.low), std::abs(found.high));
-    return found.error > proof.error + rounding
-               ? std::optional(found_text("an error", proof.error, found.error))
-               : std::nullopt;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const auto proven = static_cast<float>(proof.block_error(i));
+        if (errors[i] > proven + rounding) {
+            return found_text("an error", proven, errors[i]);
+        }
+    }
+    return std::nullopt;
 }
 
 /// Compares a proof with the vertices inside the tile, which are means of its own samples.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -25,6 +26,17 @@
 
 namespace reljef::terrain {
 
+/// Blocks along a side of a tile, whose errors are told apart.
+inline constexpr int error_blocks = 4;
+inline constexpr int cells_per_error_block = tree_tile_cells / error_blocks;
+/// Of the tile's error, in 255ths; row after row.
+using BlockShares = std::array<std::uint8_t, error_blocks * error_blocks>;
+inline constexpr BlockShares whole_shares = [] {
+    BlockShares shares{};
+    shares.fill(255);
+    return shares;
+}();
+
 /// What is proven of a tile, true metres.
 struct TileProof {
     /// Lowest and highest sample that is no void; low > high: there is none.
@@ -34,6 +46,13 @@ struct TileProof {
     float error = 0.0F;
     /// Whether there are voids. What fills them may be outside of the heights and the error.
     bool has_voids = false;
+    /// The same error of each block.
+    BlockShares block_shares = whole_shares;
+
+    /// Metres.
+    [[nodiscard]] double block_error(std::size_t block) const {
+        return static_cast<double>(error) * block_shares[block] / 255.0;
+    }
 
     friend bool operator==(const TileProof&, const TileProof&) = default;
 };
@@ -48,7 +67,7 @@ struct Residuals {
 inline constexpr int levels_per_chunk = 3;
 /// Base cells along a chunk's side.
 inline constexpr int chunk_cells = 1024;
-static_assert(chunk_cells % (tile_cells << levels_per_chunk) == 0);
+static_assert(chunk_cells % (tree_tile_cells << levels_per_chunk) == 0);
 /// Base vertices around a chunk that its levels need, for one step around them.
 inline constexpr int chunk_border = (2 << levels_per_chunk) - 1;
 

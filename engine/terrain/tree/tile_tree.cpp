@@ -12,7 +12,7 @@ TileTree::TileTree(int cols, int rows, bool wraps_longitude)
     : last_(cols - 1, rows - 1), wraps_longitude_(wraps_longitude) {
     check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= max_tree_samples,
           "a tile tree needs 2 to 2^30 samples a side");
-    while (tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {
+    while (tree_tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {
         ++levels_;
     }
 }
@@ -36,7 +36,8 @@ std::vector<TreeTile> TileTree::children(TreeTile tile) const {
 
 glm::ivec2 TileTree::cells(TreeTile tile) const {
     const glm::ivec2 left = last_ - first(tile);
-    return glm::clamp((left + step(tile) - 1) / step(tile), glm::ivec2(0), glm::ivec2(tile_cells));
+    return glm::clamp((left + step(tile) - 1) / step(tile), glm::ivec2(0),
+                      glm::ivec2(tree_tile_cells));
 }
 
 glm::ivec2 TileTree::sample(TreeTile tile, glm::ivec2 vertex) const {

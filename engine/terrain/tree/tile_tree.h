@@ -9,6 +9,10 @@
 
 namespace reljef::terrain {
 
+/// Largest number of cells along a side of a tree's tile. Fewer than those of tiles in memory:
+/// small tiles follow the view more closely, so that more of it fits a small memory.
+inline constexpr int tree_tile_cells = 64;
+
 /// A tile of a quadtree over the samples of a raster. At level l every 2^l-th sample is a vertex.
 struct TreeTile {
     int level = 0;
@@ -21,8 +25,8 @@ struct TreeTile {
 /// Largest side of a tree, samples.
 inline constexpr int max_tree_samples = 1 << 30;
 
-/// A quadtree of tiles with at most `tile_cells` cells a side over a raster of any size. Neighbours
-/// share their border vertices. The tree stores no tiles.
+/// A quadtree of tiles with at most `tree_tile_cells` cells a side over a raster of any size.
+/// Neighbours share their border vertices. The tree stores no tiles.
 class TileTree {
 public:
     /// `wraps_longitude`: the last column and the first are the same places.
@@ -40,9 +44,9 @@ public:
     [[nodiscard]] static int step(TreeTile tile) { return 1 << tile.level; }
     /// Sample (col, row) of the first vertex.
     [[nodiscard]] static glm::ivec2 first(TreeTile tile) {
-        return glm::ivec2(tile.col, tile.row) * tile_cells * step(tile);
+        return glm::ivec2(tile.col, tile.row) * tree_tile_cells * step(tile);
     }
-    /// 1 … tile_cells; the raster's end may cut the last cells. Precondition: in the tree.
+    /// 1 … tree_tile_cells; the raster's end may cut the last cells. Precondition: in the tree.
     [[nodiscard]] glm::ivec2 cells(TreeTile tile) const;
     /// Sample of a vertex, clamped to the raster.
     [[nodiscard]] glm::ivec2 sample(TreeTile tile, glm::ivec2 vertex) const;

@@ -177,8 +177,9 @@ TEST_F(AlpineBlock, HasNoHoleFromAnyPose) {
 TEST_F(AlpineBlock, ShowsOnePlaceFromAThousandKilometresDownToAMetre) {
     // Where the corners of all four files meet: a vertex of tiles of many levels.
     const scene::TileBuilder& maker = place_->node().stream->maker();
-    const terrain::TreeTile tile{0, 1200 / terrain::tile_cells, 1200 / terrain::tile_cells};
-    const glm::ivec2 vertex(1200 % terrain::tile_cells);
+    const terrain::TreeTile tile{0, 1200 / terrain::tree_tile_cells,
+                                 1200 / terrain::tree_tile_cells};
+    const glm::ivec2 vertex(1200 % terrain::tree_tile_cells);
     constexpr double corner_height = 2411.0; // of all four
     const glm::dvec3 ground = maker.place(tile, vertex, corner_height);
     const glm::dvec3 up = place_->placement().up(ground);

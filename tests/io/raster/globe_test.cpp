@@ -228,7 +228,7 @@ TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
     ASSERT_EQ(ground.grid.rows, 362);
     const terrain::TileTree tree(721, 362);
     for (int level = 0; level < 3; ++level) {
-        const int last = 720 / (terrain::tile_cells << level);
+        const int last = 720 / (terrain::tree_tile_cells << level);
         const terrain::TreeTile west{level, 0, 0};
         const terrain::TreeTile east{level, last, 0};
         const auto first = read_tree_tile(set, ground, tree, west, Gaps::holes).heights;
@@ -242,7 +242,7 @@ TEST_F(WholeGlobe, TilesMeetAcrossTheAntimeridianAtEveryLevel) {
         for (int col = 0; col < first.cols(); ++col) {
             ASSERT_EQ(first(col, 1), 1234.5);
         }
-        const int bottom = 361 / (terrain::tile_cells << level);
+        const int bottom = 361 / (terrain::tree_tile_cells << level);
         const terrain::TreeTile south{level, 0, bottom};
         const auto polar = read_tree_tile(set, ground, tree, south, Gaps::holes).heights;
         ASSERT_EQ(polar(3, tree.cells(south).y + 1), 567.5);

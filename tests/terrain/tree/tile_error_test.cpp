@@ -63,9 +63,9 @@ ChunkProof prove(const TileTree& tree, Chunk chunk, const LevelState& base) {
         constexpr float infinite = std::numeric_limits<float>::infinity();
         residuals = {part_of(base.residuals.low, first, size, infinite),
                      part_of(base.residuals.high, first, size, -infinite)};
-        const glm::ivec2 first_tile = first / tile_cells;
+        const glm::ivec2 first_tile = first / tree_tile_cells;
         const glm::ivec2 count =
-            glm::min(level_tiles(tree, chunk.base) - first_tile, chunk_cells / tile_cells);
+            glm::min(level_tiles(tree, chunk.base) - first_tile, chunk_cells / tree_tile_cells);
         tiles = Grid<TileProof>(count.x, count.y);
         for (int row = 0; row < count.y; ++row) {
             for (int col = 0; col < count.x; ++col) {
@@ -91,7 +91,7 @@ void store(const ChunkProof& proof, Chunk chunk, std::vector<LevelState>& levels
     const glm::ivec2 first = first_vertex(chunk);
     const auto base = static_cast<std::size_t>(chunk.base);
     if (chunk.base == 0) {
-        put(proof.base, first / tile_cells, levels[base].tiles);
+        put(proof.base, first / tree_tile_cells, levels[base].tiles);
     }
     for (std::size_t i = 0; i < proof.levels.size(); ++i) {
         const ChunkLevel& made = proof.levels.at(i);
@@ -102,7 +102,7 @@ void store(const ChunkProof& proof, Chunk chunk, std::vector<LevelState>& levels
             corner, level.heights);
         put(made.residuals.low, corner, level.residuals.low);
         put(made.residuals.high, corner, level.residuals.high);
-        put(made.tiles, corner / tile_cells, level.tiles);
+        put(made.tiles, corner / tree_tile_cells, level.tiles);
     }
 }
 
