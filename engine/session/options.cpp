@@ -20,6 +20,11 @@ scene::Technique technique_of(const SceneOptions& options) {
     return technique;
 }
 
+bool names_error_bound(const SceneOptions& options) {
+    return (options.technique || options.max_error) &&
+           scene::error_bound(technique_of(options)) > 0.0;
+}
+
 Result<void> check(const SceneOptions& options) {
     if (options.eye && options.target && *options.eye == *options.target) {
         return usage_error("--look: the point of --eye found, another point was expected");
@@ -50,11 +55,8 @@ Result<void> check(const SceneOptions& options) {
 }
 
 SourceOptions streamed_for(SourceOptions source, const SceneOptions& options) {
-    const scene::Technique technique = technique_of(options);
-    const bool is_named = options.technique || options.max_error;
-    const bool is_bounded = scene::error_bound(technique) > 0.0;
-    source.streamed = source.streamed && scene::draws_tiles(technique);
-    source.pictures_streamed = source.streamed && !(is_named && is_bounded);
+    source.streamed = source.streamed && scene::draws_tiles(technique_of(options));
+    source.pictures_streamed = source.streamed && !names_error_bound(options);
     return source;
 }
 

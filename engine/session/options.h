@@ -18,6 +18,10 @@
 
 namespace reljef::session {
 
+/// What proves the errors of streamed tiles (terrain_index.h): nothing, an index that is there, or
+/// one that open_scene() makes first if the user names an error bound.
+enum class IndexUse { none, existing, made };
+
 struct SourceOptions {
     /// A built-in name, a scene file (.toml), a DEM file or its address, a folder of them, or web
     /// tiles.
@@ -40,6 +44,7 @@ struct SourceOptions {
     bool streamed = false;
     /// Also streams a terrain whose images are finer than one picture. open_scene() sets this.
     bool pictures_streamed = false;
+    IndexUse index = IndexUse::none;
 };
 
 struct GeodeticView {
@@ -81,6 +86,9 @@ struct SceneOptions {
 
 /// The technique with its error bound. Precondition: check().
 scene::Technique technique_of(const SceneOptions& options);
+
+/// Whether the user names an error bound, by a technique or as such.
+bool names_error_bound(const SceneOptions& options);
 
 /// Usage errors: an error bound or a detail texture with a technique that has none, and a camera at
 /// its target.

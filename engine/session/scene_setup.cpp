@@ -13,6 +13,7 @@
 #include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
+#include "engine/session/terrain_index.h"
 
 namespace reljef::session {
 namespace {
@@ -215,6 +216,10 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     set_projection(*camera, result.bounds, view);
     result.camera = &result.scene.add_camera(*camera);
+    if (shown.stream != nullptr) {
+        source.terrain = {};
+        result.source = std::make_shared<const TerrainSource>(std::move(source));
+    }
     return result;
 }
 
@@ -250,6 +255,12 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     auto source = open_terrain(std::move(description), streamed_for(terrain, view), log, stop);
     if (!source) {
         return source.error();
+    }
+    const bool makes_index = terrain.index == IndexUse::made && names_error_bound(view);
+    if (terrain.index != IndexUse::none) {
+        if (auto added = add_proofs(*source, makes_index, log, stop); !added) {
+            return added.error();
+        }
     }
     auto scene = make_scene(std::move(*source), terrain, view, log, stop);
     if (!scene) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,6 +23,8 @@ struct TerrainScene {
     Box bounds;                       ///< of the terrain, scene metres
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
+    /// Of a streamed terrain, without its overview; else null.
+    std::shared_ptr<const TerrainSource> source;
 
     /// z of the ground at x, y; the lowest point of the terrain where there is none.
     [[nodiscard]] double ground(double x, double y) const;
@@ -45,8 +48,8 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
 /// user, or if the geoid is not the one that they count from.
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
 
-/// Opens a terrain and sets up its scene: open_terrain, make_scene, geoid_note and, with
-/// `view.prepares_maps`, prepare_maps.
+/// Opens a terrain and sets up its scene: open_terrain, add_proofs, make_scene, geoid_note and,
+/// with `view.prepares_maps`, prepare_maps.
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop);
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -82,17 +83,66 @@ scene::TileContent content_or_overview(const scene::TileBuilder& maker, int redu
     return coarse;
 }
 
-void add_picture(const io::ImagerySet& images, const io::TileGrid& grid,
-                 const scene::TileBuilder& maker, terrain::TreeTile tile,
-                 const std::stop_token& stop, scene::TileContent& content) {
-    const glm::ivec2 cells = maker.tree().cells(tile);
-    io::ImageryWindow window =
-        images.read(io::picture_grid(grid, tile, cells, maker.picture_size(tile)),
-                    maker.texel(tile.level), stop);
-    io::wrap_picture(window.texels, maker.rows(), maker.first(tile).y, cells.y * maker.step(tile));
-    content.picture = {std::move(window.texels), window.whole, window.has_more};
-    add_errors(content.picture_errors, window.errors);
-}
+/// Reads the tiles of a stream.
+class TileReader {
+public:
+    /// Precondition: the source is streamed.
+    TileReader(const TerrainSource& source, const io::WrappedGrid& ground, scene::TileBuilder maker)
+        : tiles_(*source.tiles), stream_(*source.stream), images_(source.imagery),
+          proofs_(source.proofs), ground_(ground), maker_(std::move(maker)) {}
+
+    [[nodiscard]] scene::TileContent heights(terrain::TreeTile tile,
+                                             const std::stop_token& stop) const {
+        auto proven = proofs_ != nullptr ? proofs_->read(tile, stop) : std::nullopt;
+        scene::TileContent content = proven ? std::move(*proven) : unproven(tile, stop);
+        content.notes = tiles_.take_new_notes();
+        if (!stop.stop_requested()) {
+            content = content_or_overview(maker_, stream_.plan.reduction, tile, std::move(content));
+        }
+        if (auto error = proofs_ != nullptr ? proofs_->take_error() : std::nullopt) {
+            (content.errors.empty() ? content.picture_errors : content.errors)
+                .push_back(std::move(*error));
+        }
+        return content;
+    }
+
+    [[nodiscard]] scene::TileContent with_picture(terrain::TreeTile tile,
+                                                  const std::stop_token& stop) const {
+        scene::TileContent content = heights(tile, stop);
+        if (images_ && content.errors.empty() && !stop.stop_requested()) {
+            add_picture(tile, stop, content);
+        }
+        return content;
+    }
+
+private:
+    [[nodiscard]] scene::TileContent unproven(terrain::TreeTile tile,
+                                              const std::stop_token& stop) const {
+        return stream_.step_of_overview > 0 && maker_.step(tile) >= stream_.step_of_overview
+                   ? overview_content(maker_, tile)
+                   : content_of(io::read_tree_tile(tiles_, ground_, maker_.tree(), tile,
+                                                   stream_.gaps, stop));
+    }
+
+    void add_picture(terrain::TreeTile tile, const std::stop_token& stop,
+                     scene::TileContent& content) const {
+        const glm::ivec2 cells = maker_.tree().cells(tile);
+        io::ImageryWindow window =
+            images_->read(io::picture_grid(ground_.grid, tile, cells, maker_.picture_size(tile)),
+                          maker_.texel(tile.level), stop);
+        io::wrap_picture(window.texels, maker_.rows(), maker_.first(tile).y,
+                         cells.y * maker_.step(tile));
+        content.picture = {std::move(window.texels), window.whole, window.has_more};
+        add_errors(content.picture_errors, window.errors);
+    }
+
+    io::TileSet tiles_;
+    StreamSource stream_;
+    std::shared_ptr<const io::ImagerySet> images_;
+    std::shared_ptr<const ProvenTiles> proofs_;
+    io::WrappedGrid ground_;
+    scene::TileBuilder maker_;
+};
 
 void log_errors(scene::TileStream& stream, Log& log) {
     for (const std::string& error : stream.take_errors()) {
@@ -157,31 +207,21 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
     scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                              ground.wrap);
-    const auto read_heights =
-        [tiles = *source.tiles, ground, maker, reduction = source.stream->plan.reduction,
-         step_of_overview = source.stream->step_of_overview,
-         gaps = source.stream->gaps](terrain::TreeTile tile, const std::stop_token& stop) {
-            scene::TileContent content =
-                step_of_overview > 0 && maker.step(tile) >= step_of_overview
-                    ? overview_content(maker, tile)
-                    : content_of(io::read_tree_tile(tiles, ground, maker.tree(), tile, gaps, stop));
-            content.notes = tiles.take_new_notes();
-            return stop.stop_requested()
-                       ? content
-                       : content_or_overview(maker, reduction, tile, std::move(content));
-        };
-    const auto read = [read_heights, images = source.imagery, ground,
-                       maker](terrain::TreeTile tile, const std::stop_token& stop) {
-        scene::TileContent content = read_heights(tile, stop);
-        if (images && content.errors.empty() && !stop.stop_requested()) {
-            add_picture(*images, ground.grid, maker, tile, stop, content);
-        }
-        return content;
-    };
+    const TileReader reader(source, ground, maker);
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
     options.threads = source.stream->threads;
-    options.read_heights = read_heights;
+    options.read_heights = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
+        return reader.heights(tile, stop);
+    };
+    if (source.proofs != nullptr) {
+        options.find_proof = [proofs = source.proofs](terrain::TreeTile tile) {
+            return proofs->find(tile);
+        };
+    }
+    const auto read = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
+        return reader.with_picture(tile, stop);
+    };
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
@@ -274,6 +314,20 @@ scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now
         later.target += way;
     }
     return later;
+}
+
+bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain,
+               const std::shared_ptr<scene::TileStream>& stream, glm::ivec2 size) {
+    const auto shown = std::exchange(terrain.stream, stream);
+    const std::vector<view::TileRequests> requests =
+        view::tile_requests(scene, scene.camera(), size);
+    terrain.stream = shown;
+    request_tiles(requests);
+    return std::all_of(requests.begin(), requests.end(), [](const view::TileRequests& request) {
+        return std::all_of(
+            request.missing.begin(), request.missing.end(),
+            [&](terrain::TreeTile tile) { return request.stream->has_given_up(tile); });
+    });
 }
 
 bool take_arrivals(const scene::Scene& scene) {

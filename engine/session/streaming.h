@@ -39,6 +39,11 @@ struct MemoryForBound {
 /// Empty if no terrain has an error bound.
 std::optional<MemoryForBound> memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
 
+/// Loads the tiles of the scene's view into another stream of a terrain. Returns whether they are
+/// in memory or have failed for good; call it until then.
+bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain,
+               const std::shared_ptr<scene::TileStream>& stream, glm::ivec2 size);
+
 /// Extrapolates a camera that moved from `before` to `now` in `seconds` by `ahead` more seconds.
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
                            double ahead);

@@ -1,5 +1,7 @@
 #include "engine/session/terrain_index.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "engine/core/stopwatch.h"
@@ -12,6 +14,83 @@ namespace {
 
 IndexedTerrain needs_none(std::string reason) {
     return {{}, std::move(reason), {}, 0.0};
+}
+
+Result<std::filesystem::path> folder_of_indexes() {
+    const auto folder = io::cache_folder();
+    return folder ? Result<std::filesystem::path>(*folder)
+                  : Error{"$XDG_CACHE_HOME and $HOME: no absolute path found, one was expected for "
+                          "the index"};
+}
+
+Result<io::IndexSource> indexed_source(const TerrainSource& source) {
+    const auto folder = folder_of_indexes();
+    return folder ? io::index_source(*source.tiles, source.stream->plan.grid, source.stream->gaps,
+                                     *folder)
+                  : folder.error();
+}
+
+bool is_on_server(const io::TileSet& tiles) {
+    return std::any_of(tiles.files().begin(), tiles.files().end(), [](const io::TileFile& file) {
+        return file.path.string().find("://") != std::string::npos;
+    });
+}
+
+using Proofs = std::shared_ptr<const ProvenTiles>;
+
+Proofs proofs_of(const TerrainSource& source, io::IndexSource index, io::ErrorIndex found) {
+    return std::make_shared<const ProvenTiles>(std::move(index), std::move(found),
+                                               source.stream->imagery.refinement);
+}
+
+/// Null if there is no index; then reads nothing else.
+Result<Proofs> existing_proofs(const TerrainSource& source) {
+    const auto folder = io::cache_folder();
+    const io::TileGrid& grid = source.stream->plan.grid;
+    std::error_code ignored;
+    if (!folder ||
+        !std::filesystem::exists(io::index_file(*source.tiles, grid, source.stream->gaps, *folder),
+                                 ignored)) {
+        return Proofs();
+    }
+    auto index = indexed_source(source);
+    if (!index) {
+        return index.error();
+    }
+    auto found = io::ErrorIndex::open(*index);
+    if (!found) {
+        return found.error();
+    }
+    return *found ? proofs_of(source, std::move(*index), std::move(**found)) : Proofs();
+}
+
+unsigned threads_within(const StreamSource& stream, unsigned threads) {
+    const std::size_t max_threads =
+        std::max<std::size_t>(1, stream.memory_budget / io::bytes_of_index_thread);
+    return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), max_threads));
+}
+
+Result<void> complete_index(const TerrainSource& source, const io::IndexSource& index,
+                            unsigned threads, Log& log, const std::stop_token& stop) {
+    if (is_on_server(index.tiles)) {
+        return Error{fmt::format("{}: found on a server, a file that is here was expected for an "
+                                 "index, which reads all of it; 'reljef index' makes one",
+                                 index.tiles.name())};
+    }
+    const auto task = log.start("indexing " + source.description.name);
+    const auto report = io::make_index(index, {.threads = threads_within(*source.stream, threads),
+                                               .stop = stop,
+                                               .progress = task->callback()});
+    if (!report) {
+        return report.error();
+    }
+    const auto& errors = report->errors;
+    if (!errors.empty()) {
+        const std::string more =
+            errors.size() > 1 ? fmt::format(" (and {} more files)", errors.size() - 1) : "";
+        log.note(unproven_note({errors.front().message + more}));
+    }
+    return {};
 }
 
 } // namespace
@@ -43,10 +122,9 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
         return needs_none(fmt::format("{} fits in --memory {} and needs no index",
                                       description->name, options.memory_megabytes));
     }
-    const auto folder = io::cache_folder();
+    const auto folder = folder_of_indexes();
     if (!folder) {
-        return Error{"$XDG_CACHE_HOME and $HOME: no absolute path found, one was expected for the "
-                     "index"};
+        return folder.error();
     }
     auto index = io::index_source(source->tiles, plan->grid, source->plan_options.gaps, *folder);
     if (!index) {
@@ -63,6 +141,49 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
         log.message(MessageKind::left_out, error.message);
     }
     return IndexedTerrain{std::move(*report), {}, index->file, watch.seconds()};
+}
+
+Result<std::shared_ptr<const ProvenTiles>>
+make_proofs(const TerrainSource& source, unsigned threads, Log& log, const std::stop_token& stop) {
+    const io::ReadScope scope(stop);
+    auto index = indexed_source(source);
+    if (!index) {
+        return index.error();
+    }
+    auto found = io::ErrorIndex::open(*index);
+    if (!found || !*found || !(*found)->is_complete()) {
+        if (auto made = complete_index(source, *index, threads, log, stop); !made) {
+            return made.error();
+        }
+        found = io::ErrorIndex::open(*index);
+    }
+    if (!found) {
+        return found.error();
+    }
+    return *found ? Result<Proofs>(proofs_of(source, std::move(*index), std::move(**found)))
+                  : Error{fmt::format("{}: was removed meanwhile", index->file.string())};
+}
+
+Result<void> add_proofs(TerrainSource& source, bool makes_index, Log& log,
+                        const std::stop_token& stop) {
+    if (!source.stream) {
+        return {};
+    }
+    auto proofs = makes_index ? make_proofs(source, source.stream->threads, log, stop)
+                              : existing_proofs(source);
+    if (stop.stop_requested()) {
+        return Error{"interrupted"};
+    }
+    if (proofs) {
+        source.proofs = std::move(*proofs);
+    } else {
+        log.note(unproven_note(proofs.error()));
+    }
+    return {};
+}
+
+std::string unproven_note(const Error& reason) {
+    return reason.message + "; the errors of tiles are estimated";
 }
 
 } // namespace reljef::session

@@ -10,6 +10,7 @@
 #include "engine/scene/streamed_tile.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
+#include "engine/session/proven_tiles.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::session {
@@ -33,7 +34,8 @@ struct TerrainSource {
     io::SceneDescription description;
     std::optional<io::TileSet> tiles; ///< if the heights are a folder, or streamed
     std::optional<StreamSource> stream = {};
-    std::shared_ptr<const io::ImagerySet> imagery; ///< if tiles have images of their own
+    std::shared_ptr<const io::ImagerySet> imagery;  ///< if tiles have images of their own
+    std::shared_ptr<const ProvenTiles> proofs = {}; ///< null: no streamed tile is proven
 };
 
 /// The part of a folder or of web tiles to use; absent: all.

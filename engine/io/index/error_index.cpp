@@ -124,6 +124,17 @@ glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {
 
 } // namespace
 
+fs::path index_file(const TileSet& tiles, const TileGrid& grid, Gaps gaps,
+                    const fs::path& cache_folder) {
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(tiles.name(), ignored);
+    const std::string what = fmt::format(
+        "{}\n{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", tiles.name(),
+        place.string(), grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
+        gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale, tiles.options().height_offset);
+    return cache_folder / fmt::format("{:016x}.index", fnv_hash(what));
+}
+
 Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
                                  const fs::path& cache_folder) {
     const geo::GlobalWrap wrap = tiles.wrap(grid);
@@ -141,13 +152,7 @@ Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
     if (!fingerprint) {
         return fingerprint.error();
     }
-    std::error_code ignored;
-    const fs::path place = fs::weakly_canonical(tiles.name(), ignored);
-    const std::string what = fmt::format(
-        "{}\n{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", tiles.name(),
-        place.string(), grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
-        gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale, tiles.options().height_offset);
-    const fs::path file = cache_folder / fmt::format("{:016x}.index", fnv_hash(what));
+    const fs::path file = index_file(tiles, grid, gaps, cache_folder);
     return IndexSource{std::move(tiles), grid, gaps, terrain::TileTree(grid.cols, grid.rows),
                        *fingerprint,     file};
 }

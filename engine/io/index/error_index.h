@@ -24,9 +24,13 @@ struct IndexSource {
     std::filesystem::path file;    ///< of the index
 };
 
-/// The source and the file of its index. The file's name depends on the terrain's path and on all
-/// that changes its heights. Fails as TileSet::fingerprint, and for a grid that closes around the
-/// Earth or is larger than a tree.
+/// The file of a terrain's index. Its name depends on the terrain's path and on all that changes
+/// its heights.
+std::filesystem::path index_file(const TileSet& tiles, const TileGrid& grid, Gaps gaps,
+                                 const std::filesystem::path& cache_folder);
+
+/// The source and the file of its index. Fails as TileSet::fingerprint, and for a grid that closes
+/// around the Earth or is larger than a tree.
 Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
                                  const std::filesystem::path& cache_folder);
 

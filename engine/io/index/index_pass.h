@@ -17,10 +17,13 @@ struct IndexReport {
     std::vector<FileError> errors; ///< of tiles that remain unproven; at most one per file
 };
 
-/// Proves all tiles of a terrain that are not proven yet, in one pass over its samples. Each thread
-/// takes about 25 MB. Chunks that fail leave their tiles unproven, and the coarser ones over them;
-/// the next call tries them again. Fails after a stop (finished chunks are kept), if the index
-/// cannot be written, and if the source changed meanwhile (then nothing is kept).
+/// Memory of a thread of make_index, about, bytes.
+inline constexpr std::size_t bytes_of_index_thread = std::size_t{25} << 20U;
+
+/// Proves all tiles of a terrain that are not proven yet, in one pass over its samples. Chunks that
+/// fail leave their tiles unproven, and the coarser ones over them; the next call tries them again.
+/// Fails after a stop (finished chunks are kept), if the index cannot be written, and if the source
+/// changed meanwhile (then nothing is kept).
 Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options);
 
 /// A tile as an index has it.

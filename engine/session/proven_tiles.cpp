@@ -1,0 +1,103 @@
+#include "engine/session/proven_tiles.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "engine/io/index/index_pass.h"
+
+namespace reljef::session {
+namespace {
+
+/// Bilinear between samples with a height; NaN if the nearest one has none, as io::read_tree_tile.
+/// Precondition: the place is not negative.
+float height_between(const Grid<float>& samples, glm::dvec2 place) {
+    const glm::ivec2 nearest(glm::round(place));
+    const glm::ivec2 low(place);
+    const glm::dvec2 part = place - glm::dvec2(low);
+    double sum = 0.0;
+    double shares = 0.0;
+    for (const glm::ivec2 corner : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
+        const glm::dvec2 along = glm::mix(1.0 - part, part, glm::dvec2(corner));
+        const float height = samples.clamped(low.x + corner.x, low.y + corner.y);
+        const double share = std::isnan(height) ? 0.0 : along.x * along.y;
+        sum += share > 0.0 ? share * height : 0.0;
+        shares += share;
+    }
+    return std::isnan(samples.clamped(nearest.x, nearest.y))
+               ? std::numeric_limits<float>::quiet_NaN()
+               : static_cast<float>(sum / shares);
+}
+
+} // namespace
+
+ProvenTiles::ProvenTiles(io::IndexSource source, io::ErrorIndex index, int refinement)
+    : source_(std::move(source)), index_(std::move(index)),
+      level_of_samples_(std::countr_zero(static_cast<unsigned>(refinement))) {}
+
+terrain::TreeTile ProvenTiles::indexed(terrain::TreeTile tile) const {
+    const int finer = std::max(0, level_of_samples_ - tile.level);
+    return {std::max(0, tile.level - level_of_samples_), tile.col >> finer, tile.row >> finer};
+}
+
+std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) const {
+    return is_wrong_ ? std::nullopt : index_.find(indexed(tile));
+}
+
+std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
+                                                    const std::stop_token& stop) const {
+    if (!find(tile)) {
+        return std::nullopt;
+    }
+    auto found = io::read_indexed_tile(source_, index_, indexed(tile), stop);
+    if (!found) {
+        return std::nullopt;
+    }
+    const bool is_contradiction =
+        !found->errors.empty() && found->errors.front().file == source_.file;
+    if (is_contradiction && !stop.stop_requested()) { // a read that was stopped is no samples
+        if (!is_wrong_.exchange(true)) {
+            const std::lock_guard lock(mutex_);
+            error_ = {source_.file.string(), found->errors.front().message};
+        }
+        return std::nullopt;
+    }
+    scene::TileContent content;
+    content.bytes_read = found->bytes_read;
+    content.is_proven = found->errors.empty() && found->proof.has_value();
+    for (const io::FileError& error : found->errors) {
+        content.errors.push_back({error.file.string(), error.message});
+    }
+    content.heights =
+        tile.level < level_of_samples_ ? part(tile, found->heights) : std::move(found->heights);
+    return content;
+}
+
+std::optional<scene::TileContent::FileError> ProvenTiles::take_error() const {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(error_, std::nullopt);
+}
+
+// `samples`: of the tile of all samples, with one sample around it.
+Grid<float> ProvenTiles::part(terrain::TreeTile tile, const Grid<float>& samples) const {
+    const int cells_of_sample = 1 << (level_of_samples_ - tile.level);
+    const glm::ivec2 cells = (glm::ivec2(samples.cols(), samples.rows()) - 3) * cells_of_sample;
+    const glm::ivec2 first =
+        glm::ivec2(tile.col % cells_of_sample, tile.row % cells_of_sample) * terrain::tile_cells;
+    const glm::ivec2 count =
+        glm::min(cells - first, glm::ivec2(terrain::tile_cells)) + 3; // one step around, too
+    Grid<float> heights(count.x, count.y);
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            const glm::dvec2 vertex = glm::dvec2(first + glm::ivec2(col, row)) - 1.0;
+            heights(col, row) =
+                height_between(samples, vertex / static_cast<double>(cells_of_sample) + 1.0);
+        }
+    }
+    return heights;
+}
+
+} // namespace reljef::session
