@@ -351,6 +351,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     cli::check_distinct(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;
+    terrain.index = choice.truth ? session::IndexUse::none : terrain.index;
     session::SceneOptions view = choice.view;
     view.prepares_maps = !choice.truth;
     const bool has_camera_of_file =
@@ -377,6 +378,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
     cli::add_samples_option(*arguments, choice->view);
+    cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);
     arguments
         ->add_option("-o,--output", choice->output,
                      "picture (out.png; - for PNG to standard output), numbered pictures "

@@ -315,6 +315,21 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
     command.add_flag("--quiet", choice.quiet, "print no progress and no notes");
 }
 
+void add_index_option(CLI::App& command, TerrainChoice& choice, session::IndexUse use) {
+    choice.index = use;
+    command.parse_complete_callback([&choice] {
+        if (choice.terrain == "-") { // its copy does not remain
+            choice.index = session::IndexUse::none;
+        }
+    });
+    command.add_flag_callback(
+        "--no-index", [&choice] { choice.index = session::IndexUse::none; },
+        "neither make nor use the index of a terrain that does not fit --memory. By default, the "
+        "tiles that 'reljef index' proved are drawn with proven errors. render makes the index "
+        "first if an error bound is named, by --max-error or the technique; view makes it in the "
+        "background. Standard input has none");
+}
+
 void add_gaps_option(CLI::App& command, TerrainChoice& choice) {
     add_parsed(command, "--gaps", choice.gaps,
                word_of<io::Gaps>("--gaps", {{"holes", io::Gaps::holes}, {"sea", io::Gaps::sea}}),

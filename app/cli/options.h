@@ -41,6 +41,8 @@ Result<glm::ivec2> parse_size(std::string_view text);
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);
 /// The terrain options that choose heights, without those that draw them.
 void add_source_options(CLI::App& command, TerrainChoice& choice);
+/// Uses indexes unless `--no-index` is given or the terrain is standard input.
+void add_index_option(CLI::App& command, TerrainChoice& choice, session::IndexUse use);
 void add_gaps_option(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 void add_samples_option(CLI::App& command, ViewChoice& choice);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -5,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/command_line.h"
+#include "tests/session/made_waves.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef {
@@ -31,6 +33,26 @@ protected:
         options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
         return test::reljef(arguments, options);
     }
+    /// Draws with little memory; whether an index is there afterwards.
+    [[nodiscard]] bool render(std::vector<std::string> more, bool from_input = false) const {
+        const std::string dem = folder_.path() / "waves.tif";
+        std::vector<std::string> arguments{"render",    from_input ? "-" : dem,
+                                           "-o",        folder_.path() / "a.png",
+                                           "--size",    "64x48",
+                                           "--context", "osmesa",
+                                           "--memory",  "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        test::ProgramOptions options;
+        options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        options.input = from_input ? dem : "/dev/null";
+        const auto result = test::reljef(arguments, options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_NE(result.err.find("finer tiles are read"), std::string::npos) << result.err;
+        std::error_code ignored;
+        const std::filesystem::directory_iterator files(folder_.path() / "cache/reljef", ignored);
+        return std::any_of(begin(files), end(files),
+                           [](const auto& file) { return file.path().extension() == ".index"; });
+    }
     test::TemporaryFolder folder_;
 };
 
@@ -53,6 +75,15 @@ TEST_F(IndexCommand, StatesTilesBytesAndTheLargestErrorOfEachLevel) {
 TEST_F(IndexCommand, SaysWhichTerrainsNeedNone) {
     EXPECT_EQ(index({write_dem(folder_)}).out, "dem.asc fits in --memory 512 and needs no index\n");
     EXPECT_EQ(index({"natural"}).out, "natural is generated in memory and needs no index\n");
+}
+
+TEST_F(IndexCommand, RenderMakesAnIndexOnlyForANamedBound) {
+    test::write_waves(folder_.path() / "waves.tif", 300, 300);
+    EXPECT_FALSE(render({}));
+    EXPECT_FALSE(render({"--max-error", "none"}));
+    EXPECT_FALSE(render({"--max-error", "2", "--no-index"}));
+    EXPECT_FALSE(render({"--max-error", "2"}, true)) << "a copy of standard input";
+    EXPECT_TRUE(render({"--max-error", "2"}));
 }
 
 TEST_F(IndexCommand, RefusesStandardInputAndWhatIsNoFolder) {
