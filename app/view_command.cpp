@@ -57,7 +57,8 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
     }
     Viewer viewer(scene, std::move(*path), window.framebuffer_size(),
                   {.maps = {choice.terrain.threads, renderer.max_texture_side()},
-                   .allow_underground = choice.view.allow_underground});
+                   .allow_underground = choice.view.allow_underground,
+                   .proves_errors = choice.terrain.index != session::IndexUse::none});
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
@@ -96,6 +97,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
     cli::add_samples_option(*arguments, choice->view);
+    cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         const auto context = choice->view.context;

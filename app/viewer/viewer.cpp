@@ -46,8 +46,8 @@ scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::C
     options.speed = std::max(scene.bounds.size().x, scene.bounds.size().y) / seconds_across;
     options.clearance = session::min_clearance(scene);
     if (!allow_underground) {
-        options.ground = [terrain](double x, double y) {
-            return session::ground_at(terrain, x, y);
+        options.ground = [node = scene.terrain](double x, double y) { // its stream may change
+            return session::ground_at(*node->get<scene::TerrainNode>(), x, y);
         };
     }
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
@@ -168,6 +168,9 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
         switch_.request(first);
         switch_.request(technique);
     }
+    if (options.proves_errors) {
+        proofs_.emplace(scene);
+    }
     if (camera().projection == scene::ProjectionKind::orthographic) {
         map_.emplace(camera(), scene_.bounds, size_);
     } else {
@@ -242,6 +245,7 @@ void Viewer::advance(double seconds) {
     }
     rested_ = !is_moving();
     redraw_ = switch_.update() || redraw_;
+    redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     before_ = camera();
     last_step_ = step;
     if (playing_) {
@@ -264,6 +268,18 @@ void Viewer::advance_path(double seconds) {
     if (next.eye != camera().eye || next.target != camera().target) {
         show_camera(next);
     }
+}
+
+void Viewer::relay_to(session::Log& log) {
+    switch_.relay_to(log);
+    if (proofs_) {
+        proofs_->relay_to(log);
+    }
+}
+
+std::shared_ptr<const render::PreparedLight> Viewer::take_light() {
+    auto light = switch_.take_light();
+    return light == nullptr && proofs_ ? proofs_->take_light() : light;
 }
 
 bool Viewer::undo_technique() {
@@ -359,7 +375,8 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
     const std::string rate = timing.frames_per_second
                                  ? fmt::format("{:.1f} fps", *timing.frames_per_second)
                                  : std::string("still");
-    const auto preparing = switch_.progress();
+    const auto preparing =
+        proofs_ && !switch_.is_preparing() ? proofs_->progress() : switch_.progress();
     const std::string progress =
         preparing.label.empty()
             ? std::string()

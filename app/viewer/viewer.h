@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance_switch.h"
+#include "app/viewer/proof_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/camera_path.h"
@@ -29,6 +30,7 @@ struct FrameTiming {
 struct ViewerOptions {
     AppearanceSwitchOptions maps;
     bool allow_underground = false; ///< the ground does not stop the camera
+    bool proves_errors = false;     ///< of a streamed terrain, see ProofSwitch
 };
 
 /// The technique until the scene's maps are ready: levels by distance, which need no maps. The
@@ -70,9 +72,9 @@ public:
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
     // As in AppearanceSwitch.
     [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
-    void relay_to(session::Log& log) { switch_.relay_to(log); }
+    void relay_to(session::Log& log);
     bool undo_technique();
-    std::shared_ptr<const render::PreparedLight> take_light() { return switch_.take_light(); }
+    std::shared_ptr<const render::PreparedLight> take_light();
 
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
 
@@ -106,6 +108,7 @@ private:
     scene::Camera start_;
     std::vector<scene::Technique> techniques_; // in the catalogue's order
     AppearanceSwitch switch_;
+    std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;

@@ -167,7 +167,7 @@ private:
         if (!options_.keeps_quality) {
             renderer_.set_samples(quality.samples);
         }
-        if (const auto light = viewer_.take_light()) {
+        while (const auto light = viewer_.take_light()) {
             if (auto added = renderer_.add_light(*light); !added) {
                 return added;
             }
