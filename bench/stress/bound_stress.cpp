@@ -98,6 +98,7 @@ session::SourceOptions streamed_source(const fs::path& path, int megabytes) {
     source.memory_megabytes = megabytes;
     source.placement = terrain::PlacementKind::plane;
     source.streamed = true;
+    source.index = session::IndexUse::existing;
     return source;
 }
 

@@ -99,7 +99,7 @@ public:
     [[nodiscard]] std::optional<Found> finest_at(glm::dvec2 overview_sample) const;
     /// Tiles of one view that fit in memory.
     [[nodiscard]] std::size_t max_drawn() const;
-    /// The memory budget with which so many tiles can be drawn, bytes.
+    /// The memory budget with which this number of tiles can be drawn, bytes.
     [[nodiscard]] std::size_t budget_for(std::size_t drawn_tiles) const;
     static constexpr std::size_t min_drawn = 16; ///< enough for any view, coarsely
     /// ImageryDetail::max_texels so that min_drawn tiles fit; at least 1.

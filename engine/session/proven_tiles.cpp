@@ -85,10 +85,10 @@ std::optional<scene::TileContent::FileError> ProvenTiles::take_error() const {
 Grid<float> ProvenTiles::part(terrain::TreeTile tile, const Grid<float>& samples) const {
     const int cells_of_sample = 1 << (level_of_samples_ - tile.level);
     const glm::ivec2 cells = (glm::ivec2(samples.cols(), samples.rows()) - 3) * cells_of_sample;
-    const glm::ivec2 first =
-        glm::ivec2(tile.col % cells_of_sample, tile.row % cells_of_sample) * terrain::tile_cells;
+    const glm::ivec2 first = glm::ivec2(tile.col % cells_of_sample, tile.row % cells_of_sample) *
+                             terrain::tree_tile_cells;
     const glm::ivec2 count =
-        glm::min(cells - first, glm::ivec2(terrain::tile_cells)) + 3; // one step around, too
+        glm::min(cells - first, glm::ivec2(terrain::tree_tile_cells)) + 3; // one step around, too
     Grid<float> heights(count.x, count.y);
     for (int row = 0; row < count.y; ++row) {
         for (int col = 0; col < count.x; ++col) {

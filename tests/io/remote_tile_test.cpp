@@ -54,7 +54,7 @@ protected:
     void expect_good(const TileSet& tiles) const {
         const auto window = read(tiles, {0, 5, 5});
         ASSERT_TRUE(window.errors.empty()) << window.errors.front().message;
-        EXPECT_EQ(window.heights(1, 1), 5 * 128 + 2 * 5 * 128);
+        EXPECT_EQ(window.heights(1, 1), (5 + 2 * 5) * terrain::tree_tile_cells);
     }
     void expect_fault(const TileSet& tiles, const std::string& name) const {
         const auto window = read(tiles, {0, 5, 5});

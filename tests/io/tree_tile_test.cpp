@@ -67,7 +67,7 @@ TEST(TreeTiles, OfALevelAgreeToTheLastBitWhereTheyMeet) {
             read_tree_tile(tiles, {tiles.grid()}, tree, {level, 1, 1}, Gaps::holes).heights;
         for (int row = 0; row < std::min(west.rows(), east.rows()); ++row) {
             for (int col = 0; col < 3; ++col) {
-                const auto a = static_cast<float>(west(128 + col, row));
+                const auto a = static_cast<float>(west(terrain::tree_tile_cells + col, row));
                 const auto b = static_cast<float>(east(col, row));
                 ASSERT_EQ(a, b) << "level " << level << " at " << col << "," << row;
             }
@@ -191,14 +191,14 @@ protected:
     [[nodiscard]] TileWindow read() const {
         return read_tree_tile(tiles_, {tiles_.grid()}, TileTree(100, 100), {0, 0, 0}, Gaps::holes);
     }
-    /// Without those along the border, where samples beyond are missing.
+    /// Without those along the border, where samples are missing beyond it.
     void expect_plane(double most) const {
         const TileWindow window = read();
         ASSERT_TRUE(window.errors.empty()) << window.errors.front().message;
         EXPECT_FALSE(std::ranges::any_of(window.heights.samples(),
                                          [](double height) { return std::isnan(height); }));
-        for (int row = 6; row < 94; ++row) {
-            for (int col = 6; col < 94; ++col) {
+        for (int row = 6; row < terrain::tree_tile_cells; ++row) {
+            for (int col = 6; col < terrain::tree_tile_cells; ++col) {
                 const double x = west + (col - 1 + 0.5) * 10.0;
                 const double y = north - (row - 1 + 0.5) * 10.0;
                 ASSERT_NEAR(window.heights(col, row), height_at(x, y), most) << col << " " << row;

@@ -128,7 +128,7 @@ TEST_F(StreamedError, OfRoughGroundIsWhatWasAskedForOrLess) {
             camera_at(eye, {chance.between(-300, 300), chance.between(-300, 300), 0.0});
         bring();
         const view::FrameStats stats = test::must(made.draw(scene_));
-        EXPECT_LT(4 * stats.triangles, 2U * 128U * 128U * static_cast<std::size_t>(stats.tiles));
+        EXPECT_LT(4 * stats.triangles, 2U * 64U * 64U * static_cast<std::size_t>(stats.tiles));
         const std::vector<double> found = errors(test::must(made.draw_hits(scene_)));
         ASSERT_GT(found.size(), 1000U);
         EXPECT_LE(*std::max_element(found.begin(), found.end()), 1.0) << round;

@@ -60,8 +60,8 @@ double share_of_towers(glm::dvec2 sample, int step) {
 struct Ridges {
     const char* technique = "polygons:error=1";
     double (*ground)(glm::dvec2) = ridge_height;
-    double towers = 0.0;     // metres high
-    std::size_t tiles = 400; // that memory holds
+    double towers = 0.0;      // metres high
+    std::size_t tiles = 1600; // that memory holds
     std::function<bool(TreeTile)> fails = [](TreeTile) { return false; };
 };
 
@@ -274,7 +274,7 @@ TEST(StreamedOcclusionChoice, WhereATileFailsNothingIsHidden) {
 TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShort) {
     int hiding = 0;
     int coarse = 0;
-    for (const std::size_t tiles : {1U, 60U}) {
+    for (const std::size_t tiles : {1U, 240U}) {
         RidgeWorld world({.technique = "polygons:error=0.25", .towers = 60.0, .tiles = tiles});
         test::Chance chance(28);
         for (int i = 0; i < 4; ++i) {
@@ -299,9 +299,9 @@ TEST(StreamedOcclusionChoice, OnlyWhatIsAsFineAsItShouldBeHidesWhereMemoryIsShor
 }
 
 TEST(StreamedOcclusionChoice, TilesThatWaitForOthersStayInMemory) {
-    const TreeTile failing{1, 5, 6};
-    const std::array waiting{TreeTile{1, 4, 6}, TreeTile{1, 5, 7}, TreeTile{1, 4, 7}};
-    RidgeWorld world({.tiles = 30, .fails = [=](TreeTile tile) { return tile == failing; }});
+    const TreeTile failing{1, 10, 12};
+    const std::array waiting{TreeTile{1, 11, 12}, TreeTile{1, 10, 13}, TreeTile{1, 11, 13}};
+    RidgeWorld world({.tiles = 60, .fails = [=](TreeTile tile) { return tile == failing; }});
     world.look(camera_at({-600.0, -600.0, 900.0}, {-600.0, -590.0, 0.0}));
     world.bring();
     const scene::TileStream& stream = *world.terrain->stream;

@@ -44,7 +44,8 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     auto heights = read_plane({0, 3, 3}, {}).heights;
     heights(60, 60) = std::numeric_limits<float>::quiet_NaN();
     const TerrainTile made = maker().make({0, 3, 3}, std::move(heights));
-    EXPECT_NEAR(made.heightfield.heights(59, 59), height_of({3 * 128 + 59, 3 * 128 + 59}), 1e-3);
+    EXPECT_NEAR(made.heightfield.heights(59, 59),
+                height_of(glm::dvec2(3 * terrain::tree_tile_cells + 59)), 1e-3);
     EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::no_data);
 }
 
@@ -52,13 +53,13 @@ TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
     const TileBuilder make(overview(), TileTree(side, side), reduction,
                            {.finest_pixel = 2.0, .refinement = 1});
     const TreeTile tile{0, 3, 3};
-    EXPECT_EQ(make.picture_size(tile), glm::ivec2(513)); // 10 m a cell: at most four texels
-    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(513));
-    TilePicture picture{Image(513, 513, Rgba8{0, 0, 0, 0}), true, true};
-    picture.texels(512, 0) = {1, 2, 3, 255};
+    EXPECT_EQ(make.picture_size(tile), glm::ivec2(257)); // 10 m a cell: at most four texels
+    EXPECT_EQ(make.picture_size({3, 0, 0}), glm::ivec2(257));
+    TilePicture picture{Image(257, 257, Rgba8{0, 0, 0, 0}), true, true};
+    picture.texels(256, 0) = {1, 2, 3, 255};
     const TerrainTile made = make.make(tile, read_plane(tile, {}).heights, picture);
-    EXPECT_EQ(made.albedo(512, 0), (Rgba8{1, 2, 3, 255}));
-    EXPECT_EQ(made.albedo(511, 1), make.make(tile, read_plane(tile, {}).heights).albedo(128, 0));
+    EXPECT_EQ(made.albedo(256, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(made.albedo(255, 1), make.make(tile, read_plane(tile, {}).heights).albedo(64, 0));
     EXPECT_DOUBLE_EQ(made.coarse_texel, 2.5);
     EXPECT_GT(made.bytes(), 2 * bytes_per_tile);
     EXPECT_LE(made.bytes(), make.bytes_per_tile());
@@ -99,8 +100,8 @@ TEST(TileMakers, AveragesOfTheOverviewAreAsWideAsAStep) {
 TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
     const TileBuilder make(overview(), TileTree(4 * side - 3, 4 * side - 3), reduction,
                            {.finest_pixel = 0.5, .refinement = 4});
-    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(128.0, 256.0));
-    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(128.5, 257.0));
+    EXPECT_EQ(make.first({0, 4, 8}), glm::dvec2(64.0, 128.0));
+    EXPECT_EQ(make.sample({0, 4, 8}, {2, 4}), glm::dvec2(64.5, 129.0));
     EXPECT_DOUBLE_EQ(make.spacing(0), 2.5);
     EXPECT_DOUBLE_EQ(make.spacing(2), 10.0);
     EXPECT_TRUE(make.has_all_samples({2, 0, 0}));

@@ -115,7 +115,7 @@ TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
     EXPECT_EQ(stream.find({0, 1000, 0}), nullptr);
     ASSERT_TRUE(stream.recall({0, 1000, 0}));
     EXPECT_EQ(stream.recall({0, 1000, 0})->id, (TreeTile{0, 1000, 0}));
-    EXPECT_EQ(stream.recall({0, 1000, 0})->range.high, 128.0);
+    EXPECT_EQ(stream.recall({0, 1000, 0})->range.high, 64.0);
     EXPECT_TRUE(stream.recall({0, tiles - 1, 0}));
     EXPECT_FALSE(stream.recall({0, 0, 0}));
 }

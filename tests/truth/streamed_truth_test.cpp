@@ -19,7 +19,7 @@ namespace {
 constexpr glm::ivec2 streamed_samples{900, 640};
 constexpr glm::ivec2 rays_size{40, 30};
 constexpr std::size_t no_memory = 0; // the fewest tiles and rays
-constexpr int tiles_of_terrain = 8 * 5;
+constexpr int tiles_of_terrain = 15 * 10;
 
 double rough_height(glm::dvec2 sample) {
     return 120.0 * std::sin(0.021 * sample.x) * std::cos(0.017 * sample.y) +

@@ -26,7 +26,7 @@ std::size_t TerrainTile::bytes() const {
 
 terrain::Tile samples_of(const TerrainTile& tile) {
     check(tile.borrows, "a tile of a terrain in memory was expected");
-    const glm::ivec2 first = terrain::TileTree::first(tile.id);
+    const glm::ivec2 first = glm::ivec2(tile.id.col, tile.id.row) * terrain::tile_cells;
     return {first.x, first.y, tile.cells.x, tile.cells.y, tile.bounds};
 }
 

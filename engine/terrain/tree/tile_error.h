@@ -26,7 +26,7 @@
 
 namespace reljef::terrain {
 
-/// Blocks along a side of a tile, whose errors are told apart.
+/// Blocks along a side of a tile, each with an error of its own.
 inline constexpr int error_blocks = 4;
 inline constexpr int cells_per_error_block = tree_tile_cells / error_blocks;
 /// Of the tile's error, in 255ths; row after row.

@@ -61,7 +61,7 @@ TEST_F(IndexCommand, StatesTilesBytesAndTheLargestErrorOfEachLevel) {
     const auto result = index({dem, "--memory", "1", "--json"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto found = nlohmann::json::parse(result.out);
-    ASSERT_EQ(found["levels"].size(), 3U);
+    ASSERT_EQ(found["levels"].size(), 4U);
     EXPECT_EQ(found["levels"][0]["tiles"], 9);
     EXPECT_EQ(found["levels"][0]["max_error_m"], 0.0);
     EXPECT_GT(found["levels"][1]["max_error_m"], 10.0);

@@ -96,7 +96,7 @@ TEST_P(StreamedError, of_the_alps_is_a_pixel_nearly_everywhere) {
     session::wait_for_tiles(scene.scene, picture, renderer.selector(), silent, {});
     const auto hits = renderer.draw_selected_hits();
     ASSERT_TRUE(hits) << hits.error().message;
-    const std::vector<double> errors = errors_of(scene, *hits, heights);
+    const std::vector<double> errors = errors_of(scene, hits->hits, heights);
     ASSERT_GT(errors.size(), 30000U);
     const auto at = [&](double share) {
         return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];

@@ -147,7 +147,7 @@ TEST_F(IndexPass, ProvesAllTilesAndTakesLittle) {
     const auto report = make_index(terrain, {});
     ASSERT_TRUE(report) << report.error().message;
     EXPECT_LE(static_cast<double>(report->bytes_of_proofs), 0.005 * 2.0 * cols * rows);
-    EXPECT_EQ(report->levels.size(), 6U);
+    EXPECT_EQ(report->levels.size(), 7U);
     for (const auto& level : report->levels) {
         EXPECT_EQ(level.unproven, 0U);
     }

@@ -50,7 +50,7 @@ struct StreamedWorld {
     Node* sun = nullptr;
     std::shared_ptr<scene::TileStream> stream;
 
-    explicit StreamedWorld(std::size_t tiles = 400, const Image& picture = {}) {
+    explicit StreamedWorld(std::size_t tiles = 1600, const Image& picture = {}) {
         auto heightfield =
             test::plane_heightfield(rough_hills(side / reduction, reduction, 0.5 * (reduction - 1)),
                                     glm::dvec2(static_cast<double>(reduction)));
