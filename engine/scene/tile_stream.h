@@ -101,7 +101,7 @@ public:
     [[nodiscard]] std::size_t max_drawn() const;
     /// The memory budget with which this number of tiles can be drawn, bytes.
     [[nodiscard]] std::size_t budget_for(std::size_t drawn_tiles) const;
-    static constexpr std::size_t min_drawn = 16; ///< enough for any view, coarsely
+    static constexpr std::size_t min_drawn = 64; ///< enough for any view, coarsely
     /// ImageryDetail::max_texels so that min_drawn tiles fit; at least 1.
     static int texels_within(std::size_t memory_budget);
 

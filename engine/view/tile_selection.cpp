@@ -140,11 +140,25 @@ public:
 
     [[nodiscard]] TileSelection::Drawn drawn(std::shared_ptr<const scene::TerrainTile> tile) const {
         const double distance = distance_to(*tile);
-        double error = error_of(*tile);
-        if (tile->is_proven && error > share_of_tiles * max_error_) {
-            error = std::min(error, error_of_drawn(*tile));
-        }
+        const double error = error_of(*tile);
         return {std::move(tile), distance, error};
+    }
+
+    /// Lowers the errors of proven tiles over the bound: from the blocks that `nearer` does not
+    /// hide and the heights that are drawn.
+    void tighten(std::vector<TileSelection::Drawn>& drawn, NearerGround& nearer) const {
+        for (auto& [tile, distance, error] : drawn) {
+            if (tile->is_proven && error > share_of_tiles * max_error_) {
+                const double tighter = error_of_blocks(
+                    *tile, scene::cells_per_block,
+                    [&, &blocks = tile->blocks](int col, int row) {
+                        const terrain::MinMax block = blocks(col, row);
+                        return terrain::HeightRange{block.low, block.high};
+                    },
+                    [&](const Box& box) { return may_see(box) && !nearer.hides(box, along(box)); });
+                error = std::min(error, tighter);
+            }
+        }
     }
 
     /// The error on the picture, or the size of its texels, relative to its bound.
@@ -189,22 +203,15 @@ private:
     [[nodiscard]] double error_of_blocks(const scene::TileSummary& tile) const {
         const double true_error = tile.error / builder().overview().placement().exaggeration();
         const terrain::HeightRange drawn{tile.range.low - true_error, tile.range.high + true_error};
-        return error_of_blocks(tile, terrain::cells_per_error_block,
-                               [&](int /*col*/, int /*row*/) { return drawn; });
+        return error_of_blocks(
+            tile, terrain::cells_per_error_block, [&](int /*col*/, int /*row*/) { return drawn; },
+            [&](const Box& box) { return may_see(box); });
     }
 
-    /// The same, closer: from the heights that are drawn.
-    [[nodiscard]] double error_of_drawn(const scene::TerrainTile& tile) const {
-        return error_of_blocks(tile, scene::cells_per_block, [&](int col, int row) {
-            const terrain::MinMax block = tile.blocks(col, row);
-            return terrain::HeightRange{block.low, block.high};
-        });
-    }
-
-    // `range_of(col, row)`: of the drawn heights of a block of so many cells.
-    template <class RangeOf>
+    // `range_of(col, row)`: of the drawn heights of a block of that many cells.
+    template <class RangeOf, class IsSeen>
     double error_of_blocks(const scene::TileSummary& tile, int cells_per_block,
-                           const RangeOf& range_of) const {
+                           const RangeOf& range_of, const IsSeen& is_seen) const {
         const glm::ivec2 cells = stream_.tree().cells(tile.id);
         double largest = 0.0;
         for (int row = 0; row * cells_per_block < cells.y; ++row) {
@@ -212,7 +219,7 @@ private:
                 const glm::ivec2 first = glm::ivec2(col, row) * cells_per_block;
                 const glm::ivec2 last = glm::min(first + cells_per_block, cells);
                 const Box box = builder().bounds(tile.id, first, last, range_of(col, row));
-                if (may_see(box)) {
+                if (is_seen(box)) {
                     const glm::ivec2 block = first / terrain::cells_per_error_block;
                     const double share = tile.error_shares[static_cast<std::size_t>(
                                              block.y * terrain::error_blocks + block.x)] /
@@ -465,7 +472,11 @@ TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double 
     }
     std::set<terrain::TreeTile> used(coarse.used.begin(), coarse.used.end());
     used.insert(walk.used().begin(), walk.used().end());
-    TileSelection finer = walk.missing().empty() ? walk.take() : std::move(coarse);
+    TileSelection finer = std::move(coarse);
+    if (walk.missing().empty()) {
+        finer = walk.take();
+        view.tighten(finer.drawn, walk.nearer());
+    }
     finer.requested = by_urgency(walk.missing());
     finer.used.assign(used.begin(), used.end());
     return finer;
@@ -497,6 +508,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
         }
         if (walk.missing().empty()) {
             TileSelection selection = walk.take();
+            view.tighten(selection.drawn, walk.nearer());
             selection.requested = std::move(*requested);
             selection.used.assign(used.begin(), used.end());
             const double error = limits.max_relative_error;

@@ -112,5 +112,59 @@ TEST(ErrorView, AVerticalErrorSeenFromStraightAboveIsNone) {
     EXPECT_FALSE(terrain::exceeds(view, {50.0, {0.0, 0.0, 0.0}, 60.0}));
 }
 
+// Seen places of a box that are off along verticals that turn, in any view.
+TEST(PictureError, IsNeverBelowWhatABoxShows) {
+    test::Chance chance(61);
+    int checked = 0;
+    double tightest = 0.0;
+    for (int n = 0; n < 20000; ++n) {
+        const scene::Camera camera = chance_camera(chance);
+        const glm::dmat4 placed =
+            glm::rotate(glm::translate(glm::dmat4(1.0), chance_point(chance, 50.0)),
+                        chance.between(0.0, 6.0), glm::normalize(chance_point(chance, 1.0)));
+        view::PictureError::Places places;
+        const glm::dvec3 corner = chance_point(chance, 100.0);
+        places.box = {corner,
+                      corner + glm::abs(chance_point(chance, chance.one_in(2) ? 60.0 : 2.0))};
+        places.error = std::exp(chance.between(-6.0, 3.0));
+        places.up = glm::normalize(chance_point(chance, 1.0));
+        places.turn = chance.one_in(2) ? 0.0 : chance.between(0.0, 0.5);
+        const double bound = view::PictureError(camera, picture, placed).of(places);
+        for (int i = 0; i < 20; ++i) {
+            const glm::dvec3 share(chance.between(0, 1), chance.between(0, 1),
+                                   chance.between(0, 1));
+            const glm::dvec3 shown = glm::mix(places.box.low, places.box.high, share);
+            const glm::dvec3 axis =
+                glm::normalize(glm::cross(places.up, chance_point(chance, 1.0)));
+            const glm::dvec3 up(glm::rotate(glm::dmat4(1.0), chance.between(0, places.turn), axis) *
+                                glm::dvec4(places.up, 0.0));
+            const glm::dvec3 belongs = shown + chance.between(-1, 1) * places.error * up;
+            const glm::dvec3 a(placed * glm::dvec4(shown, 1.0));
+            const glm::dvec3 b(placed * glm::dvec4(belongs, 1.0));
+            if (!is_seen(camera, a) || std::isinf(bound)) {
+                continue;
+            }
+            const double moved = glm::distance(scene::project(camera, picture, a).pixel,
+                                               scene::project(camera, picture, b).pixel);
+            ASSERT_LE(moved, bound * (1.0 + 1e-9)) << n;
+            tightest = std::max(tightest, moved / bound);
+            ++checked;
+        }
+    }
+    EXPECT_GT(checked, 10000);
+    EXPECT_GT(tightest, 0.9);
+}
+
+TEST(PictureError, IsUnboundedWhereTheTruePlacesMayBeAtTheEye) {
+    scene::Camera camera;
+    camera.eye = {0.0, 0.0, 10.0};
+    camera.target = {0.0, 100.0, 10.0};
+    const view::PictureError error(camera, picture, glm::dmat4(1.0));
+    const Box around{{-50.0, -50.0, 0.0}, {50.0, 50.0, 20.0}};
+    EXPECT_TRUE(
+        std::isinf(error.of({around, 5.0, glm::normalize(glm::dvec3(0.0, 0.1, 1.0)), 0.0})));
+    EXPECT_EQ(error.of({around, 0.0, {0.0, 0.0, 1.0}, 0.0}), 0.0);
+}
+
 } // namespace
 } // namespace reljef::render

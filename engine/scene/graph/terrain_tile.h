@@ -21,7 +21,7 @@ namespace reljef::scene {
 inline constexpr int cells_per_block = 8;
 
 struct TileSummary {
-    terrain::TreeTile id; ///< if it borrows: of level 0, in tiles of terrain::tile_cells
+    terrain::TreeTile id;       ///< if it borrows: of level 0, in tiles of terrain::tile_cells
     Box bounds;                 ///< local metres
     terrain::HeightRange range; ///< true metres
     /// Scene metres. If proven, no sample that is no void is farther above or below the tile's

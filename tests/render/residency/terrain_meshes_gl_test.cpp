@@ -119,14 +119,14 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
 }
 
 TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
-    StreamedWorld world(40);
+    StreamedWorld world(160);
     test::Chance chance(4);
     for (int round = 0; round < 20; ++round) {
         world.look({chance.between(-700, 700), chance.between(-700, 700), 50.0},
                    {chance.between(-700, 700), chance.between(-700, 700), 0.0});
         world.bring();
         ASSERT_LE(world.choice().drawn.size(), world.stream->max_drawn());
-        ASSERT_LE(world.stream->stats().bytes, 44 * scene::bytes_per_tile);
+        ASSERT_LE(world.stream->stats().bytes, 176 * scene::bytes_per_tile);
     }
 }
 

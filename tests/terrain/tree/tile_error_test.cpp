@@ -174,10 +174,14 @@ double surface_at(const TileTree& tree, const Grid<float>& level, int number, in
     return sum;
 }
 
+struct ExactProof : TileProof {
+    std::array<double, error_blocks * error_blocks> block_errors{};
+};
+
 /// The exact figures of a tile, from all of its samples.
-TileProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& samples,
-                      const Grid<float>& level) {
-    TileProof proof;
+ExactProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& samples,
+                       const Grid<float>& level) {
+    ExactProof proof;
     const glm::ivec2 first = TileTree::first(tile);
     const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
     double error = 0.0;
@@ -191,6 +195,12 @@ TileProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& sa
                 proof.high = std::max(proof.high, height);
                 const double surface = surface_at(tree, level, tile.level, col, row);
                 error = std::max(error, std::abs(height - surface));
+                const glm::ivec2 cell =
+                    glm::min((glm::ivec2(col, row) - first) >> tile.level, tree.cells(tile) - 1);
+                const glm::ivec2 block = cell / cells_per_error_block;
+                double& of_block = proof.block_errors.at(
+                    static_cast<std::size_t>(block.y * error_blocks + block.x));
+                of_block = std::max(of_block, std::abs(height - surface));
             }
         }
     }
@@ -234,12 +244,16 @@ std::vector<double> expect_proven(const Grid<float>& samples) {
     const Proven proven = prove_all(tree, samples);
     std::vector<double> ratios;
     for (const auto& [tile, proof] : proven.tiles) {
-        const TileProof exact =
+        const ExactProof exact =
             exact_proof(tree, tile, samples, proven.heights[static_cast<std::size_t>(tile.level)]);
         EXPECT_EQ(proof.low, exact.low);
         EXPECT_EQ(proof.high, exact.high);
         EXPECT_EQ(proof.has_voids, exact.has_voids);
         EXPECT_GE(proof.error, exact.error) << tile.level << " " << tile.col << " " << tile.row;
+        for (std::size_t i = 0; i < exact.block_errors.size(); ++i) {
+            EXPECT_GE(proof.block_error(i), exact.block_errors[i]) << i;
+            EXPECT_LE(proof.block_error(i), proof.error);
+        }
         if (tile.level > 0 && exact.error > 0.0F) {
             ratios.push_back(static_cast<double>(proof.error) / exact.error);
         }
