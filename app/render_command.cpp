@@ -322,8 +322,8 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
     if (auto committed = commit_all(outputs); !committed) {
         return committed;
     }
-    if (const auto note = maker.kept_error_note()) {
-        log.note(*note);
+    for (const std::string& note : maker.error_notes()) {
+        log.note(note);
     }
     return *path ? lifted.report(log, choice.view.path)
                  : report_lift(lift, choice, has_camera_of_file, log);

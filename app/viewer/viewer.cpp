@@ -370,6 +370,20 @@ void Viewer::leave() {
     }
 }
 
+namespace {
+
+/// What the title says of a frame that may be farther off than its error bound.
+std::string error_text(const view::FrameStats& stats, const scene::Technique& technique) {
+    if (stats.kept_error && stats.tiles_unproven > 0) {
+        return " - error unproven";
+    }
+    return stats.kept_error.value_or(0.0) > scene::error_bound(technique)
+               ? fmt::format(" - up to {:.1f} px off", *stats.kept_error)
+               : std::string();
+}
+
+} // namespace
+
 std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timing) const {
     const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
     const std::string rate = timing.frames_per_second
@@ -383,9 +397,10 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
             : fmt::format(" ({} {:.0f} %)", preparing.label, 100.0 * preparing.fraction);
     const std::string resolution =
         timing.divisor > 1 ? fmt::format(", 1/{} of the resolution", timing.divisor) : "";
-    return fmt::format("reljef - {} - {}{} - {} ({:.1f} ms{}) - {} triangles - {}",
+    return fmt::format("reljef - {} - {}{}{} - {} ({:.1f} ms{}) - {} triangles - {}",
                        surface.terrain().name, scene::to_string(material().technique), progress,
-                       rate, timing.last_ms, resolution, stats.triangles, place());
+                       error_text(stats, material().technique), rate, timing.last_ms, resolution,
+                       stats.triangles, place());
 }
 
 std::string Viewer::place() const {

@@ -150,7 +150,6 @@ struct StatedErrors {
     Worst worst;                // pixels
     Worst kept;                 // stated, pixels
     std::vector<double> ratios; // stated over measured, of frames that state more than the bound
-    int frames_over = 0;        // that state more than the bound
 
     void add(const std::vector<double>& errors, const view::FrameStats& stats,
              const std::string& at) {
@@ -164,9 +163,8 @@ struct StatedErrors {
         unproven += static_cast<std::size_t>(stats.tiles_unproven);
         worst.add(largest, at);
         kept.add(stated, at);
-        if (stated > stressed_bound) {
-            ++frames_over;
-            ratios.push_back(largest > 0.0 ? stated / largest : 1.0);
+        if (stated > stressed_bound && !errors.empty()) {
+            ratios.push_back(stated / largest);
         }
     }
 };
@@ -229,7 +227,7 @@ Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
     add("largest stated error, px", found->kept.value(), std::nullopt, found->kept.at());
     if (!found->ratios.empty()) {
         add("stated over largest error, median", median(found->ratios), max_overstatement,
-            fmt::format("{} of them over the bound", found->frames_over));
+            fmt::format("{} of them over the bound", found->ratios.size()));
     }
     return {};
 }

@@ -256,7 +256,8 @@ TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProo
     const bool has_finer = imagery_.finest_pixel > 0.0 && tile.level > 0;
     summary.coarse_texel = has_finer ? texel(tile.level) : 0.0;
     summary.is_proven = true;
-    summary.error_shares = proof.block_shares;
+    summary.has_voids = proof.has_voids;
+    summary.block_shares = proof.block_shares;
     return summary;
 }
 

@@ -38,7 +38,8 @@ std::size_t texels_shown(const Image& texels) {
 } // namespace
 
 TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options)
-    : maker_(std::move(maker)), read_(std::move(read)), options_(options) {
+    : maker_(std::move(maker)), read_(std::move(read)), options_(options),
+      has_proofs_(options.find_proof != nullptr) {
     const unsigned count = thread_count(options.threads);
     for (unsigned i = 0; i < count; ++i) {
         try {
@@ -77,7 +78,7 @@ std::optional<TileSummary> TileStream::recall(terrain::TreeTile tile) const {
     if (const auto found = remembered_.find(tile); found != remembered_.end()) {
         return found->second;
     }
-    const auto proof = options_.find_proof ? options_.find_proof(tile) : std::nullopt;
+    const auto proof = has_proofs_ ? options_.find_proof(tile) : std::nullopt;
     if (!proof) {
         return std::nullopt;
     }
@@ -322,6 +323,9 @@ TileStream::Made TileStream::better_of(const Made& before, Made now, bool has_wh
 void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made made,
                         bool stopped) {
     in_flight_.erase(tile);
+    if (content.ends_proofs && has_proofs_) {
+        drop_proofs();
+    }
     stats_.bytes_read += content.bytes_read;
     new_notes_.insert(new_notes_.end(), content.notes.begin(), content.notes.end());
     if (stopped) {
@@ -333,6 +337,9 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
         note_failure(tile, content.errors);
         return;
     }
+    if (made.tile->is_proven && !has_proofs_) {
+        return; // made before the proofs ended: is read again
+    }
     if (content.picture_errors.empty()) {
         forget_failure(tile);
         std::erase(requested_, tile);
@@ -342,6 +349,18 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
     const auto before = tiles_.find(tile);
     if (before == tiles_.end() || before->second.made.tile != made.tile) {
         keep(tile, std::move(made));
+    }
+}
+
+void TileStream::drop_proofs() {
+    has_proofs_ = false;
+    remembered_.clear();
+    remembered_order_.clear();
+    ++revision_;
+    for (auto entry = tiles_.begin(); entry != tiles_.end();) {
+        const TerrainTile& tile = *entry->second.made.tile;
+        stats_.bytes -= tile.is_proven ? tile.bytes() : 0;
+        entry = tile.is_proven ? tiles_.erase(entry) : std::next(entry);
     }
 }
 

@@ -36,6 +36,7 @@ struct TileContent {
     std::vector<FileError> picture_errors; ///< also of heights that the overview replaces
     bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
     bool is_proven = false;                ///< TileStreamOptions::find_proof holds for the heights
+    bool ends_proofs = false;              ///< the proofs are wrong: of no tile is one true
     std::size_t bytes_read = 0;            ///< from files
     std::vector<std::string> notes;        ///< new ones: each once in the stream's life
 };
@@ -88,8 +89,9 @@ public:
 
     /// A loaded tile; null if it is not in memory.
     [[nodiscard]] std::shared_ptr<const TerrainTile> find(terrain::TreeTile tile) const;
-    /// Summary of a loaded, proven or evicted tile. Avoids re-reading tiles that were rejected.
-    /// Empty for unproven tiles that were evicted long ago.
+    /// Summary of a loaded, proven or evicted tile. If the proofs turn out to be wrong, proven
+    /// tiles are forgotten and read again. Avoids re-reading tiles that were rejected. Empty for
+    /// unproven tiles that were evicted long ago.
     [[nodiscard]] std::optional<TileSummary> recall(terrain::TreeTile tile) const;
     struct Found {
         std::shared_ptr<const TerrainTile> tile;
@@ -156,6 +158,7 @@ private:
     void forget_failure(terrain::TreeTile tile);
     void record_errors(std::span<const TileContent::FileError> errors);
     void keep(terrain::TreeTile tile, Made made);
+    void drop_proofs();
     [[nodiscard]] std::vector<terrain::TreeTile>
     requests_for(std::span<const terrain::TreeTile> tiles) const;
     void evict();
@@ -179,6 +182,7 @@ private:
     std::set<std::string> failed_files_;
     std::vector<std::string> new_errors_;
     std::vector<std::string> new_notes_;
+    bool has_proofs_ = false;
     std::uint64_t view_ = 0;
     std::uint64_t revision_ = 0;
     bool has_arrivals_ = false;

@@ -10,7 +10,6 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/core/stopwatch.h"
-#include "engine/session/streaming.h"
 
 namespace reljef::session {
 namespace {
@@ -128,25 +127,52 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
 }
 
 void DeviceFrames::note_kept_error(const scene::Scene& scene) {
-    if (!stats_.kept_error || *stats_.kept_error <= (worst_ ? worst_->kept_error : 0.0)) {
+    const auto bound = smallest_error_bound(scene);
+    if (!bound || !stats_.kept_error) {
         return;
     }
-    const auto needed = memory_for_bound(scene, device_.renderer().size());
-    if (needed && *stats_.kept_error > needed->bound) {
-        worst_ = {*stats_.kept_error, needed->bound, needed->growth};
+    max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
+    if (*stats_.kept_error <= *bound) {
+        return;
     }
+    if (!over_ || *stats_.kept_error > over_->kept_error) {
+        over_ = {*stats_.kept_error, *bound, over_ ? over_->memory : MemoryForBound{},
+                 over_ && over_->misses_tiles};
+    }
+    const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
+    if (needed.growth > over_->memory.growth) {
+        over_->memory = needed;
+    }
+    over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
 }
 
-std::optional<std::string> DeviceFrames::kept_error_note() const {
-    if (!worst_) {
-        return std::nullopt;
+std::string DeviceFrames::remedy() const {
+    const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
+    if (megabytes > options_.memory_megabytes) {
+        return over_->memory.is_enough
+                   ? fmt::format("--memory {:.0f} keeps it", megabytes)
+                   : fmt::format("more than --memory {:.0f} is needed", megabytes);
     }
-    const double megabytes = std::ceil(worst_->memory_growth * options_.memory_megabytes);
-    const std::string remedy = megabytes > options_.memory_megabytes
-                                   ? fmt::format("--memory {:.0f} keeps it", megabytes)
-                                   : "the eye is too near to the ground";
-    return fmt::format("pixels are off by up to {:.3g}, and {:g} was the error bound: {}",
-                       worst_->kept_error, worst_->bound, remedy);
+    return over_->misses_tiles ? "tiles cannot be read" : "the eye is too near to the ground";
+}
+
+std::vector<std::string> DeviceFrames::error_notes() const {
+    std::vector<std::string> notes;
+    if (over_) {
+        const std::string found =
+            std::isinf(over_->kept_error)
+                ? std::string("pixels are off by any distance, because the errors reach the eye")
+                : fmt::format("pixels are off by up to {:.3g}", over_->kept_error);
+        notes.push_back(
+            fmt::format("{}, and {:g} was the error bound: {}", found, over_->bound, remedy()));
+    }
+    if (max_unproven_ > 0) {
+        notes.push_back(fmt::format(
+            "the errors of {} tiles are estimates, and pixels may be farther off than the error "
+            "bound: 'reljef index' proves them, except near voids",
+            max_unproven_));
+    }
+    return notes;
 }
 
 std::string DeviceFrames::stats() const {

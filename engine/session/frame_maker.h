@@ -15,6 +15,7 @@
 #include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/streamed_truth.h"
 
@@ -31,8 +32,8 @@ public:
                                         const ParallelOptions& parallel) = 0;
     /// Counts and times of the last frame, one per line.
     [[nodiscard]] virtual std::string stats() const = 0;
-    /// A sentence if a frame so far did not keep its error bound.
-    [[nodiscard]] virtual std::optional<std::string> kept_error_note() const { return {}; }
+    /// Sentences about frames so far that did not keep their error bound, or may not have kept it.
+    [[nodiscard]] virtual std::vector<std::string> error_notes() const { return {}; }
 };
 
 struct FrameTimes {
@@ -55,7 +56,7 @@ public:
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
     [[nodiscard]] std::string stats() const override;
-    [[nodiscard]] std::optional<std::string> kept_error_note() const override;
+    [[nodiscard]] std::vector<std::string> error_notes() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     /// Of the last frame, or hits.
     [[nodiscard]] const view::FrameStats& frame_stats() const { return stats_; }
@@ -63,13 +64,16 @@ public:
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:
-    // The frame so far that is farthest over its error bound.
-    struct WorstFrame {
-        double kept_error = 0.0; // pixels
-        double bound = 0.0;
-        double memory_growth = 1.0; // with which it would be kept
+    // Of all frames that are over their error bound.
+    struct FramesOver {
+        double kept_error = 0.0; // the largest, pixels
+        double bound = 0.0;      // of that frame
+        MemoryForBound memory;   // the largest
+        bool misses_tiles = false;
     };
     void note_kept_error(const scene::Scene& scene);
+    /// How to keep the bound of the frames that are over it. Precondition: there are some.
+    [[nodiscard]] std::string remedy() const;
 
     Device device_;
     Log& log_;
@@ -78,7 +82,8 @@ private:
     std::optional<scene::Camera> ready_for_; // the next view, if its tiles are loaded
     double waited_ms_ = 0.0;                 // for the next view
     view::FrameStats stats_;
-    std::optional<WorstFrame> worst_;
+    std::optional<FramesOver> over_;
+    int max_unproven_ = 0;                             // tiles of a frame with an error bound
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 

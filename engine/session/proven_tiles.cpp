@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "engine/io/index/index_pass.h"
@@ -32,6 +33,19 @@ float height_between(const Grid<float>& samples, glm::dvec2 place) {
                : static_cast<float>(sum / shares);
 }
 
+bool is_possible(const terrain::TileProof& proof) {
+    const bool is_empty = proof.low > proof.high;
+    return std::isfinite(proof.error) && proof.error >= 0.0F &&
+           (is_empty ? proof.has_voids : std::isfinite(proof.low) && std::isfinite(proof.high));
+}
+
+/// Whether a tile can have the proof if its parent has the other one.
+bool agrees(const terrain::TileProof& proof, const terrain::TileProof& parent) {
+    const bool is_empty = proof.low > proof.high;
+    return (is_empty || (proof.low >= parent.low && proof.high <= parent.high)) &&
+           (!proof.has_voids || parent.has_voids);
+}
+
 } // namespace
 
 ProvenTiles::ProvenTiles(io::IndexSource source, io::ErrorIndex index, int refinement)
@@ -44,7 +58,26 @@ terrain::TreeTile ProvenTiles::indexed(terrain::TreeTile tile) const {
 }
 
 std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) const {
-    return is_wrong_ ? std::nullopt : index_.find(indexed(tile));
+    const terrain::TreeTile at = indexed(tile);
+    const auto proof = is_wrong_ ? std::nullopt : index_.find(at);
+    if (!proof) {
+        return std::nullopt;
+    }
+    const auto parent = index_.find({at.level + 1, at.col / 2, at.row / 2});
+    if (!is_possible(*proof) || (parent && !agrees(*proof, *parent))) {
+        contradict(fmt::format("{}: tile ({},{}) of level {}: found heights beyond those of the "
+                               "coarser tile, heights within them were expected",
+                               source_.file.string(), at.col, at.row, at.level));
+        return std::nullopt;
+    }
+    return proof;
+}
+
+void ProvenTiles::contradict(const std::string& error) const {
+    if (!is_wrong_.exchange(true)) {
+        const std::lock_guard lock(mutex_);
+        error_ = {source_.file.string(), error};
+    }
 }
 
 std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
@@ -58,11 +91,8 @@ std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
     }
     const bool is_contradiction =
         !found->errors.empty() && found->errors.front().file == source_.file;
-    if (is_contradiction && !stop.stop_requested()) { // a read that was stopped is no samples
-        if (!is_wrong_.exchange(true)) {
-            const std::lock_guard lock(mutex_);
-            error_ = {source_.file.string(), found->errors.front().message};
-        }
+    if (is_contradiction && !stop.stop_requested()) { // a stopped read has no samples
+        contradict(found->errors.front().message);
         return std::nullopt;
     }
     scene::TileContent content;

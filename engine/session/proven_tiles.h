@@ -14,7 +14,7 @@ namespace reljef::session {
 
 /// The proven tiles of a stream, from the index of its terrain. The stream's tree may be finer than
 /// the samples: such tiles show parts of tiles of all samples. Once a tile contradicts its proof,
-/// no tile is proven any more. Thread-safe.
+/// or a proof the one of the coarser tile, no tile is proven any more. Thread-safe.
 class ProvenTiles {
 public:
     /// `refinement`: samples of the stream's tree per sample of the terrain, a power of two.
@@ -27,10 +27,13 @@ public:
     /// Reads the heights that a tile's proof holds for. Absent if it is unproven.
     [[nodiscard]] std::optional<scene::TileContent> read(terrain::TreeTile tile,
                                                          const std::stop_token& stop) const;
+    /// Whether there was a contradiction.
+    [[nodiscard]] bool is_wrong() const { return is_wrong_; }
     /// The contradiction, once.
     [[nodiscard]] std::optional<scene::TileContent::FileError> take_error() const;
 
 private:
+    void contradict(const std::string& error) const;
     /// The tile of the index that a tile of the stream is, or is a part of.
     [[nodiscard]] terrain::TreeTile indexed(terrain::TreeTile tile) const;
     [[nodiscard]] Grid<float> part(terrain::TreeTile tile, const Grid<float>& samples) const;

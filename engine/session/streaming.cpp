@@ -99,7 +99,8 @@ public:
         if (!stop.stop_requested()) {
             content = content_or_overview(maker_, stream_.plan.reduction, tile, std::move(content));
         }
-        if (auto error = proofs_ != nullptr ? proofs_->take_error() : std::nullopt) {
+        content.ends_proofs = proofs_ != nullptr && proofs_->is_wrong();
+        if (auto error = content.ends_proofs ? proofs_->take_error() : std::nullopt) {
             (content.errors.empty() ? content.picture_errors : content.errors)
                 .push_back(std::move(*error));
         }
@@ -283,24 +284,33 @@ void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token&
     });
 }
 
-std::optional<MemoryForBound> memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
-    std::optional<MemoryForBound> needed;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
+std::optional<double> smallest_error_bound(const scene::Scene& scene) {
+    std::optional<double> smallest;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
         const auto* terrain = node.get<scene::TerrainNode>();
         const double bound =
             terrain != nullptr ? scene::error_bound(terrain->material.technique) : 0.0;
-        if (bound <= 0.0) {
+        if (bound > 0.0) {
+            smallest = std::min(bound, smallest.value_or(bound));
+        }
+    });
+    return smallest;
+}
+
+MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
+    MemoryForBound needed;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain == nullptr || terrain->stream == nullptr ||
+            scene::error_bound(terrain->material.technique) <= 0.0) {
             return;
         }
-        double growth = 1.0;
-        if (const scene::TileStream* const stream = terrain->stream.get()) {
-            const std::size_t tiles = view::tiles_for_bound(*terrain, scene.camera(), size, matrix);
-            growth = static_cast<double>(stream->budget_for(tiles)) /
-                     static_cast<double>(stream->options().memory_budget);
-        }
-        needed = needed ? MemoryForBound{std::min(needed->bound, bound),
-                                         std::max(needed->growth, growth)}
-                        : MemoryForBound{bound, growth};
+        const scene::TileStream& stream = *terrain->stream;
+        const std::size_t tiles = view::tiles_for_bound(*terrain, scene.camera(), size, matrix);
+        needed.growth =
+            std::max(needed.growth, static_cast<double>(stream.budget_for(tiles)) /
+                                        static_cast<double>(stream.options().memory_budget));
+        needed.is_enough = needed.is_enough && tiles < view::max_tiles_counted;
     });
     return needed;
 }

@@ -32,12 +32,15 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
 /// for good, or `stop` is requested.
 void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token& stop);
 
+/// The smallest error bound of the scene's terrains, pixels; empty if none has one.
+std::optional<double> smallest_error_bound(const scene::Scene& scene);
+
+/// The memory with which all streamed terrains keep their error bounds in a view.
 struct MemoryForBound {
-    double bound = 0.0;  ///< the smallest error bound of the scene's terrains, pixels
-    double growth = 1.0; ///< of the memory, with which streamed ones keep theirs in this view
+    double growth = 1.0;   ///< relative to their memory
+    bool is_enough = true; ///< false: counting ended there, and more is needed
 };
-/// Empty if no terrain has an error bound.
-std::optional<MemoryForBound> memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
+MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
 
 /// Loads the tiles of the scene's view into another stream of a terrain. Returns whether they are
 /// in memory or have failed for good; call it until then.

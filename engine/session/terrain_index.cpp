@@ -64,9 +64,9 @@ Result<Proofs> existing_proofs(const TerrainSource& source) {
     return *found ? proofs_of(source, std::move(*index), std::move(**found)) : Proofs();
 }
 
-unsigned threads_within(const StreamSource& stream, unsigned threads) {
+unsigned threads_within(std::size_t memory_budget, unsigned threads) {
     const std::size_t max_threads =
-        std::max<std::size_t>(1, stream.memory_budget / io::bytes_of_index_thread);
+        std::max<std::size_t>(1, memory_budget / io::bytes_of_index_thread);
     return static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), max_threads));
 }
 
@@ -78,9 +78,10 @@ Result<void> complete_index(const TerrainSource& source, const io::IndexSource& 
                                  index.tiles.name())};
     }
     const auto task = log.start("indexing " + source.description.name);
-    const auto report = io::make_index(index, {.threads = threads_within(*source.stream, threads),
-                                               .stop = stop,
-                                               .progress = task->callback()});
+    const auto report =
+        io::make_index(index, {.threads = threads_within(source.stream->memory_budget, threads),
+                               .stop = stop,
+                               .progress = task->callback()});
     if (!report) {
         return report.error();
     }
@@ -131,7 +132,9 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
         return index.error();
     }
     const auto task = log.start("indexing " + description->name);
-    auto report = io::make_index(*index, {.threads = static_cast<unsigned>(options.threads),
+    const std::size_t memory_budget = static_cast<std::size_t>(options.memory_megabytes) << 20;
+    const auto threads = static_cast<unsigned>(options.threads);
+    auto report = io::make_index(*index, {.threads = threads_within(memory_budget, threads),
                                           .stop = stop,
                                           .progress = task->callback()});
     if (!report) {

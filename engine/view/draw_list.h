@@ -42,8 +42,13 @@ struct TileDraw {
     bool is_hidden = false;                 ///< behind nearer ground
     /// Of the tile against all samples, pixels: a bound if it is proven, otherwise an estimate.
     double error = 0.0;
+    /// Height of the steps to its neighbours, at most or about, scene metres; see tile_gaps().
+    double gap = 0.0;
 
-    [[nodiscard]] bool is_proven() const { return tile->borrows || tile->is_proven; }
+    /// Whether `error` is proven, of every pixel.
+    [[nodiscard]] bool is_proven() const {
+        return tile->borrows || (tile->is_proven && !(tile->has_voids && tile->id.level > 0));
+    }
 };
 
 /// A terrain whose tiles need not have a vertex at every sample.

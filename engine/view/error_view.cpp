@@ -97,6 +97,15 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     return view;
 }
 
+WiderPicture wider_picture(scene::Camera camera, glm::ivec2 size, double margin) {
+    const glm::ivec2 wider = size + 2 * static_cast<int>(std::ceil(margin));
+    const double growth = static_cast<double>(wider.y) / size.y;
+    camera.view_height *= growth;
+    camera.vertical_fov =
+        glm::degrees(2.0 * std::atan(growth * std::tan(0.5 * glm::radians(camera.vertical_fov))));
+    return {camera, wider};
+}
+
 PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
                            const glm::dmat4& world_from_local)
     : world_from_local_(world_from_local), axes_(scene::view_axes(camera)), eye_(camera.eye),

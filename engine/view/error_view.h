@@ -35,6 +35,14 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
                               double max_error);
 
+/// A picture with more around it.
+struct WiderPicture {
+    scene::Camera camera;
+    glm::ivec2 size{0}; ///< pixels
+};
+/// `margin`: pixels on each side, rounded up.
+WiderPicture wider_picture(scene::Camera camera, glm::ivec2 size, double margin);
+
 /// How far errors of a terrain move the pixels that show it.
 class PictureError {
 public:

@@ -16,6 +16,7 @@
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
+#include "engine/view/tile_gaps.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {
@@ -64,6 +65,18 @@ bool is_flat(const scene::TerrainNode& terrain) {
 
 bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
+}
+
+// tile_gaps() of all tiles of a selection.
+std::map<terrain::TreeTile, double> gaps_between(const scene::TerrainNode& terrain,
+                                                 const TileSelection& selection) {
+    std::vector<const scene::TileSummary*> tiles;
+    for (const auto* const part : {&selection.drawn, &selection.hidden}) {
+        for (const TileSelection::Drawn& drawn : *part) {
+            tiles.push_back(drawn.tile.get());
+        }
+    }
+    return tile_gaps(terrain.stream->tree(), tiles, terrain.surface->placement().exaggeration());
 }
 
 class Selector {
@@ -138,12 +151,15 @@ private:
         requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
         TileDraw draw = draw_of(terrain);
         auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
+        const auto gaps = gaps_between(terrain, choice);
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
+            const auto gap = gaps.find(drawn.tile->id);
+            draw.gap = gap != gaps.end() ? gap->second : 0.0;
             draw.tile = std::move(drawn.tile);
             draw.error = drawn.error;
             draw.is_hidden = is_hidden;
             draw.coarse = coarseness && !is_hidden;
-            list_.stats.tiles_unproven += draw.is_proven() ? 0 : 1;
+            list_.stats.tiles_unproven += draw.is_proven() || is_hidden ? 0 : 1;
             see(draw, drawn.distance * drawn.distance);
         };
         for (TileSelection::Drawn& drawn : choice.drawn) {

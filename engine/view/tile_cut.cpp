@@ -41,8 +41,8 @@ double farthest(const DrawList& list, const TileDraw& draw) {
     return glm::length(away);
 }
 
-// The errors of all drawn tiles beside their bounds are estimates. Gaps wider than this many bounds
-// were not seen.
+// The triangles of two neighbours take a bound each. From above they may be farther apart in height
+// than a bound is wide; gaps wider than this many bounds were not seen.
 constexpr double bounds_of_gaps = 16.0;
 
 } // namespace
@@ -56,7 +56,7 @@ TileSurface surface_of(const TileDraw& draw) {
     return {tile.heightfield, *tile.placement, {0, 0, tile.cells.x, tile.cells.y, tile.bounds}};
 }
 
-terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw, double error) {
+terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw) {
     const scene::TerrainTile& tile = *draw.tile;
     if (tile.borrows) {
         return {.depth = 0.0};
@@ -65,8 +65,7 @@ terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw, double error
     const double pixel = metres.x + metres.y * farthest(list, draw);
     const double bound = std::max(scene::error_bound(draw.terrain->material.technique), 1.0);
     const glm::dvec3 size = draw.terrain->surface->bounds().size();
-    const double depth =
-        std::min(tile.error + bounds_of_gaps * std::max(bound, error) * pixel, glm::length(size));
+    const double depth = std::min(draw.gap + bounds_of_gaps * bound * pixel, glm::length(size));
     const terrain::TileTree& tree = draw.terrain->stream->tree();
     const glm::ivec2 last = glm::ivec2(tree.cols(), tree.rows()) - 1;
     const glm::ivec2 first = terrain::TileTree::first(tile.id);

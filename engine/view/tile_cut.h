@@ -26,9 +26,8 @@ struct CutMesh {
 };
 
 /// The walls that close the gaps between a tile and its neighbours; a tile of a terrain in memory
-/// needs none. `error`: the largest of all tiles of the terrain, pixels. The depth is rounded up,
-/// so that it seldom changes.
-terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw, double error);
+/// needs none. The depth is rounded up, so that it seldom changes.
+terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw);
 
 /// How to draw a tile with fewer triangles.
 struct CutOptions {

@@ -29,9 +29,6 @@ struct TileSelection {
     int hidden_unread = 0; ///< hidden tiles that are not loaded
 };
 
-/// Largest distance between samples on the picture, in error bounds.
-inline constexpr double samples_apart_in_errors = 4.0;
-
 struct TileSelectionOptions {
     /// Requests and refines hidden tiles like all others and returns them as `hidden`: to measure
     /// the effect of occlusion on the picture.
@@ -55,8 +52,11 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
                            glm::ivec2 size, const glm::dmat4& world_from_local,
                            const TileSelectionOptions& options = {});
 
-/// Tiles that keep the error bound in a view, hidden ones included; counts proven and known ones.
-/// At most about 100,000.
+/// tiles_for_bound() counts no more: they would take gigabytes.
+inline constexpr std::size_t max_tiles_counted = 100'000;
+
+/// Tiles that keep the error bound in a view, hidden ones included; at most max_tiles_counted.
+/// Counts proven and known ones.
 std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Camera& camera,
                             glm::ivec2 size, const glm::dmat4& world_from_local);
 

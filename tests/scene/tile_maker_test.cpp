@@ -111,64 +111,64 @@ TEST(TileMakers, RefinedOnesStandOnTheSameGround) {
 }
 
 double globe_height(glm::dvec2 sample) {
-    const double x = sample.x * 2.0 * std::numbers::pi / 72.0;
-    return sample.y <= 0.0 || sample.y >= 37.0 ? 9000.0 : 9000.0 + 20000.0 * std::sin(x + 0.4);
+    const double x = sample.x * 2.0 * std::numbers::pi / 36.0;
+    return sample.y <= 0.0 || sample.y >= 19.0 ? 9000.0 : 9000.0 + 20000.0 * std::sin(x + 0.4);
 }
 
-/// 72×36 samples around the Earth, 5° apart, and what closes them.
+/// 36×18 samples around the Earth, 10° apart, and what closes them.
 TileBuilder globe_maker() {
     constexpr geo::GlobalWrap wrap{.around = true, .east = true, .north = 0.5, .south = 0.5};
     Grid<glm::dvec2> degrees(9, 9);
     for (int row = 0; row < 9; ++row) {
         for (int col = 0; col < 9; ++col) {
-            degrees(col, row) = {87.5 - 175.0 * row / 8.0, -177.5 + 355.0 * col / 8.0};
+            degrees(col, row) = {85.0 - 170.0 * row / 8.0, -175.0 + 350.0 * col / 8.0};
         }
     }
     terrain::Terrain globe{"globe", {}, {}, {}};
-    globe.heightfield.heights = Grid<float>(73, 38);
-    for (int row = 0; row < 38; ++row) {
-        for (int col = 0; col < 73; ++col) {
-            globe.heightfield.heights(col, row) = static_cast<float>(globe_height({col % 72, row}));
+    globe.heightfield.heights = Grid<float>(37, 20);
+    for (int row = 0; row < 20; ++row) {
+        for (int col = 0; col < 37; ++col) {
+            globe.heightfield.heights(col, row) = static_cast<float>(globe_height({col % 36, row}));
         }
     }
     globe.heightfield.range = {-11000.0, 29000.0};
-    globe.heightfield.spacing = glm::dvec2(555e3);
+    globe.heightfield.spacing = glm::dvec2(1.11e6);
     globe.heightfield.georeference.emplace();
     globe.heightfield.georeference->geodetic =
-        geo::GeodeticMap(degrees, glm::dvec2(0.0), {71.0 / 8.0, 35.0 / 8.0}).closed(wrap, 72, 36);
+        geo::GeodeticMap(degrees, glm::dvec2(0.0), {35.0 / 8.0, 17.0 / 8.0}).closed(wrap, 36, 18);
     auto surface =
         TerrainSurface::create(std::make_shared<const terrain::Terrain>(std::move(globe)),
                                {.placement = terrain::PlacementKind::ellipsoid});
     EXPECT_TRUE(surface);
     return {
-        std::make_shared<const TerrainSurface>(std::move(*surface)), TileTree(73, 38), 1, {}, wrap};
+        std::make_shared<const TerrainSurface>(std::move(*surface)), TileTree(37, 20), 1, {}, wrap};
 }
 
 TEST(TileMakers, OfAWholeGlobeMeetAcrossTheAntimeridianAndAtThePoles) {
     const TileBuilder make = globe_maker();
     const TreeTile all{0, 0, 0};
-    Grid<float> heights(75, 40);
-    for (int row = 0; row < 40; ++row) {
-        for (int col = 0; col < 75; ++col) {
+    Grid<float> heights(39, 22);
+    for (int row = 0; row < 22; ++row) {
+        for (int col = 0; col < 39; ++col) {
             heights(col, row) =
-                static_cast<float>(globe_height({(col + 71) % 72, std::clamp(row - 1, 0, 37)}));
+                static_cast<float>(globe_height({(col + 35) % 36, std::clamp(row - 1, 0, 19)}));
         }
     }
     const TerrainTile made = make.make(all, std::move(heights));
-    for (int row = 0; row < 38; ++row) {
-        const glm::dvec3 step = made.place({0, row}) - made.place({72, row});
+    for (int row = 0; row < 20; ++row) {
+        const glm::dvec3 step = made.place({0, row}) - made.place({36, row});
         EXPECT_LT(glm::length(step), 0.05) << row;
-        EXPECT_LT(glm::distance(made.normals(0, row), made.normals(72, row)), 1e-5F) << row;
+        EXPECT_LT(glm::distance(made.normals(0, row), made.normals(36, row)), 1e-5F) << row;
     }
-    for (int col = 0; col <= 72; ++col) {
+    for (int col = 0; col <= 36; ++col) {
         EXPECT_LT(glm::distance(made.place({col, 0}), made.place({5, 0})), 0.05);
         EXPECT_LT(glm::distance(made.normals(col, 0), made.normals(5, 0)), 1e-5F);
     }
     const Grid<float> of_overview = make.overview_heights(all);
     for (int row = 0; row < of_overview.rows(); ++row) {
-        EXPECT_EQ(of_overview(1, row), of_overview(73, row));
+        EXPECT_EQ(of_overview(1, row), of_overview(37, row));
     }
-    for (const double row : {0.0, 0.5, 1.0, 20.0, 36.25, 37.0}) {
+    for (const double row : {0.0, 0.5, 1.0, 10.0, 18.25, 19.0}) {
         EXPECT_NEAR(make.from_overview(make.on_overview({4.0, row})).y, row, 1e-12);
     }
 }

@@ -250,7 +250,7 @@ TEST(TileStreams, DrawATileWhosePictureFailsAndReadItAgain) {
                           while (!recovers && !stop.stop_requested()) {
                               std::this_thread::sleep_for(1ms);
                           }
-                          reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          reading.picture.texels = Image(65, 65, Rgba8{9, 8, 7, 255});
                           return reading;
                       },
                       {.threads = 1, .first_pause = 1ms});
@@ -282,7 +282,7 @@ TEST(TileStreams, GoOnReadingAPictureWhileTheViewMoves) {
                           for (int i = 0; i < 30 && !stop.stop_requested(); ++i) {
                               std::this_thread::sleep_for(1ms);
                           }
-                          reading.picture.texels = Image(129, 129, Rgba8{9, 8, 7, 255});
+                          reading.picture.texels = Image(65, 65, Rgba8{9, 8, 7, 255});
                           return reading;
                       },
                       {.threads = 1, .first_pause = 1ms});
@@ -353,7 +353,7 @@ private:
         for (float& height : reading.heights.samples()) {
             height += attempt.heights_above;
         }
-        reading.picture.texels = Image(129, 129, Rgba8{0, 0, 0, 0});
+        reading.picture.texels = Image(65, 65, Rgba8{0, 0, 0, 0});
         for (int col = 0; col < attempt.texels_shown; ++col) {
             reading.picture.texels(col, 0) = shown;
         }

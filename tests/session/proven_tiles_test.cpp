@@ -43,7 +43,7 @@ protected:
         }
         std::erase_if(tiles, [&](terrain::TreeTile tile) {
             const bool is_at_end = terrain::TileTree::first(tile).x +
-                                       terrain::tile_cells * terrain::TileTree::step(tile) >=
+                                       terrain::tree_tile_cells * terrain::TileTree::step(tile) >=
                                    tree().cols();
             return tile.level < 2 && !is_at_end && (tile.col + tile.row) % 7 != 0 &&
                    (tile.col / 4 + tile.row / 4) > 2;

@@ -100,6 +100,16 @@ protected:
         return std::move(*index);
     }
 
+    /// Makes all samples of the first chunk equal in the index.
+    static void write_nonsense(const io::IndexSource& source, float height) {
+        auto index = io::ErrorIndex::open_to_write(source);
+        ASSERT_TRUE(index);
+        const auto flat = [=](int, std::span<float> row) {
+            std::fill(row.begin(), row.end(), height);
+        };
+        ASSERT_TRUE(index->write({0, 0, 0}, terrain::prove_chunk(source.tree, {0, 0, 0}, {flat})));
+    }
+
     test::TemporaryFolder folder_;
     test::EnvironmentVariable variable_{"XDG_CACHE_HOME", cache().string()};
     SourceOptions choice_;
@@ -183,14 +193,7 @@ TEST_F(TerrainIndex, OfAnotherStateIsNotUsedAndNoted) {
 TEST_F(TerrainIndex, OfNonsenseIsReportedOnceAndTheTilesAreRight) {
     ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
     const io::IndexSource source = index_source_of(opened());
-    {
-        auto index = io::ErrorIndex::open_to_write(source);
-        ASSERT_TRUE(index);
-        const auto flat = [](int, std::span<float> row) {
-            std::fill(row.begin(), row.end(), 5.0F);
-        };
-        ASSERT_TRUE(index->write({0, 0, 0}, terrain::prove_chunk(source.tree, {0, 0, 0}, {flat})));
-    }
+    write_nonsense(source, 5.0F);
     const auto stream = stream_of(IndexUse::existing, {});
     const std::array<terrain::TreeTile, 2> tiles{{{0, 0, 0}, {1, 1, 0}}};
     stream->request(tiles);
@@ -205,6 +208,45 @@ TEST_F(TerrainIndex, OfNonsenseIsReportedOnceAndTheTilesAreRight) {
     EXPECT_EQ(failed_files((*scene_)->scene), 1U) << "for the exit status";
     EXPECT_THAT(stream->take_errors(), ElementsAre(HasSubstr(source.file.string() + ": tile")));
     EXPECT_LE(stream->stats().failed, 2) << "read again once";
+}
+
+TEST_F(TerrainIndex, OfNonsenseEndsTheProofsOfTilesThatWereLoadedBefore) {
+    ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
+    write_nonsense(index_source_of(opened()), test::height_of_waves(9, 9));
+    const auto stream = stream_of(IndexUse::existing, {});
+    const terrain::TreeTile root = stream->tree().root();
+    const terrain::TreeTile unread{2, 7, 0};
+    const std::array<terrain::TreeTile, 1> whole{root};
+    stream->request(whole);
+    ASSERT_TRUE(stream->wait({}));
+    EXPECT_TRUE(stream->find(root)->is_proven);
+    EXPECT_TRUE(stream->recall(unread));
+    const std::uint64_t revision = stream->revision();
+    const std::array<terrain::TreeTile, 1> wrong{{{0, 0, 0}}};
+    stream->request(wrong);
+    ASSERT_TRUE(stream->wait({}));
+    EXPECT_FALSE(stream->find(wrong[0])->is_proven);
+    EXPECT_FALSE(stream->find(root)) << "is read again";
+    EXPECT_FALSE(stream->recall(unread));
+    EXPECT_GT(stream->revision(), revision + 1) << "more than a tile that arrived";
+    stream->request(whole);
+    ASSERT_TRUE(stream->wait({}));
+    EXPECT_FALSE(stream->find(root)->is_proven);
+}
+
+// Its range would hide the tile, so that no sample of it is ever read.
+TEST_F(TerrainIndex, HeightsBeyondThoseOfTheCoarserTileAreAContradiction) {
+    ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
+    const io::IndexSource source = index_source_of(opened());
+    write_nonsense(source, 9e5F);
+    const auto stream = stream_of(IndexUse::existing, {});
+    EXPECT_TRUE(stream->recall({3, 4, 0}));
+    EXPECT_FALSE(stream->recall({3, 0, 0})) << "not proven";
+    const std::array<terrain::TreeTile, 1> tiles{{{3, 0, 0}}};
+    stream->request(tiles);
+    ASSERT_TRUE(stream->wait({}));
+    EXPECT_LT(stream->find(tiles[0])->range.high, 1300.0);
+    EXPECT_THAT(stream->take_errors(), ElementsAre(HasSubstr("coarser tile")));
 }
 
 TEST_F(TerrainIndex, ErrorsOfTheSourceAreThoseOfItsFiles) {

@@ -119,9 +119,7 @@ TEST(PictureError, IsNeverBelowWhatABoxShows) {
     double tightest = 0.0;
     for (int n = 0; n < 20000; ++n) {
         const scene::Camera camera = chance_camera(chance);
-        const glm::dmat4 placed =
-            glm::rotate(glm::translate(glm::dmat4(1.0), chance_point(chance, 50.0)),
-                        chance.between(0.0, 6.0), glm::normalize(chance_point(chance, 1.0)));
+        const glm::dmat4 placed = chance_transform(chance);
         view::PictureError::Places places;
         const glm::dvec3 corner = chance_point(chance, 100.0);
         places.box = {corner,
@@ -153,6 +151,21 @@ TEST(PictureError, IsNeverBelowWhatABoxShows) {
     }
     EXPECT_GT(checked, 10000);
     EXPECT_GT(tightest, 0.9);
+}
+
+TEST(WiderPicture, ShowsTheSameAroundThePicture) {
+    test::Chance chance(62);
+    for (int n = 0; n < 2000; ++n) {
+        const scene::Camera camera = chance_camera(chance);
+        const view::WiderPicture wider = view::wider_picture(camera, picture, 15.2);
+        ASSERT_EQ(wider.size, picture + 32);
+        const glm::dvec3 point = chance_point(chance, 100.0);
+        if (is_seen(camera, point)) {
+            const glm::dvec2 pixel = scene::project(camera, picture, point).pixel;
+            const glm::dvec2 among_more = scene::project(wider.camera, wider.size, point).pixel;
+            ASSERT_LT(glm::distance(pixel + 16.0, among_more), 1e-6);
+        }
+    }
 }
 
 TEST(PictureError, IsUnboundedWhereTheTruePlacesMayBeAtTheEye) {

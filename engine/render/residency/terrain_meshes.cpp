@@ -18,15 +18,6 @@ constexpr std::uint64_t kept_always = std::numeric_limits<std::uint64_t>::max();
 // Tiles per batch; limits the memory for vertices that are not yet uploaded.
 constexpr std::size_t batch_tiles = 8;
 
-// The largest error of the tiles' vertices, pixels.
-double max_error(const std::vector<const view::TileDraw*>& draws) {
-    double error = 0.0;
-    for (const view::TileDraw* const draw : draws) {
-        error = std::max(error, draw->error);
-    }
-    return error;
-}
-
 view::GridMesh whole_mesh(const view::TileDraw& draw) {
     const view::TileSurface surface = view::surface_of(draw);
     const double flat_height = terrain::reference_height(draw.terrain->surface->heightfield());
@@ -146,11 +137,10 @@ Result<void> TerrainMeshes::prepare(const view::DrawList& list, view::FrameStats
 
 Result<void> TerrainMeshes::upload_whole(const view::DrawList& list, Group& group,
                                          const Draws& draws, view::FrameStats& stats) {
-    const double error = max_error(draws);
     std::vector<Outdated> outdated;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        const terrain::Skirt skirt = view::skirt_of(list, *draw, error);
+        const terrain::Skirt skirt = view::skirt_of(list, *draw);
         if (!entry.meshes.empty() && entry.skirt == skirt) {
             ++stats.skipped.uploads_unchanged;
         } else {
@@ -200,11 +190,10 @@ Result<void> TerrainMeshes::upload(std::span<const Outdated> tiles, view::FrameS
 std::vector<TerrainMeshes::Outdated> TerrainMeshes::outdated_cuts(const view::DrawList& list,
                                                                   Group& group, const Draws& draws,
                                                                   view::FrameStats& stats) {
-    const double error = max_error(draws);
     std::vector<Outdated> outdated;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        const terrain::Skirt skirt = view::skirt_of(list, *draw, error);
+        const terrain::Skirt skirt = view::skirt_of(list, *draw);
         if (entry.version == group.version && entry.error == draw->error && entry.skirt == skirt) {
             ++stats.skipped.cuts_unchanged;
             ++stats.skipped.uploads_unchanged;

@@ -31,7 +31,8 @@ struct TileSummary {
     double error = 0.0;
     double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
     bool is_proven = false;
-    terrain::BlockShares error_shares = terrain::whole_shares; ///< of `error`, if proven
+    bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off
+    terrain::BlockShares block_shares = terrain::whole_shares; ///< of `error`, if proven
 };
 
 /// A tile of a terrain's quadtree, ready to be drawn.

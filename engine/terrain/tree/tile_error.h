@@ -29,13 +29,22 @@ namespace reljef::terrain {
 /// Blocks along a side of a tile, each with an error of its own.
 inline constexpr int error_blocks = 4;
 inline constexpr int cells_per_error_block = tree_tile_cells / error_blocks;
-/// Of the tile's error, in 255ths; row after row.
+/// The error of each block in 255ths of the tile's error, row after row.
 using BlockShares = std::array<std::uint8_t, error_blocks * error_blocks>;
 inline constexpr BlockShares whole_shares = [] {
     BlockShares shares{};
     shares.fill(255);
     return shares;
 }();
+/// The error of a block as a share of the tile's, 0 … 1.
+inline double share_of(const BlockShares& shares, std::size_t block) {
+    return shares[block] / 255.0;
+}
+/// The same of the block with a cell.
+inline double share_at(const BlockShares& shares, glm::ivec2 cell) {
+    const glm::ivec2 block = cell / cells_per_error_block;
+    return share_of(shares, static_cast<std::size_t>(block.y * error_blocks + block.x));
+}
 
 /// What is proven of a tile, true metres.
 struct TileProof {
@@ -46,12 +55,11 @@ struct TileProof {
     float error = 0.0F;
     /// Whether there are voids. What fills them may be outside of the heights and the error.
     bool has_voids = false;
-    /// The same error of each block.
     BlockShares block_shares = whole_shares;
 
-    /// Metres.
+    /// As `error`, for the samples of a block.
     [[nodiscard]] double block_error(std::size_t block) const {
-        return static_cast<double>(error) * block_shares[block] / 255.0;
+        return error * share_of(block_shares, block);
     }
 
     friend bool operator==(const TileProof&, const TileProof&) = default;

@@ -62,14 +62,14 @@ TEST_F(IndexCommand, StatesTilesBytesAndTheLargestErrorOfEachLevel) {
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto found = nlohmann::json::parse(result.out);
     ASSERT_EQ(found["levels"].size(), 4U);
-    EXPECT_EQ(found["levels"][0]["tiles"], 9);
+    EXPECT_EQ(found["levels"][0]["tiles"], 25);
     EXPECT_EQ(found["levels"][0]["max_error_m"], 0.0);
     EXPECT_GT(found["levels"][1]["max_error_m"], 10.0);
     EXPECT_EQ(found["levels"][2]["unproven"], 0);
     EXPECT_TRUE(std::filesystem::exists(found["file"].get<std::string>()));
     const auto text = index({dem, "--memory", "1"});
     EXPECT_EQ(text.exit_code, 0) << text.err;
-    EXPECT_NE(text.out.find("14 tiles, 0 unproven"), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("39 tiles, 0 unproven"), std::string::npos) << text.out;
 }
 
 TEST_F(IndexCommand, SaysWhichTerrainsNeedNone) {

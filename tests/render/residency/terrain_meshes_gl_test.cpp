@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/tile_stream.h"
+#include "engine/view/stream_view.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
@@ -328,7 +329,7 @@ TEST_F(TerrainMeshesGlTest, HeightsThatRecoverReplaceTheTilesTriangles) {
     };
     world.stream = std::make_shared<scene::TileStream>(
         world.stream->maker(), read,
-        scene::TileStreamOptions{.memory_budget = 400 * scene::bytes_per_tile,
+        scene::TileStreamOptions{.memory_budget = 1600 * scene::bytes_per_tile,
                                  .threads = 2,
                                  .first_pause = std::chrono::milliseconds(1)});
     world.terrain->get<scene::TerrainNode>()->stream = world.stream;

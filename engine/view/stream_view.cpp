@@ -1,0 +1,175 @@
+#include "engine/view/stream_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::view {
+namespace {
+
+// Of unproven tiles: estimated margin of the finer tiles' heights beyond a tile's own (averages are
+// lower than peaks): a share of its range, plus a number of its errors. The margin for hiding is
+// larger: a tower where four averages meet is 16 times as high in the next level.
+constexpr double margin_of_range = 0.25;
+constexpr double errors_seen = 1.0;
+constexpr double errors_hidden = 16.0;
+
+constexpr double default_error = 1.0; // pixels, if the technique has no bound
+
+// The tiles' share of the error bound; the rest is for fewer triangles.
+constexpr double share_of_tiles = 0.5;
+
+// Error bounds by which an occluder may appear lower, and a hidden tile higher, than the heights of
+// its tile: fewer triangles take up to a whole bound of each. The heights of unproven tiles that
+// were not read are estimates.
+constexpr double errors_of_horizon = 2.0;
+constexpr double errors_of_unproven_horizon = 3.0;
+
+// Metres: the smallest radius of curvature of WGS 84, b²/a. Two verticals that are a chord apart
+// turn by at most pi/2 times chord over radius.
+constexpr double min_radius_of_earth = 6'335'439.0;
+
+constexpr double max_texel = 1.0; // pixels between texels, if there are finer images
+
+double max_error_of(const scene::Technique& technique) {
+    const double error = scene::error_bound(technique);
+    return error > 0.0 ? std::max(error, min_error) - rasterizer_error : default_error;
+}
+
+// Heights of the finer tiles below a tile: of all samples, or expected.
+terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
+    if (tile.is_proven) {
+        return tile.range;
+    }
+    const double margin =
+        margin_of_range * (tile.range.high - tile.range.low) + errors * tile.error;
+    return {tile.range.low - margin, tile.range.high + margin};
+}
+
+} // namespace
+
+StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                       glm::ivec2 size, const glm::dmat4& world_from_local)
+    : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
+      max_error_(max_error_of(terrain.material.technique)),
+      frustum_(scene::clip_from_world(camera, size)),
+      wider_(wider_picture(camera, size, max_error_)),
+      wider_frustum_(scene::clip_from_world(wider_.camera, wider_.size)),
+      picture_error_(wider_.camera, wider_.size, world_from_local),
+      eye_(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0)),
+      is_perspective_(camera.projection == scene::ProjectionKind::perspective) {
+    pixels_per_metre_ = is_perspective_
+                            ? 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov))
+                            : size.y / camera.view_height;
+    const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons &&
+                          !terrain.material.wireframe;
+    if (is_solid && builder().overview().placement().kind() == terrain::PlacementKind::plane) {
+        const auto root = stream_.recall(stream_.tree().root());
+        const double errors =
+            root && root->is_proven ? errors_of_horizon : errors_of_unproven_horizon;
+        horizon_ = horizon_view(camera, size, world_from_local, errors * max_error_);
+    }
+}
+
+std::optional<KnownTile> StreamView::known(terrain::TreeTile id) const {
+    if (auto tile = stream_.find(id)) {
+        return KnownTile{*tile, std::move(tile)};
+    }
+    const auto summary = stream_.recall(id);
+    return summary ? std::optional(KnownTile{*summary, nullptr}) : std::nullopt;
+}
+
+bool StreamView::may_see(const Box& local) const {
+    return frustum_.may_see(transformed(world_from_local_, local));
+}
+
+bool StreamView::may_show(const Box& local) const {
+    return wider_frustum_.may_see(transformed(world_from_local_, local));
+}
+
+bool StreamView::may_see_child(const scene::TileSummary& parent, terrain::TreeTile child) const {
+    return may_see(child_bounds(parent, child, errors_seen));
+}
+
+Box StreamView::hiding_bounds(const scene::TileSummary& tile) const {
+    return tile.is_proven ? tile.bounds
+                          : builder().bounds(tile.id, range_below(tile, errors_hidden));
+}
+
+Box StreamView::hiding_bounds(const scene::TileSummary& parent, terrain::TreeTile child) const {
+    return child_bounds(parent, child, errors_hidden);
+}
+
+Box StreamView::child_bounds(const scene::TileSummary& parent, terrain::TreeTile child,
+                             double errors) const {
+    const auto summary = parent.is_proven ? stream_.recall(child) : std::nullopt;
+    return summary && summary->is_proven ? summary->bounds
+                                         : builder().bounds(child, range_below(parent, errors));
+}
+
+double StreamView::along(const Box& local) const {
+    const glm::dvec2 eye(eye_);
+    return glm::distance(eye, glm::clamp(eye, glm::dvec2(local.low), glm::dvec2(local.high)));
+}
+
+double StreamView::distance_to(const scene::TileSummary& tile) const {
+    const Box bounds = transformed(world_from_local_, tile.bounds);
+    return glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
+}
+
+double StreamView::pixels_per_metre(double distance) const {
+    return pixels_per_metre_ / (is_perspective_ ? std::max(distance, camera_.near) : 1.0);
+}
+
+bool StreamView::is_over_share(double error) const {
+    return error > share_of_tiles * max_error_;
+}
+
+double StreamView::error_of(const scene::TileSummary& tile) const {
+    if (!tile.is_proven) {
+        return builder().has_all_samples(tile.id)
+                   ? 0.0
+                   : tile.error * pixels_per_metre(distance_to(tile));
+    }
+    const double error = error_in(tile.bounds, tile.error);
+    if (!is_over_share(error)) {
+        return error;
+    }
+    const double true_error = tile.error / builder().overview().placement().exaggeration();
+    const terrain::HeightRange drawn{tile.range.low - true_error, tile.range.high + true_error};
+    return largest_block_error(
+        tile, terrain::cells_per_error_block, [&](int /*col*/, int /*row*/) { return drawn; },
+        [&](const Box& box) { return may_show(box); });
+}
+
+double StreamView::error_in(const Box& box, double error) const {
+    const terrain::Placement& placement = builder().overview().placement();
+    const bool is_plane = placement.kind() == terrain::PlacementKind::plane;
+    const double turn =
+        is_plane ? 0.0
+                 : 0.5 * std::numbers::pi * 0.5 * glm::length(box.size()) / min_radius_of_earth;
+    return picture_error_.of({box, error, placement.up(box.center()), turn});
+}
+
+double StreamView::relative_error_of(const scene::TileSummary& tile) const {
+    if (tile.id.level == 0) {
+        return 0.0;
+    }
+    const double pixels = pixels_per_metre(distance_to(tile));
+    const double texels = tile.coarse_texel * pixels / max_texel;
+    if (builder().has_all_samples(tile.id)) {
+        return texels;
+    }
+    const double error = error_of(tile) / share_of_tiles;
+    const double apart =
+        tile.is_proven ? 0.0 : builder().spacing(tile.id.level) * pixels / samples_apart_in_errors;
+    return std::max({error / max_error_, apart / max_error_, texels});
+}
+
+} // namespace reljef::view
