@@ -318,7 +318,7 @@ void add_source_options(CLI::App& command, TerrainChoice& choice) {
 void add_index_option(CLI::App& command, TerrainChoice& choice, session::IndexUse use) {
     choice.index = use;
     command.parse_complete_callback([&choice] {
-        if (choice.terrain == "-") { // its copy does not remain
+        if (choice.terrain == "-") { // read from a temporary copy
             choice.index = session::IndexUse::none;
         }
     });

@@ -374,7 +374,7 @@ namespace {
 
 /// What the title says of a frame that may be farther off than its error bound.
 std::string error_text(const view::FrameStats& stats, const scene::Technique& technique) {
-    if (stats.kept_error && stats.tiles_unproven > 0) {
+    if (scene::error_bound(technique) > 0.0 && stats.tiles_unproven > 0) {
         return " - error unproven";
     }
     return stats.kept_error.value_or(0.0) > scene::error_bound(technique)

@@ -65,6 +65,8 @@ static void describe(Fields& fields, typename Fields::template Of<Timing>& timin
     fields.field("triangles", timing.stats.triangles);
     fields.field("draws", timing.stats.draws);
     fields.field("uploads", timing.stats.uploads);
+    fields.later_field("kept_error_px", timing.stats.kept_error);
+    fields.later_field("tiles_unproven", timing.stats.tiles_unproven);
 }
 
 template <class Fields>

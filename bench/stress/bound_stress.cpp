@@ -142,7 +142,7 @@ Result<std::vector<Image>> streamed_pictures(const StressRun& run, const fs::pat
     return pictures;
 }
 
-// What frames of a streamed terrain state and keep.
+// The errors of frames of a streamed terrain, measured and stated.
 struct StatedErrors {
     std::size_t frames = 0;
     std::size_t over = 0;       // pixels farther off than the frame states

@@ -53,6 +53,9 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
             return drawn.error();
         }
         results.max_memory = std::max(results.max_memory, process_memory().now);
+        const view::FrameStats& stats = frames.frame_stats();
+        results.kept_error = std::max(results.kept_error, stats.kept_error);
+        results.max_tiles_unproven = std::max(results.max_tiles_unproven, stats.tiles_unproven);
         session::log_stream_errors(scene.scene, log);
         if (index == 0) {
             results.seconds_to_first_frame = watch.seconds();
@@ -95,6 +98,10 @@ std::string heading(const FlightResults& results) {
                             "evicted, at most {:.1f} MB\n",
                             stream->read, megabytes(stream->bytes_read), stream->failed,
                             stream->cancelled, stream->evicted, megabytes(stream->max_bytes));
+    }
+    if (results.kept_error) {
+        text += fmt::format("kept error: at most {:.2f} px, unproven tiles: at most {}\n",
+                            *results.kept_error, results.max_tiles_unproven);
     }
     text.pop_back();
     return text;
@@ -158,6 +165,9 @@ FigureTable figure_table(const FlightResults& results) {
                      {"drawing_ms", json_of(summarize(results.times.drawing_ms))},
                      {"waiting_ms", json_of(summarize(results.times.waiting_ms))},
                      {"tiles", results.stream ? stream_json(*results.stream) : FigureJson()},
+                     {"kept_error_px",
+                      results.kept_error ? FigureJson(*results.kept_error) : FigureJson(nullptr)},
+                     {"tiles_unproven", results.max_tiles_unproven},
                      {"faulty_files", results.failed_files},
                      {"memory",
                       {{"allowed", budget},

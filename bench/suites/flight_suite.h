@@ -28,6 +28,9 @@ struct FlightResults {
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
     std::size_t failed_files = 0;
     std::size_t max_memory = 0; ///< of the process, bytes
+    /// The largest of all frames, pixels; absent without an error bound.
+    std::optional<double> kept_error;
+    int max_tiles_unproven = 0; ///< of a frame
     RunEnd end;
 };
 

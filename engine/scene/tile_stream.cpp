@@ -288,6 +288,7 @@ TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
                                   const Made& before) const {
     TerrainTile made = maker_.make(tile, std::move(content.heights), content.picture);
     made.of_overview = content.of_overview;
+    made.is_finest = content.is_finest;
     if (content.of_overview) {
         made.error = std::max(made.error, maker_.overview_error(tile));
     }

@@ -35,6 +35,7 @@ struct TileContent {
     std::vector<FileError> errors;         ///< one per file
     std::vector<FileError> picture_errors; ///< also of heights that the overview replaces
     bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
+    bool is_finest = false;                ///< finer tiles would show nothing more
     bool is_proven = false;                ///< TileStreamOptions::find_proof holds for the heights
     bool ends_proofs = false;              ///< the proofs are wrong: of no tile is one true
     std::size_t bytes_read = 0;            ///< from files

@@ -128,11 +128,11 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
 
 void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     const auto bound = smallest_error_bound(scene);
-    if (!bound || !stats_.kept_error) {
+    if (!bound) {
         return;
     }
     max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
-    if (*stats_.kept_error <= *bound) {
+    if (stats_.kept_error.value_or(0.0) <= *bound) {
         return;
     }
     if (!over_ || *stats_.kept_error > over_->kept_error) {

@@ -18,8 +18,8 @@
 
 namespace reljef::session {
 
-/// What proves the errors of streamed tiles (terrain_index.h): nothing, an index that is there, or
-/// one that open_scene() makes first if the user names an error bound.
+/// The index that proves the errors of streamed tiles (terrain_index.h): none, one that is there,
+/// or one that open_scene() makes first if the user names an error bound.
 enum class IndexUse { none, existing, made };
 
 struct SourceOptions {
@@ -95,7 +95,7 @@ bool names_error_bound(const SceneOptions& options);
 Result<void> check(const SceneOptions& options);
 
 /// Streams the source only if the options allow it. A terrain that fits in memory is not streamed
-/// with an error bound, because the errors of streamed tiles are estimates.
+/// with an error bound: in memory, its errors are proven without an index.
 SourceOptions streamed_for(SourceOptions source, const SceneOptions& options);
 
 } // namespace reljef::session

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <numeric>
@@ -69,14 +70,18 @@ scene::TileContent overview_content(const scene::TileBuilder& maker, terrain::Tr
     return content;
 }
 
-// Replaces unreadable heights by the overview's unless the tile is finer, so that its neighbours
-// can be drawn. The errors become errors of the picture, which do not prevent drawing.
+// Replaces unreadable heights by the overview's, so that the tile's neighbours can be drawn. The
+// errors become errors of the picture, which do not prevent drawing.
 scene::TileContent content_or_overview(const scene::TileBuilder& maker, int reduction,
                                        terrain::TreeTile tile, scene::TileContent content) {
-    if (content.errors.empty() || maker.step(tile) < reduction) {
+    if (content.errors.empty()) {
         return content;
     }
     scene::TileContent coarse = overview_content(maker, tile);
+    const auto heights = coarse.heights.samples();
+    coarse.is_finest = maker.step(tile) < reduction &&
+                       std::none_of(heights.begin(), heights.end(),
+                                    [](float height) { return std::isfinite(height); });
     coarse.bytes_read = content.bytes_read;
     coarse.notes = std::move(content.notes);
     coarse.picture_errors = std::move(content.errors);

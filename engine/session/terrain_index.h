@@ -35,7 +35,7 @@ make_proofs(const TerrainSource& source, unsigned threads, Log& log, const std::
 Result<void> add_proofs(TerrainSource& source, bool makes_index, Log& log,
                         const std::stop_token& stop);
 
-/// "…; the errors of tiles are estimated"
+/// A note on a terrain without proofs: the reason, and "; the errors of tiles are estimated".
 std::string unproven_note(const Error& reason);
 
 } // namespace reljef::session

@@ -40,8 +40,9 @@ struct TileDraw {
     bool flat = false;                      ///< the reference surface instead of its heights
     bool coarse = false;                    ///< with fewer triangles than its samples have
     bool is_hidden = false;                 ///< behind nearer ground
-    /// Of the tile against all samples, pixels: a bound if it is proven, otherwise an estimate.
+    /// How far the tile is from all samples at most if it is proven, otherwise an estimate; pixels.
     double error = 0.0;
+    double triangle_error = 0.0; ///< left for its triangles, pixels; 0 without an error bound
     /// Height of the steps to its neighbours, at most or about, scene metres; see tile_gaps().
     double gap = 0.0;
 

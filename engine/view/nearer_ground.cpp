@@ -43,8 +43,8 @@ std::size_t child_of(int level, glm::ivec2 sample) {
     return static_cast<std::size_t>((sample.x / side) % 2 + 2 * ((sample.y / side) % 2));
 }
 
-// Of the surface between two places in neighbouring cells: it is extreme at the corners of the part
-// in each cell.
+// The heights of the surface between two places in neighbouring cells. In each cell it is extreme
+// at the corners of the part between them.
 HeightRange range_between(const Grid<float>& heights, glm::dvec2 first, glm::dvec2 end) {
     const glm::dvec2 middle = glm::clamp(glm::floor(end), first, end);
     const auto at = [&](double x, double y) {

@@ -67,6 +67,31 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
 
+// Shares of the error bound, where memory leaves tiles too coarse for it. The least is for tiles
+// with the largest error, because a frame's error is that of its worst tile.
+constexpr double share_of_triangles = 0.25;
+constexpr double least_share_of_triangles = 1.0 / 16.0;
+
+// What a tile's error leaves of the bound for its triangles, pixels. `largest_error`: of all tiles.
+double triangle_error(double bound, double error, double largest_error) {
+    const double below_worst = largest_error + least_share_of_triangles * bound - error;
+    return std::max(bound - error, std::min(share_of_triangles * bound, below_worst));
+}
+
+double largest_error(const TileSelection& selection) {
+    double largest = 0.0;
+    for (const TileSelection::Drawn& drawn : selection.drawn) {
+        largest = std::max(largest, drawn.error);
+    }
+    return largest;
+}
+
+// The error bound of a terrain's triangles, pixels; 0: none.
+double bound_of(const std::optional<Coarseness>& coarseness) {
+    const auto* const view = coarseness ? std::get_if<terrain::ErrorView>(&*coarseness) : nullptr;
+    return view != nullptr ? view->max_error : 0.0;
+}
+
 // tile_gaps() of all tiles of a selection.
 std::map<terrain::TreeTile, double> gaps_between(const scene::TerrainNode& terrain,
                                                  const TileSelection& selection) {
@@ -152,11 +177,14 @@ private:
         TileDraw draw = draw_of(terrain);
         auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
         const auto gaps = gaps_between(terrain, choice);
+        const double bound = bound_of(coarseness);
+        const double worst = largest_error(choice);
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
             const auto gap = gaps.find(drawn.tile->id);
             draw.gap = gap != gaps.end() ? gap->second : 0.0;
             draw.tile = std::move(drawn.tile);
             draw.error = drawn.error;
+            draw.triangle_error = bound > 0.0 ? triangle_error(bound, drawn.error, worst) : 0.0;
             draw.is_hidden = is_hidden;
             draw.coarse = coarseness && !is_hidden;
             list_.stats.tiles_unproven += draw.is_proven() || is_hidden ? 0 : 1;
@@ -188,6 +216,7 @@ private:
             coarseness_of(terrain, list_, world_from_local, terrain.stream != nullptr);
         TileDraw draw = draw_of(terrain);
         draw.coarse = coarseness.has_value();
+        draw.triangle_error = bound_of(coarseness);
         const bool is_only_moved = glm::dmat3(world_from_local) == glm::dmat3(1.0);
         const glm::dvec3 eye =
             list_.camera.eye - (is_only_moved ? glm::dvec3(world_from_local[3]) : glm::dvec3(0.0));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -34,6 +35,15 @@ constexpr double errors_of_unproven_horizon = 3.0;
 // Metres: the smallest radius of curvature of WGS 84, b²/a. Two verticals that are a chord apart
 // turn by at most pi/2 times chord over radius.
 constexpr double min_radius_of_earth = 6'335'439.0;
+
+// Parts of a tile that are wider than this share of their distance are divided, until they are so
+// many cells wide: a step at the eye would be endless work.
+constexpr double near_parts = 0.5;
+constexpr double smallest_part = 1.0 / 64.0;
+
+// Tiles whose true places may be at the eye come before all others, those with larger estimates of
+// their errors first: so many times the estimate.
+constexpr double unbounded = 1e9;
 
 constexpr double max_texel = 1.0; // pixels between texels, if there are finer images
 
@@ -118,8 +128,8 @@ double StreamView::along(const Box& local) const {
     return glm::distance(eye, glm::clamp(eye, glm::dvec2(local.low), glm::dvec2(local.high)));
 }
 
-double StreamView::distance_to(const scene::TileSummary& tile) const {
-    const Box bounds = transformed(world_from_local_, tile.bounds);
+double StreamView::distance_to(const Box& local) const {
+    const Box bounds = transformed(world_from_local_, local);
     return glm::distance(camera_.eye, glm::clamp(camera_.eye, bounds.low, bounds.high));
 }
 
@@ -135,17 +145,79 @@ double StreamView::error_of(const scene::TileSummary& tile) const {
     if (!tile.is_proven) {
         return builder().has_all_samples(tile.id)
                    ? 0.0
-                   : tile.error * pixels_per_metre(distance_to(tile));
+                   : tile.error * pixels_per_metre(distance_to(tile.bounds));
     }
     const double error = error_in(tile.bounds, tile.error);
     if (!is_over_share(error)) {
         return error;
     }
+    return error_of_blocks(tile);
+}
+
+double StreamView::error_of_blocks(const scene::TileSummary& tile) const {
     const double true_error = tile.error / builder().overview().placement().exaggeration();
     const terrain::HeightRange drawn{tile.range.low - true_error, tile.range.high + true_error};
-    return largest_block_error(
-        tile, terrain::cells_per_error_block, [&](int /*col*/, int /*row*/) { return drawn; },
-        [&](const Box& box) { return may_show(box); });
+    const glm::ivec2 cells = stream_.tree().cells(tile.id);
+    double largest = 0.0;
+    for (int row = 0; row < cells.y; row += terrain::cells_per_error_block) {
+        for (int col = 0; col < cells.x; col += terrain::cells_per_error_block) {
+            const glm::ivec2 first(col, row);
+            const glm::ivec2 last = glm::min(first + terrain::cells_per_error_block, cells);
+            const Box box = builder().bounds(tile.id, first, last, drawn);
+            if (may_show(box)) {
+                const double share = terrain::share_at(tile.block_shares, first);
+                largest = std::max(largest, error_in(box, share * tile.error));
+            }
+        }
+    }
+    return largest;
+}
+
+StreamView::Part StreamView::block_of(const scene::TerrainTile& tile, glm::ivec2 block) {
+    const glm::dvec2 first(block * scene::cells_per_block);
+    const glm::dvec2 last =
+        glm::min(first + static_cast<double>(scene::cells_per_block), glm::dvec2(tile.cells));
+    const terrain::MinMax heights = tile.blocks(block.x, block.y);
+    return {first, last,
+            terrain::placed_bounds(*tile.placement, first, last, {heights.low, heights.high})};
+}
+
+// Bilinear cells are extreme at the corners of their parts.
+StreamView::Part StreamView::part_of(const scene::TerrainTile& tile, glm::dvec2 first,
+                                     glm::dvec2 last) {
+    terrain::HeightRange range{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+    const glm::ivec2 corners = glm::ivec2(glm::ceil(last)) - glm::ivec2(glm::floor(first)) + 1;
+    for (int row = 0; row < corners.y; ++row) {
+        for (int col = 0; col < corners.x; ++col) {
+            const glm::dvec2 corner =
+                glm::clamp(glm::floor(first) + glm::dvec2(col, row), first, last);
+            const double height = terrain::bilinear_height(tile.heightfield.heights.view(), corner);
+            range = {std::min(range.low, height), std::max(range.high, height)};
+        }
+    }
+    return {first, last, terrain::placed_bounds(*tile.placement, first, last, range)};
+}
+
+double StreamView::largest_error_in(const scene::TerrainTile& tile, const Part& part,
+                                    double largest) const {
+    if (!may_show(part.box)) {
+        return largest;
+    }
+    const double share = terrain::share_at(tile.block_shares, glm::ivec2(part.first));
+    const double error = error_in(part.box, share * tile.error);
+    const glm::dvec2 size = part.last - part.first;
+    const bool is_near = glm::length(part.box.size()) > near_parts * distance_to(part.box);
+    if (error <= largest || !is_near || std::max(size.x, size.y) <= smallest_part) {
+        return std::max(largest, error);
+    }
+    const glm::dvec2 middle = part.first + 0.5 * size;
+    for (const glm::dvec2 corner : {part.first, glm::dvec2(part.last.x, part.first.y),
+                                    glm::dvec2(part.first.x, part.last.y), part.last}) {
+        largest = largest_error_in(
+            tile, part_of(tile, glm::min(corner, middle), glm::max(corner, middle)), largest);
+    }
+    return largest;
 }
 
 double StreamView::error_in(const Box& box, double error) const {
@@ -157,16 +229,21 @@ double StreamView::error_in(const Box& box, double error) const {
     return picture_error_.of({box, error, placement.up(box.center()), turn});
 }
 
-double StreamView::relative_error_of(const scene::TileSummary& tile) const {
-    if (tile.id.level == 0) {
-        return 0.0;
-    }
-    const double pixels = pixels_per_metre(distance_to(tile));
+double StreamView::relative_error_of(const scene::TileSummary& tile, double of_parent) const {
+    constexpr double less = 1.0 - 0x1p-20; // 1000 levels take a thousandth
+    return tile.id.level == 0 || tile.is_finest ? 0.0
+                                                : std::min(relative_error(tile), less * of_parent);
+}
+
+double StreamView::relative_error(const scene::TileSummary& tile) const {
+    const double pixels = pixels_per_metre(distance_to(tile.bounds));
     const double texels = tile.coarse_texel * pixels / max_texel;
     if (builder().has_all_samples(tile.id)) {
         return texels;
     }
-    const double error = error_of(tile) / share_of_tiles;
+    const double bound = error_of(tile);
+    const double error =
+        (std::isinf(bound) ? unbounded * tile.error * pixels : bound) / share_of_tiles;
     const double apart =
         tile.is_proven ? 0.0 : builder().spacing(tile.id.level) * pixels / samples_apart_in_errors;
     return std::max({error / max_error_, apart / max_error_, texels});

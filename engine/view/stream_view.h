@@ -48,8 +48,8 @@ public:
 
     /// Metres along the local ground from the eye to the nearest point of a local box.
     [[nodiscard]] double along(const Box& local) const;
-    /// Metres from the eye to the nearest point of a tile's bounds.
-    [[nodiscard]] double distance_to(const scene::TileSummary& tile) const;
+    /// Metres from the eye to the nearest point of a local box.
+    [[nodiscard]] double distance_to(const Box& local) const;
 
     /// How far pixels of a tile are off at most, if it is proven; otherwise an estimate. Pixels.
     [[nodiscard]] double error_of(const scene::TileSummary& tile) const;
@@ -58,18 +58,22 @@ public:
     template <class IsHidden>
     [[nodiscard]] double tight_error_of(const scene::TerrainTile& tile,
                                         const IsHidden& is_hidden) const {
-        return largest_block_error(
-            tile, scene::cells_per_block,
-            [&blocks = tile.blocks](int col, int row) {
-                const terrain::MinMax block = blocks(col, row);
-                return terrain::HeightRange{block.low, block.high};
-            },
-            [&](const Box& box) { return may_show(box) && !is_hidden(box); });
+        double largest = 0.0;
+        for (int row = 0; row < tile.blocks.rows(); ++row) {
+            for (int col = 0; col < tile.blocks.cols(); ++col) {
+                const Part block = block_of(tile, {col, row});
+                if (!is_hidden(block.box)) {
+                    largest = largest_error_in(tile, block, largest);
+                }
+            }
+        }
+        return largest;
     }
     /// Whether the error of a tile leaves the triangles too little of the error bound.
     [[nodiscard]] bool is_over_share(double error) const;
-    /// The error of a tile, or the size of its texels, relative to what is allowed.
-    [[nodiscard]] double relative_error_of(const scene::TileSummary& tile) const;
+    /// The error of a tile, or the size of its texels, relative to what is allowed; finite, and
+    /// less than that of its parent, so that tiles can be refined in this order.
+    [[nodiscard]] double relative_error_of(const scene::TileSummary& tile, double of_parent) const;
 
 private:
     [[nodiscard]] Box child_bounds(const scene::TileSummary& parent, terrain::TreeTile child,
@@ -77,24 +81,21 @@ private:
     [[nodiscard]] double error_in(const Box& box, double error) const;
     /// Whether triangles may show places of a box.
     [[nodiscard]] bool may_show(const Box& local) const;
-    template <class RangeOf, class IsSeen>
-    [[nodiscard]] double largest_block_error(const scene::TileSummary& tile, int cells_per_block,
-                                             const RangeOf& range_of, const IsSeen& is_seen) const {
-        const glm::ivec2 cells = stream_.tree().cells(tile.id);
-        double largest = 0.0;
-        for (int row = 0; row * cells_per_block < cells.y; ++row) {
-            for (int col = 0; col * cells_per_block < cells.x; ++col) {
-                const glm::ivec2 first = glm::ivec2(col, row) * cells_per_block;
-                const glm::ivec2 last = glm::min(first + cells_per_block, cells);
-                const Box box = builder().bounds(tile.id, first, last, range_of(col, row));
-                if (is_seen(box)) {
-                    const double share = terrain::share_at(tile.block_shares, first);
-                    largest = std::max(largest, error_in(box, share * tile.error));
-                }
-            }
-        }
-        return largest;
-    }
+    // The error of the visible blocks of a proven tile, pixels.
+    [[nodiscard]] double error_of_blocks(const scene::TileSummary& tile) const;
+    // A rectangle of a loaded tile between two places in vertices, in one block.
+    struct Part {
+        glm::dvec2 first{0.0};
+        glm::dvec2 last{0.0};
+        Box box; // of its surface, local metres
+    };
+    [[nodiscard]] static Part block_of(const scene::TerrainTile& tile, glm::ivec2 block);
+    [[nodiscard]] static Part part_of(const scene::TerrainTile& tile, glm::dvec2 first,
+                                      glm::dvec2 last);
+    // Divides parts that are wide for their distance, as long as they may raise `largest`.
+    [[nodiscard]] double largest_error_in(const scene::TerrainTile& tile, const Part& part,
+                                          double largest) const;
+    [[nodiscard]] double relative_error(const scene::TileSummary& tile) const;
     [[nodiscard]] double pixels_per_metre(double distance) const;
 
     const scene::TileStream& stream_;

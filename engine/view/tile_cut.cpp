@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "engine/scene/tile_stream.h"
 #include "engine/terrain/mesh/bisection.h"
@@ -15,9 +16,6 @@
 
 namespace reljef::view {
 namespace {
-
-// Of the error bound, where memory leaves tiles too coarse for it.
-constexpr double min_share_of_triangles = 0.25;
 
 std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Triangulation>& parts,
                                                  const TileSurface& surface, const CutMesh& last) {
@@ -33,6 +31,14 @@ std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Tria
     return vertices;
 }
 
+// The sine of the angle between an orthographic view and the vertical of a tile, at least an
+// eighth: from above, an error is higher than it is wide.
+double sine_of_view(const DrawList& list, const TileDraw& draw) {
+    const glm::dvec3 up =
+        glm::normalize(glm::dmat3(list.world_from_local(draw)) * glm::dvec3(draw.tile->up));
+    return std::max(glm::length(glm::cross(scene::view_axes(list.camera).forward, up)), 1.0 / 8.0);
+}
+
 // The largest distance from the eye to a tile, metres.
 double farthest(const DrawList& list, const TileDraw& draw) {
     const Box bounds = transformed(list.world_from_local(draw), draw.tile->bounds);
@@ -41,9 +47,8 @@ double farthest(const DrawList& list, const TileDraw& draw) {
     return glm::length(away);
 }
 
-// The triangles of two neighbours take a bound each. From above they may be farther apart in height
-// than a bound is wide; gaps wider than this many bounds were not seen.
-constexpr double bounds_of_gaps = 16.0;
+// The triangles of two neighbours are a bound off each, and rasterized.
+constexpr double bounds_of_gaps = 3.0;
 
 } // namespace
 
@@ -59,23 +64,31 @@ TileSurface surface_of(const TileDraw& draw) {
 terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw) {
     const scene::TerrainTile& tile = *draw.tile;
     if (tile.borrows) {
-        return {.depth = 0.0};
+        return {};
     }
     const glm::dvec2 metres(metres_a_pixel(list.camera, list.size));
-    const double pixel = metres.x + metres.y * farthest(list, draw);
     const double bound = std::max(scene::error_bound(draw.terrain->material.technique), 1.0);
-    const glm::dvec3 size = draw.terrain->surface->bounds().size();
-    const double depth = std::min(draw.gap + bounds_of_gaps * bound * pixel, glm::length(size));
     const terrain::TileTree& tree = draw.terrain->stream->tree();
     const glm::ivec2 last = glm::ivec2(tree.cols(), tree.rows()) - 1;
     const glm::ivec2 first = terrain::TileTree::first(tile.id);
     const glm::ivec2 end = tree.sample(tile.id, tile.cells);
     const bool wraps = tree.wraps_longitude();
-    return {.depth = std::exp2(std::ceil(std::log2(depth))),
-            .north = first.y > 0,
-            .east = wraps || end.x < last.x,
-            .south = end.y < last.y,
-            .west = wraps || first.x > 0};
+    terrain::Skirt skirt{.depth = draw.gap +
+                                  bounds_of_gaps * bound * metres.x / sine_of_view(list, draw),
+                         .north = first.y > 0,
+                         .east = wraps || end.x < last.x,
+                         .south = end.y < last.y,
+                         .west = wraps || first.x > 0};
+    if (draw.coarse) {
+        skirt.slope = bounds_of_gaps * bound * metres.y;
+        skirt.eye = glm::dvec3(glm::inverse(list.world_from_local(draw)) *
+                               glm::dvec4(list.camera.eye, 1.0));
+    } else { // seldom changes
+        const double size = glm::length(draw.terrain->surface->bounds().size());
+        skirt.depth += bounds_of_gaps * bound * metres.y * farthest(list, draw);
+        skirt.depth = std::exp2(std::ceil(std::log2(std::min(skirt.depth, size))));
+    }
+    return skirt;
 }
 
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
@@ -83,8 +96,7 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
     CutMesh cut;
     if (const auto* bound = std::get_if<terrain::ErrorView>(&coarseness)) {
         terrain::ErrorView view = *bound;
-        view.max_error =
-            std::max(view.max_error - options.error, min_share_of_triangles * view.max_error);
+        view.max_error = options.triangle_error;
         terrain::TileTriangles triangles =
             terrain::triangulate(*options.bisection, surface.samples, view);
         cut.parts = std::move(triangles.parts);
@@ -94,7 +106,7 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
                                                   surface.samples)};
     }
     const terrain::Skirt& skirt = options.skirt;
-    if (skirt.depth > 0.0) {
+    if (!skirt.is_empty()) {
         auto walls = terrain::skirt_below(cut.parts, surface.samples, surface.heightfield,
                                           surface.placement, skirt);
         std::move(walls.begin(), walls.end(), std::back_inserter(cut.parts));
@@ -108,7 +120,7 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
 
 CutMesh whole_skirt(const TileSurface& surface, const terrain::Skirt& skirt) {
     CutMesh walls;
-    if (skirt.depth > 0.0) {
+    if (!skirt.is_empty()) {
         walls.parts = terrain::skirt_below_samples(surface.samples, surface.heightfield,
                                                    surface.placement, skirt);
         walls.vertices = vertices_of(walls.parts, surface, {});

@@ -26,19 +26,19 @@ struct CutMesh {
 };
 
 /// The walls that close the gaps between a tile and its neighbours; a tile of a terrain in memory
-/// needs none. The depth is rounded up, so that it seldom changes.
+/// needs none. That of whole tiles is rounded up, so that it seldom changes.
 terrain::Skirt skirt_of(const DrawList& list, const TileDraw& draw);
 
 /// How to draw a tile with fewer triangles.
 struct CutOptions {
     const terrain::Bisection* bisection = nullptr; ///< of its heightfield; null for patches
     double error = 0.0;                            ///< of the tile, pixels
+    double triangle_error = 0.0;                   ///< left for its triangles, pixels
     terrain::Skirt skirt;
 };
 
-/// The triangles of a tile and its skirt. They get what the error of the tile leaves of the bound,
-/// at least a quarter of it. `last`: the tile's triangles before, whose vertices are used again.
-/// Without parts if the triangles are still those of `last`.
+/// The triangles of a tile and its skirt. `last`: the tile's triangles before, whose vertices are
+/// used again. Without parts if the triangles are still those of `last`.
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
                  const CutOptions& options, const CutMesh& last);
 

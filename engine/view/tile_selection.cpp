@@ -44,7 +44,7 @@ void tighten(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
 
 TileSelection::Drawn drawn_of(const StreamView& view,
                               std::shared_ptr<const scene::TerrainTile> tile) {
-    const double distance = view.distance_to(*tile);
+    const double distance = view.distance_to(tile->bounds);
     const double error = view.error_of(*tile);
     return {std::move(tile), distance, error};
 }
@@ -52,8 +52,8 @@ TileSelection::Drawn drawn_of(const StreamView& view,
 struct WalkLimits {
     double max_relative_error = 1.0;    // tiles with larger errors are refined
     std::set<terrain::TreeTile> leaves; // not refined: children are missing
-    // Whether nearer ground hides tiles. Only without other limits: tiles that stand in for finer
-    // ones show ground that is not there.
+    // Whether nearer ground hides tiles. Not with leaves: tiles that stand in for finer ones show
+    // ground that is not there.
     bool hides = true;
 };
 
@@ -125,7 +125,7 @@ private:
 
     void add(const Candidate& candidate, KnownTile known, bool is_above_hidden) {
         const scene::TileSummary& summary = known.summary;
-        const double relative_error = view_.relative_error_of(summary);
+        const double relative_error = view_.relative_error_of(summary, candidate.urgency);
         const bool is_refined =
             relative_error > limits_.max_relative_error && !limits_.leaves.contains(summary.id);
         const Box box = is_refined ? view_.hiding_bounds(summary) : summary.bounds;
@@ -136,7 +136,7 @@ private:
         }
         use_or_request(candidate, known.tile);
         if (is_refined) {
-            push_children(candidate, known, std::min(candidate.urgency, relative_error), is_hidden);
+            push_children(candidate, known, relative_error, is_hidden);
         } else {
             add_leaf(candidate, std::move(known.tile), is_hidden);
         }
@@ -203,7 +203,7 @@ Refinement refine_within(std::size_t max_tiles, const StreamView& view,
     };
     Refinement made;
     std::priority_queue<Open> open;
-    open.push({view.relative_error_of(root), root});
+    open.push({view.relative_error_of(root, std::numeric_limits<double>::infinity()), root});
     while (!open.empty() && open.top().relative_error > 1.0) {
         const Open next = open.top();
         open.pop();
@@ -216,8 +216,9 @@ Refinement refine_within(std::size_t max_tiles, const StreamView& view,
             }
             ++seen;
             if (const auto known = view.known(child)) {
-                const double relative_error = view.relative_error_of(known->summary);
-                open.push({std::min(next.relative_error, relative_error), known->summary});
+                const double relative_error =
+                    view.relative_error_of(known->summary, next.relative_error);
+                open.push({relative_error, known->summary});
             }
         }
         made.tiles += std::max<std::size_t>(seen, 1) - 1; // never decreases: the limit is safe

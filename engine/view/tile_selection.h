@@ -16,7 +16,7 @@ struct TileSelection {
     struct Drawn {
         std::shared_ptr<const scene::TerrainTile> tile;
         double distance = 0.0; ///< from the eye to the nearest point of its bounds, metres
-        /// Of its vertices, pixels: a bound if the tile is proven, otherwise an estimate.
+        /// How far its vertices are off at most if it is proven, otherwise an estimate; pixels.
         double error = 0.0;
     };
     std::vector<Drawn> drawn;                 ///< from the eye outwards
@@ -35,16 +35,15 @@ struct TileSelectionOptions {
     bool keeps_hidden = false;
 };
 
-/// Refines each tile whose estimated error on the picture exceeds half of the technique's error
-/// bound. If memory does not hold all drawn tiles, only those with the largest errors are refined;
-/// evicted tiles count with their summaries. Requests missing children and draws their parent
+/// Refines each tile whose error on the picture exceeds half of the technique's error bound. If
+/// memory does not hold all drawn tiles, only those with the largest errors are refined; tiles that
+/// are not loaded count with their summaries. Requests missing children and draws their parent
 /// meanwhile.
 ///
 /// Tiles behind nearer ground (terrain/horizon.h; polygons on a plane only) are neither drawn nor
-/// requested, but only if all drawn tiles are as fine as they should be: tiles that stand in for
-/// finer ones hide nothing. The heights of tiles that were never read are estimated from the range
-/// and error of coarser ones, so a tower of a few samples may be missed behind nearer ground or at
-/// the picture's border.
+/// requested, but only while no tile is missing: tiles that stand in for finer ones hide nothing.
+/// The heights of unread tiles without a proof are estimated from the range and error of coarser
+/// ones, so a tower of a few samples may be missed behind nearer ground or at the picture's border.
 ///
 /// The same view of the same tiles gives the same selection. Selects nothing before the root is
 /// loaded.

@@ -204,12 +204,15 @@ Result<std::optional<ErrorIndex>> ErrorIndex::open(const IndexSource& source) {
     ErrorIndex index(source, std::move(**file));
     std::string found(sizeof(IndexHeader), '\0');
     static_cast<void>(index.read_at(0, std::as_writable_bytes(std::span(found))));
-    index.is_complete_ = found == index.header(true);
-    if (!index.is_complete_ && found != index.header(false)) {
+    const bool was_complete = found == index.header(true);
+    if (!was_complete && found != index.header(false)) {
         return Error{fmt::format("{}: no index (version {}) of the present state of {} found, one "
                                  "was expected; 'reljef index' makes it",
                                  source.file.string(), index_version, source.tiles.name())};
     }
+    std::error_code ignored;
+    const std::uintmax_t bytes = std::filesystem::file_size(source.file, ignored);
+    index.is_complete_ = was_complete && !ignored && bytes >= index.interim_;
     return std::optional(std::move(index));
 }
 

@@ -194,7 +194,8 @@ std::vector<TerrainMeshes::Outdated> TerrainMeshes::outdated_cuts(const view::Dr
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
         const terrain::Skirt skirt = view::skirt_of(list, *draw);
-        if (entry.version == group.version && entry.error == draw->error && entry.skirt == skirt) {
+        if (entry.version == group.version && entry.error == draw->error &&
+            entry.triangle_error == draw->triangle_error && entry.skirt == skirt) {
             ++stats.skipped.cuts_unchanged;
             ++stats.skipped.uploads_unchanged;
         } else {
@@ -224,13 +225,15 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
         const auto& [draw, entry, skirt] = outdated[at];
         const terrain::Bisection* const bisection =
             by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
-        cuts[at] = view::cut_tile(coarseness, view::surface_of(*draw),
-                                  {bisection, draw->error, skirt}, entry->last);
+        cuts[at] =
+            view::cut_tile(coarseness, view::surface_of(*draw),
+                           {bisection, draw->error, draw->triangle_error, skirt}, entry->last);
     });
     for (std::size_t i = 0; i < outdated.size(); ++i) {
         const auto& [draw, entry, skirt] = outdated[i];
         entry->version = group.version;
         entry->error = draw->error;
+        entry->triangle_error = draw->triangle_error;
         entry->skirt = skirt;
         entry->kept_error = cuts[i].error;
         if (cuts[i].parts.empty()) {
@@ -252,13 +255,12 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
 
 void TerrainMeshes::add_kept_errors(const Group& group, const Draws& draws,
                                     view::FrameStats& stats) {
-    double largest = stats.kept_error.value_or(0.0);
     for (const view::TileDraw* const draw : draws) {
         if (draw->is_proven()) {
-            largest = std::max(largest, group.tiles.at(draw->tile->id).kept_error);
+            const double error = group.tiles.at(draw->tile->id).kept_error;
+            stats.kept_error = std::max(stats.kept_error.value_or(0.0), error);
         }
     }
-    stats.kept_error = largest;
 }
 
 const terrain::Bisection& TerrainMeshes::bisection_of(const scene::TerrainNode& terrain) {

@@ -44,7 +44,8 @@ private:
         // Of tiles that are cut.
         std::uint64_t version = 0; // of the coarseness
         double error = 0.0;        // of the tile, pixels
-        double kept_error = 0.0;   // of all that is drawn, pixels
+        double triangle_error = 0.0;
+        double kept_error = 0.0; // of all that is drawn, pixels
         view::CutMesh last;
         std::unique_ptr<const TileBisection> bisection; // of a loaded tile
 

@@ -31,6 +31,7 @@ struct TileSummary {
     double error = 0.0;
     double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
     bool is_proven = false;
+    bool is_finest = false; ///< finer tiles would show nothing more, because files cannot be read
     bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off
     terrain::BlockShares block_shares = terrain::whole_shares; ///< of `error`, if proven
 };

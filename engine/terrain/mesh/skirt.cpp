@@ -1,7 +1,10 @@
 #include "engine/terrain/mesh/skirt.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
+
+#include <glm/geometric.hpp>
 
 namespace reljef::terrain {
 namespace {
@@ -51,12 +54,25 @@ private:
                (skirt_.south && a.y == last_.y && b.y == last_.y);
     }
 
+    // From above, an error of the view is higher than it is wide.
+    [[nodiscard]] double depth_at(glm::dvec3 place) const {
+        if (skirt_.slope == 0.0) {
+            return skirt_.depth;
+        }
+        constexpr double least_sine = 1.0 / 8.0;
+        const glm::dvec3 way = place - skirt_.eye;
+        const double distance = glm::length(way);
+        const double across = glm::length(glm::cross(way, placement_.up(place)));
+        const double sine = distance > 0.0 ? std::max(across / distance, least_sine) : 1.0;
+        return skirt_.depth + skirt_.slope * distance / sine;
+    }
+
     void add_vertex(Steps place, const VertexMove& move) {
         const glm::dvec2 sample = samples_of(place);
         const double height = bilinear_height(heightfield_.heights.view(), sample);
-        const double down = skirt_.depth / placement_.exaggeration(); // true metres
-        const glm::dvec3 fall = placement_.world_from_sample({sample, height - down}) -
-                                placement_.world_from_sample({sample, height});
+        const glm::dvec3 upper = placement_.world_from_sample({sample, height});
+        const double down = depth_at(upper) / placement_.exaggeration(); // true metres
+        const glm::dvec3 fall = placement_.world_from_sample({sample, height - down}) - upper;
         Triangulation& walls = walls_.back();
         walls.vertices.push_back(place);
         walls.moves.push_back(move);

@@ -13,13 +13,18 @@ namespace reljef::terrain {
 /// errors, whatever their triangles. So walls as deep as two errors close all gaps, and show no
 /// point farther from its true height than the errors.
 struct Skirt {
-    double depth = 0.0; ///< scene metres along the vertical; 0: none
+    double depth = 0.0; ///< scene metres along the vertical
+    /// More depth for errors of the view: so many metres per metre from the eye, seen from the
+    /// side.
+    double slope = 0.0;
+    glm::dvec3 eye{0.0}; ///< scene metres
     // The sides with walls.
     bool north = true;
     bool east = true;
     bool south = true;
     bool west = true;
 
+    [[nodiscard]] bool is_empty() const { return depth <= 0.0 && slope <= 0.0; }
     friend bool operator==(const Skirt&, const Skirt&) = default;
 };
 
