@@ -70,11 +70,11 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
 // Shares of the error bound, where memory leaves tiles too coarse for it. The least is for tiles
 // with the largest error, because a frame's error is that of its worst tile.
 constexpr double share_of_triangles = 0.25;
-constexpr double least_share_of_triangles = 1.0 / 16.0;
+constexpr double min_share_of_triangles = 1.0 / 16.0;
 
 // What a tile's error leaves of the bound for its triangles, pixels. `largest_error`: of all tiles.
 double triangle_error(double bound, double error, double largest_error) {
-    const double below_worst = largest_error + least_share_of_triangles * bound - error;
+    const double below_worst = largest_error + min_share_of_triangles * bound - error;
     return std::max(bound - error, std::min(share_of_triangles * bound, below_worst));
 }
 

@@ -480,10 +480,10 @@ TEST(TileStreams, KnowTheGroundAtTheFinestTileThatIsThere) {
     auto stream = std::make_shared<TileStream>(maker(), read_plane);
     const TerrainNode node{overview(), {}, stream};
     EXPECT_FALSE(stream->finest_at({64.0, 64.0}));
-    stream->request(std::array{TreeTile{3, 0, 0}, TreeTile{0, 4, 4}});
+    stream->request(std::array{TreeTile{4, 0, 0}, TreeTile{0, 8, 8}});
     stream->wait({});
     EXPECT_EQ(stream->finest_at({70.0, 70.0})->tile->id.level, 0);
-    EXPECT_EQ(stream->finest_at({20.0, 70.0})->tile->id.level, 3);
+    EXPECT_EQ(stream->finest_at({20.0, 70.0})->tile->id.level, 4);
     const auto z = height_at(node, 100.0, -50.0);
     ASSERT_TRUE(z);
     EXPECT_NEAR(*z, *node.surface->height_at(100.0, -50.0), 1e-3);

@@ -257,8 +257,9 @@ TEST_F(TerrainIndex, ErrorsOfTheSourceAreThoseOfItsFiles) {
     fs::last_write_time(file(), time);
     const auto content = read(*stream, {0, 17, 0});
     EXPECT_FALSE(content.is_proven);
-    ASSERT_EQ(content.errors.size(), 1U);
-    EXPECT_THAT(content.errors.front().file, HasSubstr("waves.tif"));
+    EXPECT_TRUE(content.of_overview);
+    ASSERT_EQ(content.picture_errors.size(), 1U);
+    EXPECT_THAT(content.picture_errors.front().file, HasSubstr("waves.tif"));
     EXPECT_TRUE(read(*stream, stream->tree().root()).is_proven) << "stored in the index";
 }
 

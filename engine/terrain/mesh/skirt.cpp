@@ -59,11 +59,11 @@ private:
         if (skirt_.slope == 0.0) {
             return skirt_.depth;
         }
-        constexpr double least_sine = 1.0 / 8.0;
+        constexpr double min_sine = 1.0 / 8.0;
         const glm::dvec3 way = place - skirt_.eye;
         const double distance = glm::length(way);
         const double across = glm::length(glm::cross(way, placement_.up(place)));
-        const double sine = distance > 0.0 ? std::max(across / distance, least_sine) : 1.0;
+        const double sine = distance > 0.0 ? std::max(across / distance, min_sine) : 1.0;
         return skirt_.depth + skirt_.slope * distance / sine;
     }
 

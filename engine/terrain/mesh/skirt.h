@@ -14,8 +14,7 @@ namespace reljef::terrain {
 /// point farther from its true height than the errors.
 struct Skirt {
     double depth = 0.0; ///< scene metres along the vertical
-    /// More depth for errors of the view: so many metres per metre from the eye, seen from the
-    /// side.
+    /// More depth for errors of the view: metres per metre from the eye, seen from the side.
     double slope = 0.0;
     glm::dvec3 eye{0.0}; ///< scene metres
     // The sides with walls.
