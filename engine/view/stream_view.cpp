@@ -165,7 +165,7 @@ double StreamView::error_of_blocks(const scene::TileSummary& tile) const {
             const glm::ivec2 last = glm::min(first + terrain::cells_per_error_block, cells);
             const Box box = builder().bounds(tile.id, first, last, drawn);
             if (may_show(box)) {
-                const double share = terrain::share_at(tile.block_shares, first);
+                const double share = terrain::share_of(tile.block_shares, terrain::block_at(first));
                 largest = std::max(largest, error_in(box, share * tile.error));
             }
         }
@@ -204,7 +204,8 @@ double StreamView::largest_error_in(const scene::TerrainTile& tile, const Part& 
     if (!may_show(part.box)) {
         return largest;
     }
-    const double share = terrain::share_at(tile.block_shares, glm::ivec2(part.first));
+    const double share =
+        terrain::share_of(tile.block_shares, terrain::block_at(glm::ivec2(part.first)));
     const double error = error_in(part.box, share * tile.error);
     const glm::dvec2 size = part.last - part.first;
     const bool is_near = glm::length(part.box.size()) > near_parts * distance_to(part.box);

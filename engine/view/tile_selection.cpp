@@ -277,6 +277,21 @@ TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double 
     return finer;
 }
 
+// What a walk without missing tiles draws.
+TileSelection drawn_by(TreeWalk& walk, const WalkLimits& limits,
+                       std::vector<terrain::TreeTile> requested,
+                       const std::set<terrain::TreeTile>& used, const StreamView& view,
+                       const scene::TerrainTile& root, const TileSelectionOptions& options) {
+    TileSelection selection = walk.take();
+    tighten(selection.drawn, view, walk.nearer());
+    selection.requested = std::move(requested);
+    selection.used.assign(used.begin(), used.end());
+    const double error = limits.max_relative_error;
+    return limits.hides && error > 1.0 && selection.requested.empty()
+               ? refined_behind(walk.nearer(), std::move(selection), error, view, root, options)
+               : selection;
+}
+
 // Walks until no tile is missing. This ends: each walk but the last raises the error so that all
 // fits in memory, adds a leaf, or is the last that hides.
 TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTile& root,
@@ -302,15 +317,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
             requested = by_urgency(walk.missing());
         }
         if (walk.missing().empty()) {
-            TileSelection selection = walk.take();
-            tighten(selection.drawn, view, walk.nearer());
-            selection.requested = std::move(*requested);
-            selection.used.assign(used.begin(), used.end());
-            const double error = limits.max_relative_error;
-            return limits.hides && error > 1.0 && selection.requested.empty()
-                       ? refined_behind(walk.nearer(), std::move(selection), error, view, root,
-                                        options)
-                       : selection;
+            return drawn_by(walk, limits, std::move(*requested), used, view, root, options);
         }
         for (const Candidate& candidate : walk.missing()) {
             limits.leaves.insert(candidate.parent);

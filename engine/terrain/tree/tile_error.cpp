@@ -266,38 +266,40 @@ std::string found_text(const char* what, double found, double expected) {
     return fmt::format("{} of {} m found, {} m was expected", what, found, expected);
 }
 
-/// Of the cell at a sample.
-std::size_t block_at(const TileTree& tree, TreeTile tile, glm::ivec2 sample) {
-    const glm::ivec2 cell =
-        glm::min((sample - TileTree::first(tile)) / TileTree::step(tile), tree.cells(tile) - 1);
-    const glm::ivec2 block = cell / cells_per_error_block;
-    return static_cast<std::size_t>(block.y * error_blocks + block.x);
-}
+/// What a proof claims, as found in all samples of a tile.
+struct FoundInSamples {
+    TileProof proof; // without errors
+    BlockErrors errors{};
+};
 
-/// Compares a proof with all samples of the tile.
-std::optional<std::string> contradiction_of_samples(const TileTree& tree, TreeTile tile,
-                                                    const TileProof& proof,
-                                                    const Grid<float>& heights,
-                                                    const Grid<float>& samples) {
+FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
+                        const Grid<float>& samples) {
     const int border = sample_border(tile.level);
     const glm::ivec2 first = TileTree::first(tile);
     const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
-    TileProof found;
-    BlockErrors errors{};
+    FoundInSamples found;
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
             const float height = samples(col - first.x + border, row - first.y + border);
             if (std::isnan(height)) {
-                found.has_voids = true;
-            } else {
-                const float difference = height - surface_at(tree, tile, heights, {col, row});
-                found.low = lower(found.low, height);
-                found.high = higher(found.high, height);
-                float& error = errors.at(block_at(tree, tile, {col, row}));
-                error = higher(error, std::abs(difference));
+                found.proof.has_voids = true;
+                continue;
             }
+            const float difference = height - surface_at(tree, tile, heights, {col, row});
+            found.proof.low = lower(found.proof.low, height);
+            found.proof.high = higher(found.proof.high, height);
+            const glm::ivec2 cell = (glm::ivec2(col, row) - first) / TileTree::step(tile);
+            float& error = found.errors.at(block_at(glm::min(cell, tree.cells(tile) - 1)));
+            error = higher(error, std::abs(difference));
         }
     }
+    return found;
+}
+
+/// Compares a proof with all samples of the tile.
+std::optional<std::string> contradiction_of_samples(const TileProof& proof,
+                                                    const FoundInSamples& samples) {
+    const auto& [found, errors] = samples;
     if (found.low != proof.low || found.high != proof.high) {
         return found.low != proof.low ? found_text("a lowest height", proof.low, found.low)
                                       : found_text("a highest height", proof.high, found.high);
@@ -352,8 +354,8 @@ std::optional<std::string> contradiction(const TileTree& tree, TreeTile tile,
         return found_text("an error", proof.error, 0.0);
     }
     if (samples != nullptr || tile.level == 0) {
-        return contradiction_of_samples(tree, tile, proof, heights,
-                                        samples != nullptr ? *samples : heights);
+        return contradiction_of_samples(
+            proof, found_in(tree, tile, heights, samples != nullptr ? *samples : heights));
     }
     return contradiction_of_vertices(tree, tile, proof, heights);
 }

@@ -40,10 +40,10 @@ inline constexpr BlockShares whole_shares = [] {
 inline double share_of(const BlockShares& shares, std::size_t block) {
     return shares[block] / 255.0;
 }
-/// The same of the block with a cell.
-inline double share_at(const BlockShares& shares, glm::ivec2 cell) {
+/// The block with a cell.
+inline std::size_t block_at(glm::ivec2 cell) {
     const glm::ivec2 block = cell / cells_per_error_block;
-    return share_of(shares, static_cast<std::size_t>(block.y * error_blocks + block.x));
+    return static_cast<std::size_t>(block.y) * error_blocks + static_cast<std::size_t>(block.x);
 }
 
 /// What is proven of a tile, true metres.
