@@ -415,14 +415,14 @@ void TileStream::record_errors(std::span<const TileContent::FileError> errors) {
     }
 }
 
-// Keeps the tiles of this view and of the one before.
+// Keeps the tiles of this view.
 void TileStream::evict() {
     while (stats_.bytes > options_.memory_budget) {
         const auto oldest =
             std::min_element(tiles_.begin(), tiles_.end(), [](const auto& a, const auto& b) {
                 return a.second.used < b.second.used;
             });
-        if (oldest->second.used + 1 >= view_) {
+        if (oldest->second.used >= view_) {
             return;
         }
         remember(*oldest->second.made.tile);

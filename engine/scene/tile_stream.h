@@ -110,7 +110,7 @@ public:
 
     /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
     /// that are not repeated. Keeps the used tiles, and reads them again if their picture is
-    /// incomplete. If memory runs out, evicts tiles used neither by this view nor by the last one.
+    /// incomplete. If memory runs out, evicts tiles that this view does not use.
     void request(std::span<const terrain::TreeTile> missing,
                  std::span<const terrain::TreeTile> used = {});
     /// Waits until all requested tiles are loaded or have failed max_attempts times; false after a

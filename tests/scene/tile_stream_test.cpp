@@ -95,6 +95,17 @@ TEST(TileStreams, DropWhatOneViewHadTooMuchWhenOthersBegin) {
     EXPECT_LE(stream.stats().bytes, 8 * bytes_per_tile);
 }
 
+TEST(TileStreams, OfTheLastViewGiveWayToThoseOfTheNext) {
+    TileStream stream(maker(), read_plane, {.memory_budget = 8 * bytes_per_tile, .threads = 2});
+    const auto tiles = level_0();
+    for (std::size_t first = 0; first < tiles.size(); first += 8) {
+        stream.request(std::span(tiles).subspan(first, 8));
+        stream.wait({});
+        EXPECT_TRUE(stream.find(tiles[first]) && stream.find(tiles[first + 7]));
+        ASSERT_LE(stream.stats().bytes, 9 * bytes_per_tile) << first;
+    }
+}
+
 // 4301 tiles: more than are remembered of those that go.
 TEST(TileStreams, RememberWhatWentThoughNotWithoutEnd) {
     constexpr int tiles = 4301;

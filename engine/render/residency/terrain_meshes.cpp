@@ -53,6 +53,10 @@ TerrainMeshes::TileBisection::TileBisection(std::shared_ptr<const scene::Terrain
     : tile(std::move(of)),
       bisection(tile->heightfield, *tile->placement, {.threads = 1, .stop = {}, .progress = {}}) {}
 
+bool TerrainMeshes::Entry::is_held_elsewhere() const {
+    return owner.use_count() > (bisection != nullptr ? 1 : 0);
+}
+
 const terrain::Bisection&
 TerrainMeshes::Entry::own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile) {
     if (bisection == nullptr) {
@@ -101,7 +105,7 @@ void TerrainMeshes::forget_unused() {
     std::erase_if(bisections_, [](const auto& entry) { return entry.second.owner.expired(); });
     for (auto& [key, group] : groups_) {
         std::erase_if(group.tiles, [&, kept = group.kept_frames](const auto& entry) {
-            return entry.second.owner.expired() || frame_ - entry.second.drawn > kept;
+            return !entry.second.is_held_elsewhere() || frame_ - entry.second.drawn > kept;
         });
     }
     std::erase_if(groups_, [](const auto& entry) {

@@ -49,6 +49,8 @@ private:
         view::CutMesh last;
         std::unique_ptr<const TileBisection> bisection; // of a loaded tile
 
+        /// Whether anything else holds the tile; otherwise it was evicted.
+        [[nodiscard]] bool is_held_elsewhere() const;
         const terrain::Bisection&
         own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile);
     };

@@ -286,6 +286,35 @@ TEST_F(TerrainMeshesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {
     EXPECT_GT(uploads_of_ground(), first / 2);
 }
 
+// Its bisection needs it, and would hold it for many frames of a flight.
+TEST_F(TerrainMeshesGlTest, ATileThatIsEvictedLeavesMemoryAtOnce) {
+    StreamedWorld world(40);
+    world.terrain->get<scene::TerrainNode>()->material.technique =
+        scene::parse_technique("polygons:error=1").value();
+    session::SceneRenderer made = driver();
+    const auto look = [&](glm::dvec3 eye) {
+        world.look(eye, eye + glm::dvec3(10.0, 10.0, -40.0));
+        world.bring();
+        test::must(made.draw(world.scene));
+    };
+    look({-600.0, -600.0, 80.0});
+    std::vector<std::weak_ptr<const scene::TerrainTile>> finest;
+    for (const view::TileSelection::Drawn& drawn : world.choice().drawn) {
+        if (drawn.tile->id.level == 0) {
+            finest.emplace_back(drawn.tile);
+        }
+    }
+    ASSERT_FALSE(finest.empty());
+    look({600.0, 600.0, 80.0});
+    look({600.0, -600.0, 80.0});
+    look({-600.0, 600.0, 80.0});
+    for (const auto& tile : finest) {
+        const auto held = tile.lock();
+        EXPECT_TRUE(held == nullptr || world.stream->find(held->id) != nullptr);
+    }
+    EXPECT_GT(world.stream->stats().evicted, 0);
+}
+
 // A drawn tile onto whose vertices one beside it, of its own level, is moved.
 TreeTile tile_beside_another(const view::TileSelection& choice) {
     for (const view::TileSelection::Drawn& drawn : choice.drawn) {
