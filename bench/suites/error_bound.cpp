@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <random>
 
 #include <fmt/format.h>
@@ -109,7 +110,7 @@ private:
     void check_pixel(const truth::SurfaceView& view, glm::ivec2 pixel, const Hit& hit,
                      FrameErrors& errors) const {
         if (!truth::shows_terrain(hit)) {
-            errors.holes += is_hole(view.camera, glm::dvec2(pixel) + 0.5) ? 1U : 0U;
+            errors.holes += is_hole(view.camera, pixel) ? 1U : 0U;
             return;
         }
         const double error = truth::reprojection_error(view, size_, pixel, hit);
@@ -118,17 +119,41 @@ private:
         errors.worst = std::max(errors.worst, error);
     }
 
-    // Whether the exact rays around the pixel, farther away than the error bound, all hit terrain.
-    // Otherwise it may be a silhouette that moved within the bound.
-    [[nodiscard]] bool is_hole(const scene::Camera& camera, glm::dvec2 center) const {
+    // Whether the exact rays around the pixel, farther away than the error bound, all hit terrain,
+    // and none of its ends is as near. Otherwise a silhouette may have moved within the bound, or
+    // an end that a silhouette just hid.
+    [[nodiscard]] bool is_hole(const scene::Camera& camera, glm::ivec2 pixel) const {
         const double reach = error_ + 1.0;
+        const glm::dvec2 center = glm::dvec2(pixel) + 0.5;
         for (const int i : {4, 0, 1, 2, 3, 5, 6, 7, 8}) {
             const glm::dvec2 place = center + reach * glm::dvec2(i % 3 - 1, i / 3 - 1);
             if (!surface_.pick(scene::view_ray(camera, size_, place))) {
                 return false;
             }
         }
-        return true;
+        return distance_to_end(camera, pixel) > reach;
+    }
+
+    // Distance of a pixel to the samples at the ends of the terrain, pixels.
+    [[nodiscard]] double distance_to_end(const scene::Camera& camera, glm::ivec2 pixel) const {
+        const auto& heights = surface_.heightfield().heights;
+        const glm::ivec2 last(heights.cols() - 1, heights.rows() - 1);
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto visit = [&](int col, int row) {
+            const glm::dvec3 local =
+                surface_.placement().world_from_sample({col, row, heights(col, row)});
+            const glm::dvec3 world(world_from_local_ * glm::dvec4(local, 1.0));
+            nearest = std::min(nearest, truth::distance_to_pixel(camera, size_, pixel, world));
+        };
+        for (int col = 0; col <= last.x; ++col) {
+            visit(col, 0);
+            visit(col, last.y);
+        }
+        for (int row = 0; row <= last.y; ++row) {
+            visit(0, row);
+            visit(last.x, row);
+        }
+        return nearest;
     }
 
     const scene::TerrainSurface& surface_;

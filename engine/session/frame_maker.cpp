@@ -137,19 +137,20 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     }
     if (!over_ || *stats_.kept_error > over_->kept_error) {
         over_ = {*stats_.kept_error, *bound, over_ ? over_->memory : MemoryForBound{},
-                 over_ && over_->misses_tiles};
+                 over_ && over_->misses_tiles, over_ && over_->lacks_triangles};
     }
     const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
     if (needed.growth > over_->memory.growth) {
         over_->memory = needed;
     }
     over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
+    over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
 }
 
 std::string DeviceFrames::remedy() const {
     const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
-    if (megabytes > options_.memory_megabytes) {
-        return over_->memory.is_enough
+    if (megabytes > options_.memory_megabytes || over_->lacks_triangles) {
+        return over_->memory.is_enough && !over_->lacks_triangles
                    ? fmt::format("--memory {:.0f} keeps it", megabytes)
                    : fmt::format("more than --memory {:.0f} is needed", megabytes);
     }

@@ -70,6 +70,7 @@ private:
         double bound = 0.0;      // of that frame
         MemoryForBound memory;   // the largest
         bool misses_tiles = false;
+        bool lacks_triangles = false;
     };
     void note_kept_error(const scene::Scene& scene);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.

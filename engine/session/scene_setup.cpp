@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/io/formats/flight_file.h"
+#include "engine/scene/tile_stream.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"
@@ -20,6 +21,16 @@ namespace {
 
 // Clear air: a fifth of the contrast is gone after one and a half widths.
 constexpr double visibility_in_widths = 25.0;
+constexpr std::size_t part_for_triangles = 4; // of the memory
+
+// With little memory: a quarter of those of the tiles that are enough for any view.
+constexpr std::size_t min_triangles =
+    scene::TileStream::min_drawn * terrain::tree_tile_cells * terrain::tree_tile_cells / 2;
+
+std::size_t triangles_within(int megabytes) {
+    const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
+    return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
+}
 
 scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOptions& view,
                                       const io::SceneDescription& description) {
@@ -177,6 +188,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     result.terrain = *node;
     auto& shown = *result.terrain->get<scene::TerrainNode>();
     shown.stream = make_stream(source, shown.surface);
+    shown.max_triangles = triangles_within(terrain.memory_megabytes);
     result.bounds = result.terrain->world_bounds();
     if (result.is_gallery) {
         auto models = add_gallery(result.scene, source.description, terrain, view, log, stop);

@@ -43,8 +43,6 @@ struct TileDraw {
     /// How far the tile is from all samples at most if it is proven, otherwise an estimate; pixels.
     double error = 0.0;
     double triangle_error = 0.0; ///< left for its triangles, pixels; 0 without an error bound
-    /// Height of the steps to its neighbours, at most or about, scene metres; see tile_gaps().
-    double gap = 0.0;
 
     /// Whether `error` is proven, of every pixel.
     [[nodiscard]] bool is_proven() const {

@@ -17,6 +17,8 @@ struct FrameStats {
     int tiles_unproven = 0;
     /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound.
     std::optional<double> kept_error;
+    /// Whether triangles had larger errors than the bound leaves them, to fit their number.
+    bool lacks_triangles = false;
     int draws = 0;         ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures, uniform blocks and modes set
     int uploads = 0;       ///< buffers and textures filled

@@ -16,7 +16,6 @@
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
-#include "engine/view/tile_gaps.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {
@@ -92,18 +91,6 @@ double bound_of(const std::optional<Coarseness>& coarseness) {
     return view != nullptr ? view->max_error : 0.0;
 }
 
-// tile_gaps() of all tiles of a selection.
-std::map<terrain::TreeTile, double> gaps_between(const scene::TerrainNode& terrain,
-                                                 const TileSelection& selection) {
-    std::vector<const scene::TileSummary*> tiles;
-    for (const auto* const part : {&selection.drawn, &selection.hidden}) {
-        for (const TileSelection::Drawn& drawn : *part) {
-            tiles.push_back(drawn.tile.get());
-        }
-    }
-    return tile_gaps(terrain.stream->tree(), tiles, terrain.surface->placement().exaggeration());
-}
-
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
@@ -176,12 +163,9 @@ private:
         requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
         TileDraw draw = draw_of(terrain);
         auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
-        const auto gaps = gaps_between(terrain, choice);
         const double bound = bound_of(coarseness);
         const double worst = largest_error(choice);
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
-            const auto gap = gaps.find(drawn.tile->id);
-            draw.gap = gap != gaps.end() ? gap->second : 0.0;
             draw.tile = std::move(drawn.tile);
             draw.error = drawn.error;
             draw.triangle_error = bound > 0.0 ? triangle_error(bound, drawn.error, worst) : 0.0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,8 +22,23 @@ constexpr int samples_of_window = 1 << 18;
 /// A part of the result.
 using Tile = RasterOptions::Window;
 
-std::vector<Tile> tiles_of(const SampleGrid& grid, int taps, int tile_samples) {
-    const int cols = std::clamp(tile_samples / (taps * taps), 1, grid.cols);
+// The widest tile whose blocks stay in GDAL's cache from one row of stored values to the next, with
+// reads of several threads; wider ones decode each block once a row.
+int max_cols_within_cache(GDALRasterBand& band, int reduction) {
+    constexpr GIntBig reads_at_once = 8;
+    int cols = 0;
+    int rows = 0;
+    band.GetBlockSize(&cols, &rows);
+    const GIntBig bytes =
+        GIntBig{cols} * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+    const GIntBig blocks = std::max<GIntBig>(
+        GDALGetCacheMax64() / reads_at_once / std::max<GIntBig>(bytes, 1), 1);
+    constexpr GIntBig any = std::numeric_limits<int>::max();
+    return static_cast<int>(std::clamp<GIntBig>(blocks * cols / reduction, 1, any));
+}
+
+std::vector<Tile> tiles_of(const SampleGrid& grid, int taps, int tile_samples, int max_cols) {
+    const int cols = std::clamp(tile_samples / (taps * taps), 1, std::min(grid.cols, max_cols));
     const int rows = std::clamp(tile_samples / (taps * taps) / cols, 1, grid.rows);
     std::vector<Tile> tiles;
     for (int row = 0; row < grid.rows; row += rows) {
@@ -142,8 +158,10 @@ Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time
                        SampleDecoder& decoder, const std::string& name,
                        const RasterOptions& options, const GdalMessages& messages,
                        const Store& store) {
-    TileContentReader reader(source_of(dataset, plan, decoder.bands()), plan);
-    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time);
+    Source source = source_of(dataset, plan, decoder.bands());
+    const int max_cols = max_cols_within_cache(*source.bands.front(), plan.reduction);
+    TileContentReader reader(std::move(source), plan);
+    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time, max_cols);
     const std::size_t errors = messages.errors();
     const ReadScope scope(options.stop);
     for (std::size_t i = 0; i < tiles.size(); ++i) {

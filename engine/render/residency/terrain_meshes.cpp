@@ -1,6 +1,7 @@
 #include "engine/render/residency/terrain_meshes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -23,6 +24,40 @@ view::GridMesh whole_mesh(const view::TileDraw& draw) {
     const double flat_height = terrain::reference_height(draw.terrain->surface->heightfield());
     return draw.flat ? view::flat_mesh(surface.placement, surface.samples, flat_height)
                      : view::full_mesh(surface.heightfield, surface.placement, surface.samples);
+}
+
+constexpr double larger_than_pictures = 1 << 17; // pixels
+constexpr int first_min_size = terrain::steps_per_sample / 64;
+constexpr int max_min_size = terrain::steps_per_sample * terrain::tree_tile_cells;
+
+bool is_coarsest(const view::Coarsening& coarsening) {
+    return coarsening.min_error > larger_than_pictures || coarsening.min_size > max_min_size;
+}
+
+// First all triangles get larger errors. That does not help where cliffs may reach the eye, because
+// they are split whatever the error. Then the smallest triangles get larger.
+view::Coarsening coarser(const terrain::ErrorView& view, const view::Coarsening& coarsening) {
+    constexpr double max_bounds = 16.0; // in perspective
+    if (coarsening.min_size > 0) {
+        return {view.max_error, 2 * coarsening.min_size};
+    }
+    const double min_error = std::max(2.0 * coarsening.min_error, view.max_error);
+    return view.perspective && min_error > max_bounds * view.max_error
+               ? view::Coarsening{view.max_error, first_min_size}
+               : view::Coarsening{min_error, 0};
+}
+
+std::size_t triangle_count(const view::CutMesh& mesh) {
+    std::size_t indices = 0;
+    for (const terrain::Triangulation& part : mesh.parts) {
+        indices += part.indices.size();
+    }
+    return indices / 3;
+}
+
+// Tiles in memory have one border with their neighbours; flat ones, too.
+bool has_seams(const view::TileDraw& draw) {
+    return !draw.tile->borrows && !draw.flat;
 }
 
 Result<std::vector<ResidentMesh>> uploaded(const view::CutMesh& cut, view::FrameStats& stats) {
@@ -131,7 +166,10 @@ Result<void> TerrainMeshes::prepare(const view::DrawList& list, view::FrameStats
     forget_unused();
     for (const auto& [group, draws] : groups) {
         auto done = draws.front()->coarse ? cut(list, *group, draws, stats)
-                                          : upload_whole(list, *group, draws, stats);
+                                          : upload_whole(*group, draws, stats);
+        if (done && has_seams(*draws.front())) {
+            done = close_seams(list, *group, draws, stats);
+        }
         if (!done) {
             return done;
         }
@@ -139,16 +177,15 @@ Result<void> TerrainMeshes::prepare(const view::DrawList& list, view::FrameStats
     return {};
 }
 
-Result<void> TerrainMeshes::upload_whole(const view::DrawList& list, Group& group,
-                                         const Draws& draws, view::FrameStats& stats) {
+Result<void> TerrainMeshes::upload_whole(Group& group, const Draws& draws,
+                                         view::FrameStats& stats) {
     std::vector<Outdated> outdated;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        const terrain::Skirt skirt = view::skirt_of(list, *draw);
-        if (!entry.meshes.empty() && entry.skirt == skirt) {
+        if (!entry.meshes.empty()) {
             ++stats.skipped.uploads_unchanged;
         } else {
-            outdated.push_back({draw, &entry, skirt});
+            outdated.push_back({draw, &entry});
         }
     }
     for (std::size_t i = 0; i < outdated.size(); i += batch_tiles) {
@@ -162,97 +199,205 @@ Result<void> TerrainMeshes::upload_whole(const view::DrawList& list, Group& grou
 
 Result<void> TerrainMeshes::upload(std::span<const Outdated> tiles, view::FrameStats& stats) {
     std::vector<view::GridMesh> grids(tiles.size());
-    std::vector<view::CutMesh> skirts(tiles.size());
     parallel_for(static_cast<int>(tiles.size()), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
-        const Outdated& tile = tiles[at];
-        if (tile.entry->meshes.empty()) {
-            grids[at] = whole_mesh(*tile.draw);
+        const auto& [draw, entry] = tiles[at];
+        grids[at] = whole_mesh(*draw);
+        if (has_seams(*draw)) {
+            entry->border = view::border_of_samples(view::surface_of(*draw));
         }
-        skirts[at] = view::whole_skirt(view::surface_of(*tile.draw), tile.skirt);
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        Entry& entry = *tiles[i].entry;
-        if (entry.meshes.empty()) {
-            auto mesh = grids_.upload(grids[i], stats);
-            if (!mesh) {
-                return mesh.error();
-            }
-            entry.meshes.push_back(std::move(*mesh));
+        auto mesh = grids_.upload(grids[i], stats);
+        if (!mesh) {
+            return mesh.error();
         }
-        auto walls = uploaded(skirts[i], stats);
-        if (!walls) {
-            return walls.error();
-        }
-        entry.meshes.resize(1);
-        std::move(walls->begin(), walls->end(), std::back_inserter(entry.meshes));
-        entry.skirt = tiles[i].skirt;
+        std::vector<ResidentMesh> meshes;
+        meshes.push_back(std::move(*mesh));
+        replace_meshes(*tiles[i].entry, std::move(meshes));
     }
     return {};
 }
 
-std::vector<TerrainMeshes::Outdated> TerrainMeshes::outdated_cuts(const view::DrawList& list,
-                                                                  Group& group, const Draws& draws,
-                                                                  view::FrameStats& stats) {
-    std::vector<Outdated> outdated;
+// Keeps the seams.
+void TerrainMeshes::replace_meshes(Entry& entry, std::vector<ResidentMesh> meshes) {
+    std::move(entry.meshes.end() - static_cast<std::ptrdiff_t>(entry.seam_count),
+              entry.meshes.end(), std::back_inserter(meshes));
+    entry.meshes = std::move(meshes);
+    entry.shape = ++shapes_;
+}
+
+// Forgets what fitted another view, or other errors of the tiles.
+void TerrainMeshes::note_errors(const view::Coarseness& coarseness, const Draws& draws,
+                                Group& group) {
+    std::vector<std::tuple<terrain::TreeTile, double, double>> errors;
+    errors.reserve(draws.size());
+    for (const view::TileDraw* const draw : draws) {
+        errors.emplace_back(draw->tile->id, draw->error, draw->triangle_error);
+    }
+    const std::size_t max_triangles = draws.front()->terrain->max_triangles;
+    if (group.errors != errors || group.max_triangles != max_triangles) {
+        group.errors = std::move(errors);
+        group.max_triangles = max_triangles;
+        group.coarsening = {};
+    }
+    if (group.version == 0 || group.coarseness != coarseness) {
+        group.coarseness = coarseness;
+        group.coarsening = {};
+        ++group.version;
+    }
+}
+
+// The triangles of the tiles that need others. Empty if all tiles together have too many.
+std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const Draws& draws) {
+    const scene::TerrainNode& terrain = *draws.front()->terrain;
+    const bool by_error = std::holds_alternative<terrain::ErrorView>(group.coarseness);
+    const bool is_limited = by_error && !is_coarsest(group.coarsening);
+    terrain::TriangleBudget budget(group.max_triangles);
+    Cuts cuts;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        const terrain::Skirt skirt = view::skirt_of(list, *draw);
         if (entry.version == group.version && entry.error == draw->error &&
-            entry.triangle_error == draw->triangle_error && entry.skirt == skirt) {
-            ++stats.skipped.cuts_unchanged;
-            ++stats.skipped.uploads_unchanged;
+            entry.triangle_error == draw->triangle_error && entry.coarsening == group.coarsening) {
+            budget.add(entry.triangles);
         } else {
-            outdated.push_back({draw, &entry, skirt});
+            cuts.tiles.push_back({draw, &entry});
         }
     }
-    stats.tiles_cut += static_cast<int>(outdated.size());
-    return outdated;
+    const terrain::Bisection* const shared =
+        by_error && draws.front()->tile->borrows && !cuts.tiles.empty() ? &bisection_of(terrain)
+                                                                        : nullptr;
+    cuts.meshes.resize(cuts.tiles.size());
+    cuts.borders.resize(cuts.tiles.size());
+    parallel_for(static_cast<int>(cuts.tiles.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        const auto& [draw, entry] = cuts.tiles[at];
+        const terrain::Bisection* const bisection =
+            by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
+        const view::TileSurface surface = view::surface_of(*draw);
+        const view::CutOptions options{bisection, draw->error, draw->triangle_error,
+                                       group.coarsening, is_limited ? &budget : nullptr};
+        cuts.meshes[at] = view::cut_tile(group.coarseness, surface, options, entry->last);
+        if (has_seams(*draw)) {
+            cuts.borders[at] = view::border_of(surface, cuts.meshes[at]);
+        }
+    });
+    return is_limited && budget.is_exceeded() ? std::nullopt : std::optional(std::move(cuts));
+}
+
+// The same with the least coarsening that fits the terrain's number of triangles.
+TerrainMeshes::Cuts TerrainMeshes::cut_within_budget(Group& group, const Draws& draws) {
+    auto cuts = try_to_cut(group, draws);
+    while (!cuts) {
+        group.coarsening =
+            coarser(std::get<terrain::ErrorView>(group.coarseness), group.coarsening);
+        cuts = try_to_cut(group, draws);
+    }
+    return std::move(*cuts);
+}
+
+Result<void> TerrainMeshes::keep(Cuts cuts, const Group& group, view::FrameStats& stats) {
+    stats.tiles_cut += static_cast<int>(cuts.tiles.size());
+    for (std::size_t i = 0; i < cuts.tiles.size(); ++i) {
+        const auto& [draw, entry] = cuts.tiles[i];
+        view::CutMesh& mesh = cuts.meshes[i];
+        entry->version = group.version;
+        entry->error = draw->error;
+        entry->triangle_error = draw->triangle_error;
+        entry->coarsening = group.coarsening;
+        entry->kept_error = mesh.error;
+        if (mesh.parts.empty()) {
+            ++stats.skipped.uploads_unchanged;
+            continue;
+        }
+        auto meshes = uploaded(mesh, stats);
+        if (!meshes) {
+            return meshes.error();
+        }
+        replace_meshes(*entry, std::move(*meshes));
+        entry->border = std::move(cuts.borders[i]);
+        entry->triangles = triangle_count(mesh);
+        entry->last = std::move(mesh);
+    }
+    return {};
 }
 
 Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const Draws& draws,
                                 view::FrameStats& stats) {
-    const scene::TerrainNode& terrain = *draws.front()->terrain;
-    const view::Coarseness& coarseness = coarseness_of(list, terrain);
-    if (group.version == 0 || group.coarseness != coarseness) {
-        group.coarseness = coarseness;
-        ++group.version;
+    note_errors(coarseness_of(list, *draws.front()->terrain), draws, group);
+    Cuts cuts = cut_within_budget(group, draws);
+    const auto unchanged = static_cast<int>(draws.size() - cuts.tiles.size());
+    stats.skipped.cuts_unchanged += unchanged;
+    stats.skipped.uploads_unchanged += unchanged;
+    if (auto done = keep(std::move(cuts), group, stats); !done) {
+        return done;
     }
-    const std::vector<Outdated> outdated = outdated_cuts(list, group, draws, stats);
-    const bool by_error = std::holds_alternative<terrain::ErrorView>(coarseness);
-    const terrain::Bisection* const shared =
-        by_error && draws.front()->tile->borrows && !outdated.empty() ? &bisection_of(terrain)
-                                                                      : nullptr;
-    std::vector<view::CutMesh> cuts(outdated.size());
-    parallel_for(static_cast<int>(outdated.size()), [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        const auto& [draw, entry, skirt] = outdated[at];
-        const terrain::Bisection* const bisection =
-            by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
-        cuts[at] =
-            view::cut_tile(coarseness, view::surface_of(*draw),
-                           {bisection, draw->error, draw->triangle_error, skirt}, entry->last);
-    });
-    for (std::size_t i = 0; i < outdated.size(); ++i) {
-        const auto& [draw, entry, skirt] = outdated[i];
-        entry->version = group.version;
-        entry->error = draw->error;
-        entry->triangle_error = draw->triangle_error;
-        entry->skirt = skirt;
-        entry->kept_error = cuts[i].error;
-        if (cuts[i].parts.empty()) {
-            ++stats.skipped.uploads_unchanged;
-            continue;
-        }
-        auto meshes = uploaded(cuts[i], stats);
-        if (!meshes) {
-            return meshes.error();
-        }
-        entry->meshes = std::move(*meshes);
-        entry->last = std::move(cuts[i]);
-    }
-    if (by_error) {
+    stats.lacks_triangles = stats.lacks_triangles || group.coarsening != view::Coarsening{};
+    if (std::holds_alternative<terrain::ErrorView>(group.coarseness)) {
         add_kept_errors(group, draws, stats);
+    }
+    return {};
+}
+
+// The tiles whose seams are not those of their triangles and of those beside them.
+std::vector<TerrainMeshes::Unseamed> TerrainMeshes::unseamed(const view::DrawList& list,
+                                                             Group& group, const Draws& draws) {
+    std::vector<terrain::TreeTile> tiles;
+    tiles.reserve(draws.size());
+    for (const view::TileDraw* const draw : draws) {
+        tiles.push_back(draw->tile->id);
+    }
+    const view::DrawnTiles drawn(draws.front()->terrain->stream->tree(), tiles);
+    std::vector<Unseamed> changed;
+    for (const view::TileDraw* const draw : draws) {
+        Entry& entry = group.tiles.at(draw->tile->id);
+        std::vector<Seam> seams;
+        for (const view::OpenSide& open : drawn.open_sides(draw->tile->id)) {
+            Seam& seam = seams.emplace_back(Seam{open, 0, {}});
+            if (open.neighbour) {
+                seam.neighbour_shape = group.tiles.at(*open.neighbour).shape;
+            } else {
+                seam.error = view::border_error(list, *draw);
+            }
+        }
+        if (entry.seamed_shape != entry.shape || entry.seams != seams) {
+            changed.push_back({draw, &entry, std::move(seams)});
+        }
+    }
+    return changed;
+}
+
+Result<void> TerrainMeshes::close_seams(const view::DrawList& list, Group& group,
+                                        const Draws& draws, view::FrameStats& stats) {
+    std::vector<Unseamed> tiles = unseamed(list, group, draws);
+    std::vector<std::vector<view::SeamPart>> parts(tiles.size());
+    parallel_for(static_cast<int>(tiles.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        const view::TileSurface surface = view::surface_of(*tiles[at].draw);
+        view::SeamMaker maker(surface, tiles[at].entry->border);
+        for (const Seam& seam : tiles[at].seams) {
+            if (seam.open.neighbour) {
+                maker.join(seam.open, group.tiles.at(*seam.open.neighbour).border);
+            } else {
+                maker.hang(seam.open, seam.error);
+            }
+        }
+        parts[at] = maker.take();
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        Entry& entry = *tiles[i].entry;
+        entry.meshes.resize(entry.meshes.size() - entry.seam_count);
+        entry.seam_count = 0;
+        for (const view::SeamPart& part : parts[i]) {
+            auto mesh = with_indices(upload_vertices(part.vertices, stats), part.indices, stats);
+            if (!mesh) {
+                return mesh.error();
+            }
+            entry.meshes.push_back(std::move(*mesh));
+            ++entry.seam_count;
+        }
+        entry.seamed_shape = entry.shape;
+        entry.seams = std::move(tiles[i].seams);
     }
     return {};
 }

@@ -13,12 +13,13 @@
 #include "engine/terrain/mesh/bisection.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/tile_cut.h"
+#include "engine/view/tile_seam.h"
 
 namespace reljef::render {
 
 /// The triangles of terrain tiles in GPU memory. Each tile stands alone: uploaded on first use, and
-/// again when it gets other triangles. Tiles that are not drawn for some frames are dropped, except
-/// whole tiles of a terrain in memory.
+/// again when it gets other triangles. Seams join the tiles of a stream. Tiles that are not drawn
+/// for some frames are dropped, except whole tiles of a terrain in memory.
 class TerrainMeshes {
 public:
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
@@ -36,16 +37,31 @@ private:
         std::shared_ptr<const scene::TerrainTile> tile;
         terrain::Bisection bisection;
     };
+    // What a seam depends on, beside the tile.
+    struct Seam {
+        view::OpenSide open;
+        std::uint64_t neighbour_shape = 0;
+        view::BorderError error; // without a neighbour
+
+        friend bool operator==(const Seam&, const Seam&) = default;
+    };
     struct Entry {
         std::weak_ptr<const scene::TerrainTile> owner;
-        std::uint64_t drawn = 0; // last frame
-        std::vector<ResidentMesh> meshes;
-        terrain::Skirt skirt;
+        std::uint64_t drawn = 0;          // last frame
+        std::vector<ResidentMesh> meshes; // of the tile, then of its seams
+        std::size_t seam_count = 0;
+        // Of tiles of streams:
+        std::uint64_t shape = 0; // changes with the triangles; no two tiles have the same
+        view::TileBorder border;
+        std::uint64_t seamed_shape = 0;
+        std::vector<Seam> seams;
         // Of tiles that are cut.
         std::uint64_t version = 0; // of the coarseness
         double error = 0.0;        // of the tile, pixels
         double triangle_error = 0.0;
+        view::Coarsening coarsening;
         double kept_error = 0.0; // of all that is drawn, pixels
+        std::size_t triangles = 0;
         view::CutMesh last;
         std::unique_ptr<const TileBisection> bisection; // of a loaded tile
 
@@ -61,6 +77,9 @@ private:
         std::map<terrain::TreeTile, Entry> tiles;
         view::Coarseness coarseness;
         std::uint64_t version = 0; // of the coarseness, from 1
+        std::vector<std::tuple<terrain::TreeTile, double, double>> errors;
+        std::size_t max_triangles = 0;
+        view::Coarsening coarsening;
     };
     struct SharedBisection {
         std::weak_ptr<const scene::TerrainSurface> owner;
@@ -71,7 +90,18 @@ private:
     struct Outdated {
         const view::TileDraw* draw = nullptr;
         Entry* entry = nullptr;
-        terrain::Skirt skirt;
+    };
+    // Tiles and their new triangles.
+    struct Cuts {
+        std::vector<Outdated> tiles;
+        std::vector<view::CutMesh> meshes;
+        std::vector<view::TileBorder> borders;
+    };
+    // A tile whose seams are to be made.
+    struct Unseamed {
+        const view::TileDraw* draw = nullptr;
+        Entry* entry = nullptr;
+        std::vector<Seam> seams;
     };
 
     // The source of the tiles, whether they are flat, and whether they are cut. If tiles in memory
@@ -84,17 +114,24 @@ private:
     Entry& entry_of(Group& group, const view::TileDraw& draw);
     void forget_unused();
 
-    Result<void> upload_whole(const view::DrawList& list, Group& group, const Draws& draws,
-                              view::FrameStats& stats);
+    Result<void> upload_whole(Group& group, const Draws& draws, view::FrameStats& stats);
     Result<void> upload(std::span<const Outdated> tiles, view::FrameStats& stats);
     Result<void> cut(const view::DrawList& list, Group& group, const Draws& draws,
                      view::FrameStats& stats);
-    static std::vector<Outdated> outdated_cuts(const view::DrawList& list, Group& group,
-                                               const Draws& draws, view::FrameStats& stats);
+    static void note_errors(const view::Coarseness& coarseness, const Draws& draws, Group& group);
+    Cuts cut_within_budget(Group& group, const Draws& draws);
+    std::optional<Cuts> try_to_cut(Group& group, const Draws& draws);
+    Result<void> keep(Cuts cuts, const Group& group, view::FrameStats& stats);
+    void replace_meshes(Entry& entry, std::vector<ResidentMesh> meshes);
+    static std::vector<Unseamed> unseamed(const view::DrawList& list, Group& group,
+                                          const Draws& draws);
+    static Result<void> close_seams(const view::DrawList& list, Group& group, const Draws& draws,
+                                    view::FrameStats& stats);
     static void add_kept_errors(const Group& group, const Draws& draws, view::FrameStats& stats);
     const terrain::Bisection& bisection_of(const scene::TerrainNode& terrain);
 
     std::uint64_t frame_ = 0;
+    std::uint64_t shapes_ = 0;
     std::map<Key, Group> groups_;
     std::map<const scene::TerrainSurface*, SharedBisection> bisections_;
     GridUploader grids_;

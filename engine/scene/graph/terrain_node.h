@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -102,6 +104,8 @@ struct TerrainNode {
     /// Finer tiles of the same terrain; the surface is their overview. Null: none.
     std::shared_ptr<TileStream> stream = {};
     std::shared_ptr<const TerrainDetail> detail = {}; ///< for polygons only; null: none
+    /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
+    std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
     /// Prepared maps of the surface; null: the renderer makes them on demand.
     std::shared_ptr<const terrain::Bisection> bisection = {};
     std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1

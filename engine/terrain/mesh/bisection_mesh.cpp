@@ -193,8 +193,10 @@ private:
 
 class TileBisector {
 public:
-    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view)
-        : bisection_(bisection), morphed_(view), view_(view), morphs_(view.morph_from < 1.0),
+    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+                 TriangleBudget* budget)
+        : bisection_(bisection), budget_(budget), morphed_(view), view_(view),
+          morphs_(view.morph_from < 1.0),
           morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
           is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
           at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}),
@@ -211,6 +213,7 @@ public:
         for (std::size_t i = 0; i < 4; ++i) {
             add({middle, corners[i], corners[(i + 1) % 4]}, {side, true});
         }
+        report_count();
         return {take(), error_};
     }
 
@@ -218,7 +221,7 @@ private:
     // `is_seen`: the parent's sphere is completely visible, and so are all descendants'.
     void add(const BisectionTriangle& triangle, SplitKind kind, bool is_seen = false) {
         const Reach reach = is_whole_ ? Reach::inside : reach_of(triangle);
-        if (reach == Reach::outside) {
+        if (reach == Reach::outside || has_ended_) {
             return;
         }
         const Steps middle = (triangle.left + triangle.right) / std::int64_t{2};
@@ -235,7 +238,18 @@ private:
             add({middle, triangle.right, triangle.apex}, kind_below(kind), choice.is_seen);
         } else {
             writer_.add(triangle);
+            if (++unreported_ == triangles_a_report) {
+                report_count();
+            }
         }
+    }
+
+    void report_count() {
+        if (budget_ != nullptr) {
+            budget_->add(unreported_);
+            has_ended_ = budget_->is_exceeded();
+        }
+        unreported_ = 0;
     }
 
     std::vector<Triangulation> take() {
@@ -283,19 +297,17 @@ private:
     [[nodiscard]] Choice choice_at(Steps middle, SplitKind kind, bool is_seen) {
         if (kind.size <= steps_per_sample) {
             const Split split = bisection_.split(middle, kind.size, kind.on_side);
-            if (kind.size >= bisection_.min_size()) {
-                return choice_of(split, is_seen);
-            }
-            if (is_seen || visibility_of(view_, split) != Visibility::none) {
-                error_ = std::max(error_, visible_error(view_, split));
-            }
-            return {false, is_seen};
+            return kind.size >= std::max(bisection_.min_size(), view_.min_size)
+                       ? choice_of(split, is_seen)
+                       : choice_below_min_size(split, is_seen);
         }
         const glm::ivec2 sample = sample_before(middle) - first_;
         // The triangles on both sides need it.
         Choice& choice = at_samples_(sample.x, sample.y);
         if (!choice.is_made) {
-            choice = choice_of(bisection_.split(middle, kind.size, kind.on_side), is_seen);
+            const Split split = bisection_.split(middle, kind.size, kind.on_side);
+            choice = kind.size >= view_.min_size ? choice_of(split, is_seen)
+                                                 : choice_below_min_size(split, is_seen);
         }
         return choice;
     }
@@ -311,6 +323,16 @@ private:
         return {seen != Visibility::none, seen == Visibility::whole, true, share_of(split)};
     }
 
+    Choice choice_below_min_size(const Split& split, bool is_seen) {
+        if (std::isinf(split.error)) {
+            return {true, is_seen};
+        }
+        if (is_seen || visibility_of(view_, split) != Visibility::none) {
+            error_ = std::max(error_, visible_error(view_, split));
+        }
+        return {false, is_seen};
+    }
+
     [[nodiscard]] double share_of(const Split& split) const {
         const double from = morphed_.morph_from;
         return morphs_
@@ -318,7 +340,12 @@ private:
                    : 1.0;
     }
 
+    static constexpr std::size_t triangles_a_report = 1024;
+
     const Bisection& bisection_;
+    TriangleBudget* budget_; // null: none
+    std::size_t unreported_ = 0;
+    bool has_ended_ = false;
     const ErrorView& morphed_;
     ErrorView view_; // its max_error is the error where morphing begins
     bool morphs_;
@@ -337,8 +364,9 @@ bool exceeds(const ErrorView& view, const Split& split) {
            (visibility_of(view, split) != Visibility::none && exceeds_bound(view, split));
 }
 
-TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view) {
-    return TileBisector(bisection, tile, view).bisect(tile);
+TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+                          TriangleBudget* budget) {
+    return TileBisector(bisection, tile, view, budget).bisect(tile);
 }
 
 } // namespace reljef::terrain

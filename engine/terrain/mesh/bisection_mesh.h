@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,7 @@ struct ErrorView {
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible
+    int min_size = 0;                  ///< of squares that are split, steps
     glm::dmat3 lateral_axes{1.0};      ///< the lateral distance is |lateral_axes · p + origin|
     glm::dvec3 lateral_origin{0.0};
     double stretch = 1.0; ///< metres of depth and lateral distance per metre of the scene frame
@@ -55,6 +58,19 @@ struct Triangulation {
     friend bool operator==(const Triangulation&, const Triangulation&) = default;
 };
 
+/// The number of triangles that tiles may have together. Counts from any thread.
+class TriangleBudget {
+public:
+    explicit TriangleBudget(std::size_t max) : max_(max) {}
+
+    void add(std::size_t count) { count_ += count; }
+    [[nodiscard]] bool is_exceeded() const { return count_ > max_; }
+
+private:
+    std::size_t max_;
+    std::atomic<std::size_t> count_ = 0;
+};
+
 struct TileTriangles {
     std::vector<Triangulation> parts; ///< several if the vertices exceed 16-bit indices
     /// No visible point is farther off, pixels: the view's bound, or more where the smallest
@@ -63,7 +79,9 @@ struct TileTriangles {
 };
 
 /// The coarsest triangulation of a tile within the error bound. Neighbours share their border
-/// vertices and moves, because a move depends on the vertex and the view only.
-TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view);
+/// vertices and moves, because a move depends on the vertex and the view only. Ends early, with
+/// some of the triangles, once the budget is exceeded.
+TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+                          TriangleBudget* budget = nullptr);
 
 } // namespace reljef::terrain

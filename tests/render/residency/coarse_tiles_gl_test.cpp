@@ -91,5 +91,42 @@ TEST_F(DriverGlTest, TwoTerrainsOfOneSurfaceAreCutEachForItself) {
     EXPECT_EQ(test::must(made.draw(world.scene)).tiles_cut, 0);
 }
 
+// Walls beside the eye are cut to small parts of a sample, however many triangles that takes.
+TEST_F(DriverGlTest, CliffsNearTheEyeTakeNoMoreTrianglesThanAllowedAndTheErrorIsStated) {
+    Scene scene;
+    const auto cliffs = [](int col, int row) { return (col / 5 + row / 5) % 2 * 500.0; };
+    Node& terrain =
+        test::add_terrain(scene, test::plane_heightfield(test::made_heights(129, 129, cliffs)));
+    auto& node = *terrain.get<scene::TerrainNode>();
+    node.material.technique = scene::parse_technique("polygons:error=1").value();
+    Node& camera = scene.add_camera(camera_at({2.0, 3.0, 500.5}, {30.0, 40.0, 470.0}));
+    session::SceneRenderer made = driver();
+    const auto all = test::must(made.draw(scene));
+    EXPECT_FALSE(all.lacks_triangles);
+    ASSERT_GT(all.triangles, 100'000U);
+    ASSERT_TRUE(all.kept_error);
+    double error = *all.kept_error;
+    for (const std::size_t max : {std::size_t{60'000}, std::size_t{10'000}, std::size_t{500}}) {
+        node.max_triangles = max;
+        const auto some = test::must(made.draw(scene));
+        EXPECT_TRUE(some.lacks_triangles);
+        EXPECT_LE(some.triangles, max);
+        EXPECT_GT(some.triangles, max / 16);
+        ASSERT_TRUE(some.kept_error);
+        EXPECT_GE(*some.kept_error, error);
+        error = *some.kept_error;
+    }
+    // What is drawn does not depend on the views before.
+    const Camera here = *camera.get<Camera>();
+    node.max_triangles = 60'000;
+    const auto first = test::must(made.draw_hits(scene));
+    *camera.get<Camera>() = camera_at({2.0, 3.0, 900.0}, {0.0, 0.0, 0.0});
+    test::must(made.draw(scene));
+    *camera.get<Camera>() = here;
+    EXPECT_TRUE(std::ranges::equal(
+        first.samples(), test::must(made.draw_hits(scene)).samples(),
+        [](const Hit& a, const Hit& b) { return a.depth == b.depth && a.col == b.col; }));
+}
+
 } // namespace
 } // namespace reljef::render

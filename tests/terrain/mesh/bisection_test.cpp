@@ -179,33 +179,92 @@ bool is_seen(const ErrorView& view, glm::dvec3 place) {
 }
 
 // The claim of exceeds() about perspective: the displacement over the depths.
+// Of some points of the triangles in perspective.
+void expect_seen_within(double error, const ErrorView& view, const PlacedTerrain& terrain,
+                        const std::vector<Triangle>& triangles, test::Chance& chance) {
+    for (int k = 0; k < 500; ++k) {
+        const auto index =
+            static_cast<std::size_t>(chance.whole(0, static_cast<int>(triangles.size()) - 1));
+        const glm::dvec3 weight = weights(chance);
+        glm::dvec3 shown(0.0);
+        for (int j = 0; j < 3; ++j) {
+            shown +=
+                weight[j] * terrain.bisection.world(triangles[index][static_cast<std::size_t>(j)]);
+        }
+        const double off = displacement(terrain, triangles[index], weight);
+        const double depth = glm::dot(glm::dvec3(view.depth), shown) + view.depth.w;
+        if (depth >= view.near && depth - off > 0.0 && is_seen(view, shown)) {
+            const double lateral = glm::length(shown + view.lateral_origin);
+            ASSERT_LE(view.scale * (off - place_rounding) * lateral,
+                      error * depth * (depth - off) * (1.0 + 1e-9))
+                << terrain.name << ' ' << depth;
+        }
+    }
+}
+
 TEST(Bisection, NoVisiblePointIsSeenFartherOffThanTheViewAllows) {
     test::Chance chance(5);
     for (MadeTerrain& made : hard_terrains()) {
         const PlacedTerrain terrain(std::move(made));
         for (int i = 0; i < 20; ++i) {
             const ErrorView view = random_view(chance, terrain.heightfield);
-            const auto triangles = all_triangles(terrain, view);
-            for (int k = 0; view.perspective && k < 500; ++k) {
-                const auto index = static_cast<std::size_t>(
-                    chance.whole(0, static_cast<int>(triangles.size()) - 1));
-                const glm::dvec3 weight = weights(chance);
-                glm::dvec3 shown(0.0);
-                for (int j = 0; j < 3; ++j) {
-                    shown += weight[j] *
-                             terrain.bisection.world(triangles[index][static_cast<std::size_t>(j)]);
-                }
-                const double off = displacement(terrain, triangles[index], weight);
-                const double depth = glm::dot(glm::dvec3(view.depth), shown) + view.depth.w;
-                if (depth - off > 0.0 && is_seen(view, shown)) {
-                    const double lateral = glm::length(shown + view.lateral_origin);
-                    ASSERT_LE(view.scale * (off - place_rounding) * lateral,
-                              view.max_error * depth * (depth - off) * (1.0 + 1e-9))
-                        << terrain.name << ' ' << depth;
-                }
+            if (view.perspective) {
+                expect_seen_within(view.max_error, view, terrain, all_triangles(terrain, view),
+                                   chance);
             }
         }
     }
+}
+
+TEST(Bisection, StatesTheErrorOfTheSmallestSquares) {
+    test::Chance chance(7);
+    int larger = 0;
+    for (MadeTerrain& made : hard_terrains()) {
+        const PlacedTerrain terrain(std::move(made));
+        for (int i = 0; i < 20; ++i) {
+            ErrorView view = random_view(chance, terrain.heightfield);
+            view.near = 1.0;
+            view.min_size = steps_per_sample / 4 << chance.whole(0, 6);
+            const auto triangles = all_triangles(terrain, view);
+            ASSERT_EQ(test::open_edges(terrain, triangles), 0U) << terrain.name;
+            double error = 0.0;
+            for (const Tile& tile : terrain.tiles) {
+                error = std::max(error, triangulate(terrain.bisection, tile, view).error);
+            }
+            larger += error > view.max_error ? 1 : 0;
+            if (view.perspective && std::isfinite(error)) {
+                expect_seen_within(error, view, terrain, triangles, chance);
+            }
+            view.min_size = 0;
+            ASSERT_LE(triangles.size(), all_triangles(terrain, view).size());
+        }
+    }
+    EXPECT_GT(larger, 10);
+}
+
+TEST(Bisection, EndsOnceItsBudgetIsExceededAndNotBefore) {
+    const PlacedTerrain terrain({"", test::plane_heightfield(rough_hills(129, 129, 1)), 1.0});
+    ErrorView view;
+    view.perspective = false;
+    view.max_error = 1e-9;
+    view.min_size = steps_per_sample;
+    const std::size_t all = all_triangles(terrain, view).size();
+    ASSERT_GT(all, 2U * 128U * 128U - 1U);
+    TriangleBudget enough(all);
+    const auto whole = triangulate(terrain.bisection, terrain.tiles.front(), view, &enough);
+    EXPECT_FALSE(enough.is_exceeded());
+    EXPECT_EQ(whole.parts, triangulate(terrain.bisection, terrain.tiles.front(), view).parts);
+    TriangleBudget one_less(all - 1);
+    triangulate(terrain.bisection, terrain.tiles.front(), view, &one_less);
+    EXPECT_TRUE(one_less.is_exceeded());
+    TriangleBudget small(5000);
+    std::size_t drawn = 0;
+    for (const Triangulation& part :
+         triangulate(terrain.bisection, terrain.tiles.front(), view, &small).parts) {
+        drawn += part.indices.size() / 3;
+    }
+    EXPECT_TRUE(small.is_exceeded());
+    EXPECT_LT(drawn, 8000U);
 }
 
 void expect_below(const Split& split, const Split& needs_it, const std::string& name) {
