@@ -23,7 +23,7 @@ struct OpenSide {
     friend bool operator==(const OpenSide&, const OpenSide&) = default;
 };
 
-/// The drawn tiles of a terrain, none of which covers another.
+/// The drawn tiles of a terrain, side by side.
 class DrawnTiles {
 public:
     DrawnTiles(const terrain::TileTree& tree, std::span<const terrain::TreeTile> tiles);

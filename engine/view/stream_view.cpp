@@ -178,8 +178,7 @@ StreamView::Part StreamView::block_of(const scene::TerrainTile& tile, glm::ivec2
     const glm::dvec2 last =
         glm::min(first + static_cast<double>(scene::cells_per_block), glm::dvec2(tile.cells));
     const terrain::MinMax heights = tile.blocks(block.x, block.y);
-    return {first, last,
-            terrain::placed_bounds(*tile.placement, first, last, {heights.low, heights.high})};
+    return with_box(tile, first, last, {heights.low, heights.high});
 }
 
 // Bilinear cells are extreme at the corners of their parts.
@@ -196,7 +195,20 @@ StreamView::Part StreamView::part_of(const scene::TerrainTile& tile, glm::dvec2 
             range = {std::min(range.low, height), std::max(range.high, height)};
         }
     }
-    return {first, last, terrain::placed_bounds(*tile.placement, first, last, range)};
+    return with_box(tile, first, last, range);
+}
+
+// A seam shows points between the tile's border and the true one.
+StreamView::Part StreamView::with_box(const scene::TerrainTile& tile, glm::dvec2 first,
+                                      glm::dvec2 last, terrain::HeightRange drawn) {
+    const glm::dvec2 end(tile.cells);
+    const bool is_at_border =
+        first.x <= 0.0 || first.y <= 0.0 || last.x >= end.x || last.y >= end.y;
+    const double share = terrain::share_of(tile.block_shares, terrain::block_at(glm::ivec2(first)));
+    const double error = is_at_border ? share * tile.error / tile.placement->exaggeration() : 0.0;
+    return {first, last,
+            terrain::placed_bounds(*tile.placement, first, last,
+                                   {drawn.low - error, drawn.high + error})};
 }
 
 double StreamView::largest_error_in(const scene::TerrainTile& tile, const Part& part,

@@ -90,6 +90,8 @@ private:
         Box box; // of its surface, local metres
     };
     [[nodiscard]] static Part block_of(const scene::TerrainTile& tile, glm::ivec2 block);
+    static Part with_box(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec2 last,
+                         terrain::HeightRange drawn);
     [[nodiscard]] static Part part_of(const scene::TerrainTile& tile, glm::dvec2 first,
                                       glm::dvec2 last);
     // Divides parts that are wide for their distance, as long as they may raise `largest`.

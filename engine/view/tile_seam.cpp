@@ -255,7 +255,7 @@ GridVertex SeamMaker::with_own_place(GridVertex vertex, TileSide side, double at
     const int along = runs_along_rows(side) ? 0 : 1;
     const bool is_far = side == TileSide::east || side == TileSide::south;
     glm::dvec2 place(is_far ? extent : glm::dvec2(0.0));
-    place[along] = std::clamp(at - first[along], 0.0, extent[along]);
+    place[along] = at - first[along];
     vertex.place = glm::vec2(place);
     return vertex;
 }
@@ -267,8 +267,8 @@ void SeamMaker::join(const OpenSide& open, const TileBorder& neighbour) {
     const Line own_line = line_along(own, open.side, places);
     const Line other_line = line_along(other, open.side, places);
     add_walls(own_line, other_line, open.side);
-    add_slivers(own, own_line, open.side);
-    add_slivers(other, other_line, open.side);
+    add_flaps(own, own_line, open.side);
+    add_flaps(other, other_line, open.side);
 }
 
 void SeamMaker::hang(const OpenSide& open, const BorderError& error) {
@@ -285,7 +285,7 @@ void SeamMaker::hang(const OpenSide& open, const BorderError& error) {
                             glm::dvec2(point.place));
     }
     add_walls(upper, lower, open.side);
-    add_slivers(own, upper, open.side);
+    add_flaps(own, upper, open.side);
 }
 
 // Walls between two lines, seen from where the lower one is.
@@ -299,17 +299,32 @@ void SeamMaker::add_walls(const Line& own, const Line& other, TileSide side) {
 }
 
 // A point between the ends of an edge is rounded, so the walls that end there may leave a gap to
-// the tile that has the whole edge. Triangles of the edge and such points fill it.
-void SeamMaker::add_slivers(std::span<const BorderVertex> border, const Line& line, TileSide side) {
+// the tile that has the whole edge. Triangles from both to a point below them fill it: they lie in
+// the ground, and are wide enough for a rasterizer to interpolate.
+void SeamMaker::add_flaps(std::span<const BorderVertex> border, const Line& line, TileSide side) {
+    constexpr double depth_of_length = 1.0 / 64.0;
     const auto add = [&](const BorderVertex& a, std::span<const GridVertex> between,
                          const BorderVertex& b) {
         const GridVertex first = with_own_place(a.vertex, side, a.at);
         const GridVertex last = with_own_place(b.vertex, side, b.at);
-        for (std::size_t i = 0; i < between.size(); ++i) {
-            const GridVertex& next = i + 1 < between.size() ? between[i + 1] : last;
-            add_triangle(first, between[i], next);
-            add_triangle(first, next, between[i]);
+        const glm::dvec3 middle = 0.5 * (local_of(first) + local_of(last));
+        const double depth = depth_of_length * glm::distance(local_of(first), local_of(last));
+        const double height = 0.5 * (static_cast<double>(first.height) + last.height);
+        const GridVertex below =
+            grid_vertex(middle - depth * surface_.placement.up(middle),
+                        height - depth / surface_.placement.exaggeration(),
+                        0.5 * (glm::dvec2(first.place) + glm::dvec2(last.place)));
+        const auto add_both = [&](const GridVertex& from, const GridVertex& to) {
+            add_triangle(from, to, below);
+            add_triangle(to, from, below);
+        };
+        add_both(first, last);
+        const GridVertex* before = &first;
+        for (const GridVertex& point : between) {
+            add_both(*before, point);
+            before = &point;
         }
+        add_both(*before, last);
     };
     std::size_t i = 0;
     for (std::size_t edge = 0; edge + 1 < border.size(); ++edge) {

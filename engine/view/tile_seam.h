@@ -64,7 +64,7 @@ private:
                                   std::span<const double> places) const;
     [[nodiscard]] GridVertex with_own_place(GridVertex vertex, TileSide side, double at) const;
     void add_walls(const Line& own, const Line& other, TileSide side);
-    void add_slivers(std::span<const BorderVertex> border, const Line& line, TileSide side);
+    void add_flaps(std::span<const BorderVertex> border, const Line& line, TileSide side);
     void add_triangle(const GridVertex& a, const GridVertex& b, const GridVertex& c);
 
     const TileSurface& surface_;

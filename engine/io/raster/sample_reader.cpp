@@ -29,10 +29,9 @@ int max_cols_within_cache(GDALRasterBand& band, int reduction) {
     int cols = 0;
     int rows = 0;
     band.GetBlockSize(&cols, &rows);
-    const GIntBig bytes =
-        GIntBig{cols} * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
-    const GIntBig blocks = std::max<GIntBig>(
-        GDALGetCacheMax64() / reads_at_once / std::max<GIntBig>(bytes, 1), 1);
+    const GIntBig bytes = GIntBig{cols} * rows * GDALGetDataTypeSizeBytes(band.GetRasterDataType());
+    const GIntBig blocks =
+        std::max<GIntBig>(GDALGetCacheMax64() / reads_at_once / std::max<GIntBig>(bytes, 1), 1);
     constexpr GIntBig any = std::numeric_limits<int>::max();
     return static_cast<int>(std::clamp<GIntBig>(blocks * cols / reduction, 1, any));
 }

@@ -248,25 +248,33 @@ void TerrainMeshes::note_errors(const view::Coarseness& coarseness, const Draws&
     }
 }
 
-// The triangles of the tiles that need others. Empty if all tiles together have too many.
-std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const Draws& draws) {
-    const scene::TerrainNode& terrain = *draws.front()->terrain;
-    const bool by_error = std::holds_alternative<terrain::ErrorView>(group.coarseness);
-    const bool is_limited = by_error && !is_coarsest(group.coarsening);
-    terrain::TriangleBudget budget(group.max_triangles);
-    Cuts cuts;
+// The tiles that need other triangles; counts those of the others.
+std::vector<TerrainMeshes::Outdated> TerrainMeshes::outdated_cuts(Group& group, const Draws& draws,
+                                                                  terrain::TriangleBudget& budget) {
+    std::vector<Outdated> outdated;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
         if (entry.version == group.version && entry.error == draw->error &&
             entry.triangle_error == draw->triangle_error && entry.coarsening == group.coarsening) {
             budget.add(entry.triangles);
         } else {
-            cuts.tiles.push_back({draw, &entry});
+            outdated.push_back({draw, &entry});
         }
     }
+    return outdated;
+}
+
+// The triangles of the tiles that need others. Empty if all tiles together have too many.
+std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const Draws& draws) {
+    const bool by_error = std::holds_alternative<terrain::ErrorView>(group.coarseness);
+    const bool is_limited = by_error && !is_coarsest(group.coarsening);
+    terrain::TriangleBudget budget(group.max_triangles);
+    Cuts cuts;
+    cuts.tiles = outdated_cuts(group, draws, budget);
     const terrain::Bisection* const shared =
-        by_error && draws.front()->tile->borrows && !cuts.tiles.empty() ? &bisection_of(terrain)
-                                                                        : nullptr;
+        by_error && draws.front()->tile->borrows && !cuts.tiles.empty()
+            ? &bisection_of(*draws.front()->terrain)
+            : nullptr;
     cuts.meshes.resize(cuts.tiles.size());
     cuts.borders.resize(cuts.tiles.size());
     parallel_for(static_cast<int>(cuts.tiles.size()), [&](int i) {
@@ -282,7 +290,7 @@ std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const
             cuts.borders[at] = view::border_of(surface, cuts.meshes[at]);
         }
     });
-    return is_limited && budget.is_exceeded() ? std::nullopt : std::optional(std::move(cuts));
+    return is_limited && budget.is_exceeded() ? std::nullopt : std::make_optional(std::move(cuts));
 }
 
 // The same with the least coarsening that fits the terrain's number of triangles.

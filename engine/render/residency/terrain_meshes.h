@@ -97,7 +97,7 @@ private:
         std::vector<view::CutMesh> meshes;
         std::vector<view::TileBorder> borders;
     };
-    // A tile whose seams are to be made.
+    // A tile that needs new seams.
     struct Unseamed {
         const view::TileDraw* draw = nullptr;
         Entry* entry = nullptr;
@@ -119,6 +119,8 @@ private:
     Result<void> cut(const view::DrawList& list, Group& group, const Draws& draws,
                      view::FrameStats& stats);
     static void note_errors(const view::Coarseness& coarseness, const Draws& draws, Group& group);
+    static std::vector<Outdated> outdated_cuts(Group& group, const Draws& draws,
+                                               terrain::TriangleBudget& budget);
     Cuts cut_within_budget(Group& group, const Draws& draws);
     std::optional<Cuts> try_to_cut(Group& group, const Draws& draws);
     Result<void> keep(Cuts cuts, const Group& group, view::FrameStats& stats);

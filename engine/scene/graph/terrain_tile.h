@@ -68,8 +68,9 @@ inline constexpr std::size_t bytes_per_vertex =
     sizeof(glm::vec3) + sizeof(float) + sizeof(Rgba8) + 36 + 6 + bytes_of_bisection;
 inline constexpr std::size_t bytes_per_tile =
     bytes_per_vertex * (terrain::tree_tile_cells + 1) * (terrain::tree_tile_cells + 1);
-/// Memory of a triangle with an error bound and its vertices, on the CPU and on the GPU, bytes: half
-/// as many vertices as triangles, each with its place and twice with its attributes, and indices.
+/// Memory of a triangle with an error bound and its vertices, on the CPU and on the GPU, bytes:
+/// half as many vertices as triangles, each with its place and twice with its attributes, and
+/// indices.
 inline constexpr std::size_t bytes_per_triangle = (16 + 2 * 36) / 2 + 2 * 6;
 /// For texels beyond one per vertex; on the GPU with mipmaps.
 inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;

@@ -396,8 +396,8 @@ std::size_t bytes_read() {
     return bytes;
 }
 
-// A row of blocks exceeds the cache, so reads as wide as the raster would decode each block anew for
-// each of their rows.
+// A row of blocks exceeds the cache, so reads as wide as the raster would decode each block anew
+// for each of their rows.
 TEST_F(Raster, WithoutOverviewsDecodesNoBlockForEachRow) {
     constexpr int side = 2048;
     std::mt19937 random(3);
