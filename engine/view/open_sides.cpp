@@ -11,10 +11,6 @@ using terrain::TreeTile;
 
 constexpr std::array all_sides{TileSide::north, TileSide::east, TileSide::south, TileSide::west};
 
-bool runs_east(TileSide side) {
-    return side == TileSide::north || side == TileSide::south;
-}
-
 glm::ivec2 way_to(TileSide side) {
     switch (side) {
     case TileSide::north:
@@ -37,6 +33,10 @@ TreeTile parent_of(TreeTile tile) {
 
 TileSide opposite(TileSide side) {
     return all_sides[(static_cast<std::size_t>(side) + 2) % all_sides.size()];
+}
+
+bool runs_along_rows(TileSide side) {
+    return side == TileSide::north || side == TileSide::south;
 }
 
 DrawnTiles::DrawnTiles(const terrain::TileTree& tree, std::span<const TreeTile> tiles)
@@ -121,7 +121,7 @@ void DrawnTiles::add_undrawn(TreeTile beyond, TileSide side, std::vector<OpenSid
 OpenSide DrawnTiles::side_of(TreeTile tile, TileSide side) const {
     const glm::ivec2 first = terrain::TileTree::first(tile);
     const glm::ivec2 last = tree_.sample(tile, tree_.cells(tile));
-    const int axis = runs_east(side) ? 0 : 1;
+    const int axis = runs_along_rows(side) ? 0 : 1;
     return {side, static_cast<double>(first[axis]), static_cast<double>(last[axis]), {}};
 }
 

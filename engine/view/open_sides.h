@@ -12,6 +12,8 @@ namespace reljef::view {
 
 enum class TileSide : std::uint8_t { north, east, south, west };
 TileSide opposite(TileSide side);
+/// Whether columns, not rows, count along a side.
+bool runs_along_rows(TileSide side);
 
 /// A part of a tile's side where its triangles may end above or below what lies beyond.
 struct OpenSide {

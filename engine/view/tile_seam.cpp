@@ -12,10 +12,6 @@
 namespace reljef::view {
 namespace {
 
-bool runs_along_rows(TileSide side) {
-    return side == TileSide::north || side == TileSide::south;
-}
-
 // Whether a side runs from left to right, seen from outside.
 bool runs_right(TileSide side) {
     return side == TileSide::south || side == TileSide::west;

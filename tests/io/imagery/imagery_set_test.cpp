@@ -10,6 +10,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/io/raster/crs_transform.h"
 #include "tests/io/made_raster.h"
+#include "tests/support/bytes_read.h"
 #include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
@@ -61,14 +62,6 @@ MadeRaster plain(double west, double north, int side, double step, double value)
     raster.crs = utm_31;
     raster.geotransform = {west, step, 0.0, north, 0.0, -step};
     return raster;
-}
-
-std::size_t bytes_read_by_the_process() {
-    std::ifstream file("/proc/self/io");
-    std::string word;
-    std::size_t bytes = 0;
-    file >> word >> bytes; // rchar
-    return bytes;
 }
 
 class ImagerySets : public ::testing::Test {
@@ -200,9 +193,9 @@ TEST_F(ImagerySets, CoarseViewsReadTheOverviewThatIsJustFiner) {
     raster.overviews = {2, 4, 8, 16};
     add("a.tif", raster);
     const ImagerySet set = open({"a.tif"}, utm_31);
-    const std::size_t before = bytes_read_by_the_process();
+    const std::size_t before = test::bytes_read();
     const ImageryWindow window = set.read({{480032.0, 4999968.0}, {64.0, -64.0}, 127, 127}, 64.0);
-    const std::size_t bytes = bytes_read_by_the_process() - before;
+    const std::size_t bytes = test::bytes_read() - before;
     EXPECT_EQ(window.texels(60, 60), (Rgba8{90, 90, 90, 255}));
     EXPECT_TRUE(window.has_more);
     // Of 4 MB the sixteenth part of each side is 16 kB; the file's head and its last block come

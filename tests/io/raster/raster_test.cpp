@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <thread>
@@ -385,37 +384,6 @@ TEST_F(Raster, OverviewsAreUsedAndKeepTheirPlace) {
                         4.0 * col + 1.5 + 2.0 * (4.0 * row + 1.5), 1e-3);
         }
     }
-}
-
-// Bytes that this process asked the kernel for.
-std::size_t bytes_read() {
-    std::ifstream counters("/proc/self/io");
-    std::string name;
-    std::size_t bytes = 0;
-    counters >> name >> bytes; // rchar
-    return bytes;
-}
-
-// A row of blocks exceeds the cache, so reads as wide as the raster would decode each block anew
-// for each of their rows.
-TEST_F(Raster, WithoutOverviewsDecodesNoBlockForEachRow) {
-    constexpr int side = 2048;
-    std::mt19937 random(3);
-    MadeRaster raster = made_raster(side, side, [&](int, int) { return random() % 1000; });
-    raster.type = GDT_Int16;
-    raster.options = {"TILED=YES", "COMPRESS=DEFLATE"};
-    RasterOptions options;
-    options.memory_budget = 128 * 128 * bytes_per_sample;
-    const std::filesystem::path path = made(raster);
-    const GIntBig cache = GDALGetCacheMax64();
-    limit_block_cache(std::size_t{4 * 256 * 256 * 2}); // of 8 blocks side by side
-    const std::size_t before = bytes_read();
-    const auto terrain = read_terrain(path, options);
-    const std::size_t read = bytes_read() - before;
-    GDALSetCacheMax64(cache);
-    ASSERT_TRUE(terrain) << terrain.error().message;
-    EXPECT_EQ(terrain->heightfield.heights.cols(), 128);
-    EXPECT_LE(read, 3 * std::filesystem::file_size(path));
 }
 
 TEST_F(Raster, OverviewsOfAWindowKeepTheirPlace) {
