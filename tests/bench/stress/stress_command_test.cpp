@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -13,6 +14,7 @@ namespace reljef::bench {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // The fixed subset that guards every change; a minute at most on two quiet processors.
 TEST(StressCommand, QuickFindsNoFigureOverItsLimit) {
@@ -74,6 +76,18 @@ TEST(StressCommand, WritesThePageAndTheReportOfWhatWasAsked) {
     }
     EXPECT_EQ(stresses, (std::set<std::string>{"tangent frames", "depth order"}));
     EXPECT_THAT(test::read_bytes(page / "index.html"), HasSubstr("reljef-bench-stress/1"));
+}
+
+TEST(StressCommand, MadeFilesAreNamedWithoutTheirTemporaryFolder) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "stress.json";
+    const auto result =
+        test::reljef_bench({"stress", "--quick", "--quiet", "--context", "osmesa", "--only",
+                            "odd-file", "--technique", "texture", "--json", file.string()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string report = test::read_bytes(file);
+    EXPECT_THAT(report, HasSubstr("all-void.asc"));
+    EXPECT_THAT(report, Not(HasSubstr(std::filesystem::temp_directory_path().string())));
 }
 
 TEST(StressCommand, AnUnknownStressIsNamed) {
