@@ -272,7 +272,7 @@ TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
 /// A failure only costs time on the next start.
 Result<void> write_cache(const fs::path& file, const TileIndex& index) {
     const std::string bytes = bytes_of(index);
-    return write_cache_file(file, std::as_bytes(std::span(bytes)));
+    return write_cache_file(file, {std::as_bytes(std::span(bytes))});
 }
 
 /// The entry of an unchanged file; absent for others.

@@ -45,33 +45,61 @@ Relief relief_of_cell(GridView<const float> heights, int col, int row) {
     return {{height.first, height.second}, {east.first, east.second}, {south.first, south.second}};
 }
 
-Grid<Relief> coarser(const Grid<Relief>& fine) {
-    Grid<Relief> coarse((fine.cols() + 1) / 2, (fine.rows() + 1) / 2);
-    for (int row = 0; row < coarse.rows(); ++row) {
-        for (int col = 0; col < coarse.cols(); ++col) {
-            const int c = 2 * col;
-            const int r = 2 * row;
-            coarse(col, row) = joined(joined(fine.clamped(c, r), fine.clamped(c + 1, r)),
-                                      joined(fine.clamped(c, r + 1), fine.clamped(c + 1, r + 1)));
+// Bounds over blocks of 2^level × 2^level cells. Those of the cells are not stored, only their
+// heights.
+class ReliefPyramid {
+public:
+    // `heights` outlive the pyramid.
+    explicit ReliefPyramid(GridView<const float> heights) : heights_(heights) {
+        levels_.push_back(halved(cells(), [&](int col, int row) { return cell({col, row}); }));
+        while (levels_.back().size() > 1) {
+            const Grid<Relief>& fine = levels_.back();
+            levels_.push_back(
+                halved({fine.cols(), fine.rows()},
+                       [&](int col, int row) -> const Relief& { return fine(col, row); }));
         }
     }
-    return coarse;
-}
 
-std::vector<Grid<Relief>> relief_pyramid(GridView<const float> heights) {
-    std::vector<Grid<Relief>> levels;
-    Grid<Relief> cells(heights.cols() - 1, heights.rows() - 1);
-    for (int row = 0; row < cells.rows(); ++row) {
-        for (int col = 0; col < cells.cols(); ++col) {
-            cells(col, row) = relief_of_cell(heights, col, row);
+    [[nodiscard]] glm::ivec2 cells() const { return {heights_.cols() - 1, heights_.rows() - 1}; }
+    [[nodiscard]] int last_level() const { return static_cast<int>(levels_.size()); }
+    // Precondition: 0 to last_level().
+    [[nodiscard]] glm::ivec2 size(int level) const {
+        return level == 0 ? cells() : glm::ivec2(stored(level).cols(), stored(level).rows());
+    }
+    [[nodiscard]] Relief cell(glm::ivec2 at) const { return relief_of_cell(heights_, at.x, at.y); }
+    [[nodiscard]] Relief block(int level, glm::ivec2 at) const {
+        return level == 0 ? cell(at) : stored(level)(at.x, at.y);
+    }
+    [[nodiscard]] Grid<Relief> window(glm::ivec2 begin, glm::ivec2 end) const {
+        Grid<Relief> window(end.x - begin.x, end.y - begin.y);
+        for (int row = 0; row < window.rows(); ++row) {
+            for (int col = 0; col < window.cols(); ++col) {
+                window(col, row) = cell(begin + glm::ivec2(col, row));
+            }
         }
+        return window;
     }
-    levels.push_back(std::move(cells));
-    while (levels.back().size() > 1) {
-        levels.push_back(coarser(levels.back()));
+
+private:
+    [[nodiscard]] const Grid<Relief>& stored(int level) const {
+        return levels_[static_cast<std::size_t>(level) - 1];
     }
-    return levels;
-}
+    template <class At> static Grid<Relief> halved(glm::ivec2 size, const At& at) {
+        Grid<Relief> coarse((size.x + 1) / 2, (size.y + 1) / 2);
+        for (int row = 0; row < coarse.rows(); ++row) {
+            for (int col = 0; col < coarse.cols(); ++col) {
+                const glm::ivec2 first(2 * col, 2 * row);
+                const glm::ivec2 last = glm::min(first + 1, size - 1);
+                coarse(col, row) = joined(joined(at(first.x, first.y), at(last.x, first.y)),
+                                          joined(at(first.x, last.y), at(last.x, last.y)));
+            }
+        }
+        return coarse;
+    }
+
+    GridView<const float> heights_;
+    std::vector<Grid<Relief>> levels_; // from level 1
+};
 
 float max_slope(const Relief& relief) {
     const float east = std::max(-relief.east.low, relief.east.high);
@@ -112,17 +140,24 @@ float slope_bound(const Relief& block, ConeKind kind) {
 // cells' own extents are a large part of the distance.
 constexpr int near_cells = 8;
 
-// Element n: for cells up to n away. Fewer elements when stopped.
-std::vector<Grid<float>> slope_bounds(const Grid<Relief>& cells, ConeKind kind,
-                                      const std::stop_token& stop) {
-    std::vector<Grid<float>> bounds;
-    Grid<Relief> blocks = cells;
-    for (int n = 0; n <= near_cells && !stop.stop_requested(); ++n) {
-        Grid<float> slopes(cells.cols(), cells.rows());
-        for (std::size_t i = 0; i < cells.size(); ++i) {
+// Bounds of slopes around some cells.
+struct SlopeBounds {
+    glm::ivec2 begin{0};            // cell
+    std::vector<Grid<float>> grids; // element n: for cells up to n away
+};
+
+// Valid for the cells `first` to `last`.
+SlopeBounds slope_bounds(const ReliefPyramid& pyramid, ConeKind kind, glm::ivec2 first,
+                         glm::ivec2 last) {
+    SlopeBounds bounds{glm::max(first - near_cells, glm::ivec2(0)), {}};
+    Grid<Relief> blocks =
+        pyramid.window(bounds.begin, glm::min(last + near_cells + 1, pyramid.cells()));
+    for (int n = 0; n <= near_cells; ++n) {
+        Grid<float> slopes(blocks.cols(), blocks.rows());
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
             slopes.samples()[i] = slope_bound(blocks.samples()[i], kind);
         }
-        bounds.push_back(std::move(slopes));
+        bounds.grids.push_back(std::move(slopes));
         blocks = widened(blocks);
     }
     return bounds;
@@ -188,14 +223,13 @@ float ratio_of(float slope) {
 
 class ConeFinder {
 public:
-    // `slopes` begin at the cell `slopes_begin`.
-    ConeFinder(const std::vector<Grid<Relief>>& levels, const std::vector<Grid<float>>& slopes,
-               ConeKind kind, glm::ivec2 slopes_begin = {0, 0})
-        : levels_(levels), cells_(levels.front()), slope_bounds_(slopes),
-          relaxed_(kind == ConeKind::relaxed), slopes_begin_(slopes_begin) {}
+    ConeFinder(const ReliefPyramid& pyramid, const SlopeBounds& slopes, ConeKind kind)
+        : pyramid_(pyramid), slopes_(slopes), relaxed_(kind == ConeKind::relaxed) {}
 
+    // Precondition: the slopes are valid for the cell.
     float ratio(glm::ivec2 cell) {
         cell_ = cell;
+        own_ = pyramid_.cell(cell);
         ratio_ =
             std::min(max_cone_ratio, relaxed_ ? near_relaxed_ratio() : ratio_of(slope_within(1)));
         if (limit_.x >= 0) {
@@ -212,14 +246,15 @@ private:
     };
 
     [[nodiscard]] float slope_within(int cells) const {
-        const glm::ivec2 at = cell_ - slopes_begin_;
-        return slope_bounds_[static_cast<std::size_t>(cells)](at.x, at.y);
+        const glm::ivec2 at = cell_ - slopes_.begin;
+        return slopes_.grids[static_cast<std::size_t>(cells)](at.x, at.y);
     }
 
-    [[nodiscard]] const Relief* neighbour(int east, int south) const {
+    [[nodiscard]] std::optional<Relief> neighbour(int east, int south) const {
         const glm::ivec2 at = cell_ + glm::ivec2(east, south);
-        const bool exists = at.x >= 0 && at.y >= 0 && at.x < cells_.cols() && at.y < cells_.rows();
-        return exists ? &cells_(at.x, at.y) : nullptr;
+        const glm::ivec2 end = pyramid_.cells();
+        const bool exists = at.x >= 0 && at.y >= 0 && at.x < end.x && at.y < end.y;
+        return exists ? std::optional(pyramid_.cell(at)) : std::nullopt;
     }
 
     // For ways that end falling in a neighbour. They rise with the slopes of the cell and of the
@@ -228,17 +263,17 @@ private:
     [[nodiscard]] float near_relaxed_ratio() const {
         float slope = own_slope();
         for (const Quadrant quadrant : quadrants) {
-            const Relief* east = neighbour(quadrant.east, 0);
-            const Relief* south = neighbour(0, quadrant.south);
-            const Relief* beyond = neighbour(quadrant.east, quadrant.south);
-            for (const Relief* end : {east, south, beyond}) {
-                const auto fan = end == nullptr ? std::nullopt : falling(*end, quadrant);
+            const auto east = neighbour(quadrant.east, 0);
+            const auto south = neighbour(0, quadrant.south);
+            const auto beyond = neighbour(quadrant.east, quadrant.south);
+            for (const auto* end : {&east, &south, &beyond}) {
+                const auto fan = *end ? falling(**end, quadrant) : std::nullopt;
                 if (!fan) {
                     continue;
                 }
-                slope = std::max({slope, max_slope_in(cells_(cell_.x, cell_.y), quadrant, *fan),
-                                  0.5F * max_slope_in(*end, quadrant, *fan)});
-                if (end == beyond) {
+                slope = std::max({slope, max_slope_in(own_, quadrant, *fan),
+                                  0.5F * max_slope_in(**end, quadrant, *fan)});
+                if (end == &beyond) {
                     slope = std::max({slope, max_slope_in(*east, quadrant, *fan),
                                       max_slope_in(*south, quadrant, *fan)});
                 }
@@ -250,13 +285,12 @@ private:
     // Between two points of a patch, falling at the end: half the steepest slope; and, because only
     // the twist bends a patch along a line, at most twist / √2.
     [[nodiscard]] float own_slope() const {
-        const Relief& own = cells_(cell_.x, cell_.y);
-        const float twist = own.east.high - own.east.low;
-        return std::min(0.5F * max_slope(own), twist / std::sqrt(2.0F));
+        const float twist = own_.east.high - own_.east.low;
+        return std::min(0.5F * max_slope(own_), twist / std::sqrt(2.0F));
     }
 
     void test_all_cells() {
-        stack_.push_back({static_cast<int>(levels_.size()) - 1, {0, 0}});
+        stack_.push_back({pyramid_.last_level(), {0, 0}});
         while (!stack_.empty()) {
             const Block block = stack_.back();
             stack_.pop_back();
@@ -273,14 +307,14 @@ private:
     // The nearest part is on top.
     void push_parts(const Block& block) {
         const int level = block.level - 1;
-        const Grid<Relief>& grid = levels_[static_cast<std::size_t>(level)];
+        const glm::ivec2 end = pyramid_.size(level);
         const glm::ivec2 first = 2 * block.at;
         const int near_east = (cell_.x >> level) > first.x ? 1 : 0;
         const int near_south = (cell_.y >> level) > first.y ? 1 : 0;
         for (const glm::ivec2 part :
              {glm::ivec2(1, 1), glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(0, 0)}) {
             const glm::ivec2 at = first + glm::ivec2(part.x ^ near_east, part.y ^ near_south);
-            if (at.x < grid.cols() && at.y < grid.rows()) {
+            if (at.x < end.x && at.y < end.y) {
                 stack_.push_back({level, at});
             }
         }
@@ -293,8 +327,8 @@ private:
     static float gap_to(Bounds offset) { return std::max({offset.low, -offset.high, 0.0F}); }
 
     [[nodiscard]] bool may_limit(int level, glm::ivec2 at) const {
-        const Relief& block = levels_[static_cast<std::size_t>(level)](at.x, at.y);
-        const float rise = block.height.high - cells_(cell_.x, cell_.y).height.low;
+        const Relief block = pyramid_.block(level, at);
+        const float rise = block.height.high - own_.height.low;
         if (!(rise > 0.0F)) {
             return false;
         }
@@ -317,7 +351,7 @@ private:
             return;
         }
         const float gap = glm::length(glm::vec2(glm::max(away - 1, glm::ivec2(0))));
-        const float rise = cells_(at.x, at.y).height.high - cells_(cell_.x, cell_.y).height.low;
+        const float rise = pyramid_.cell(at).height.high - own_.height.low;
         const float by_slope = cells <= near_cells ? ratio_of(slope_within(cells)) : 0.0F;
         const float found = std::max(gap / rise, by_slope);
         if (found < ratio_) {
@@ -326,29 +360,23 @@ private:
         }
     }
 
-    const std::vector<Grid<Relief>>& levels_;
-    const Grid<Relief>& cells_;
-    const std::vector<Grid<float>>& slope_bounds_;
+    const ReliefPyramid& pyramid_;
+    const SlopeBounds& slopes_;
     bool relaxed_;
-    glm::ivec2 slopes_begin_;
     glm::ivec2 cell_{0};
+    Relief own_; // of cell_
     float ratio_ = 0.0F;
     glm::ivec2 limit_{-1};
     std::vector<Block> stack_;
 };
 
 // The ratio of one cell: the slope bounds need its surroundings only.
-float ratio_of_cell(const std::vector<Grid<Relief>>& levels, ConeKind kind, glm::ivec2 cell) {
-    const Grid<Relief>& cells = levels.front();
-    const glm::ivec2 begin = glm::max(cell - near_cells, glm::ivec2(0));
-    const glm::ivec2 end = glm::min(cell + near_cells + 1, glm::ivec2(cells.cols(), cells.rows()));
-    Grid<Relief> around(end.x - begin.x, end.y - begin.y);
-    for (int row = begin.y; row < end.y; ++row) {
-        std::copy_n(cells.row(row).begin() + begin.x, around.cols(),
-                    around.row(row - begin.y).begin());
-    }
-    return ConeFinder(levels, slope_bounds(around, kind, {}), kind, begin).ratio(cell);
+float ratio_of_cell(const ReliefPyramid& pyramid, ConeKind kind, glm::ivec2 cell) {
+    return ConeFinder(pyramid, slope_bounds(pyramid, kind, cell, cell), kind).ratio(cell);
 }
+
+// Rows of cells that share slope bounds: more rows need more memory, fewer more time.
+constexpr int rows_at_once = 16;
 
 // The order of the tests changes a ratio by a few roundings.
 constexpr float max_difference = 0x1p-20F; // relative
@@ -369,18 +397,25 @@ glm::ivec2 spread_cell(int i, glm::ivec2 cells) {
 std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind,
                                     const ParallelOptions& parallel) {
     check(heights.cols() >= 2 && heights.rows() >= 2, "cones need at least 2x2 samples");
-    const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
-    const std::vector<Grid<float>> slopes = slope_bounds(levels.front(), kind, parallel.stop);
+    const ReliefPyramid pyramid(heights);
     Grid<float> ratios(heights.cols() - 1, heights.rows() - 1);
-    const bool done = parallel_for(
-        ratios.rows(),
-        [&](int row) {
-            ConeFinder finder(levels, slopes, kind);
+    const auto find_rows = [&](int first, int last) {
+        const SlopeBounds slopes =
+            slope_bounds(pyramid, kind, {0, first}, {ratios.cols() - 1, last});
+        ConeFinder finder(pyramid, slopes, kind);
+        for (int row = first; row <= last && !parallel.stop.stop_requested(); ++row) {
             for (int col = 0; col < ratios.cols(); ++col) {
                 ratios(col, row) = finder.ratio({col, row});
             }
-        },
-        parallel);
+        }
+    };
+    const bool done =
+        parallel_for((ratios.rows() + rows_at_once - 1) / rows_at_once,
+                     [&](int index) {
+                         const int first = index * rows_at_once;
+                         find_rows(first, std::min(first + rows_at_once, ratios.rows()) - 1);
+                     },
+                     parallel);
     return done ? std::optional(std::move(ratios)) : std::nullopt;
 }
 
@@ -406,11 +441,11 @@ bool are_cones_of(const ConeMaps& cones, GridView<const float> heights) {
     if (!in_range(cones.plain) || !in_range(cones.relaxed)) {
         return false;
     }
-    const std::vector<Grid<Relief>> levels = relief_pyramid(heights);
+    const ReliefPyramid pyramid(heights);
     for (int i = 0; i < checked_cells; ++i) {
         const glm::ivec2 cell = spread_cell(i, {cones.plain.cols(), cones.plain.rows()});
         const auto is_right = [&](const Grid<float>& ratios, ConeKind kind) {
-            return is_about(ratios(cell.x, cell.y), ratio_of_cell(levels, kind, cell));
+            return is_about(ratios(cell.x, cell.y), ratio_of_cell(pyramid, kind, cell));
         };
         if (!is_right(cones.plain, ConeKind::plain) ||
             !is_right(cones.relaxed, ConeKind::relaxed)) {

@@ -74,7 +74,7 @@ void set_places(const Surround& around, const terrain::Placement& placement, Ter
 Grid<terrain::MinMax> blocks_of(const Grid<float>& heights) {
     const terrain::MinMaxPyramid pyramid(heights.view());
     constexpr int level = std::countr_zero(static_cast<unsigned>(cells_per_block));
-    return pyramid.level(std::min(level, pyramid.levels() - 1));
+    return pyramid.level(std::min(level, pyramid.last_level()));
 }
 
 double error_of(const Grid<float>& heights) {

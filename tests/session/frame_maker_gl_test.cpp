@@ -89,6 +89,7 @@ TerrainScene waves_with(double spacing, terrain::PlacementKind placement,
     Log silent;
     SceneOptions view;
     view.size = picture;
+    view.max_error = 0.1; // a pixel shows up to two samples and a half
     return std::move(*open_scene(source, view, silent));
 }
 

@@ -115,7 +115,8 @@ Result<std::optional<std::string>> read_cache_file(const fs::path& path, std::si
     return std::optional(std::move(bytes));
 }
 
-Result<void> write_cache_file(const fs::path& path, std::span<const std::byte> bytes) {
+Result<void> write_cache_file(const fs::path& path,
+                              std::initializer_list<std::span<const std::byte>> parts) {
     const fs::path folder = path.parent_path();
     std::error_code ignored;
     make_folder(folder);
@@ -129,8 +130,12 @@ Result<void> write_cache_file(const fs::path& path, std::span<const std::byte> b
         return file.error();
     }
     fs::permissions(file->temporary(), fs::perms::owner_read | fs::perms::owner_write, ignored);
-    auto written = file->write(bytes);
-    return written ? file->commit() : written;
+    for (const std::span<const std::byte> part : parts) {
+        if (auto written = file->write(part); !written) {
+            return written;
+        }
+    }
+    return file->commit();
 }
 
 } // namespace reljef::io

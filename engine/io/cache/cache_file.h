@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,8 +24,10 @@ enum class CacheAccess { read, write };
 Result<std::optional<Descriptor>> open_cache_file(const std::filesystem::path& path,
                                                   CacheAccess access);
 
-/// Writes a file that only this user can read. Makes the folder, for this user only, on demand.
-/// Fails as read_cache_file, and if the file cannot be written; then nothing of it is left.
-Result<void> write_cache_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+/// Writes a file of some parts that only this user can read. Makes the folder, for this user only,
+/// on demand. Fails as read_cache_file, and if the file cannot be written; then nothing of it is
+/// left.
+Result<void> write_cache_file(const std::filesystem::path& path,
+                              std::initializer_list<std::span<const std::byte>> parts);
 
 } // namespace reljef::io

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -29,7 +29,7 @@ struct CacheKind {
 constexpr CacheKind cone_kind{
     {'r', 'e', 'l', 'c', 'o', 'n', 'e', 's'}, 1, "the cones of these heights", "cones"};
 constexpr CacheKind bisection_kind{
-    {'r', 'e', 'l', 's', 'p', 'l', 'i', 't'}, 1, "the error bounds of these heights", "bisection"};
+    {'r', 'e', 'l', 's', 'p', 'l', 'i', 't'}, 2, "the error bounds of these heights", "bisection"};
 
 struct CacheKey {
     CacheKind kind;
@@ -41,7 +41,7 @@ struct CacheKey {
     }
 };
 
-// Start of a cache file; floats follow.
+// Start of a cache file; numbers of four bytes follow.
 struct CacheHeader {
     std::array<char, 8> magic{};
     std::uint32_t version = 0;
@@ -94,14 +94,15 @@ CacheKey bisection_key(const terrain::Heightfield& heightfield,
             word_hash<std::uint64_t, double>(numbers, hash_of(heightfield.heights.view()))};
 }
 
-CacheHeader header_of(const CacheKey& key, std::span<const float> numbers) {
+template <class Number>
+CacheHeader header_of(const CacheKey& key, std::span<const Number> numbers) {
     CacheHeader header;
     header.magic = key.kind.magic;
     header.version = key.kind.version;
     header.cols = key.size.x;
     header.rows = key.size.y;
     header.source = key.source;
-    header.numbers = word_hash<std::uint32_t, float>(numbers);
+    header.numbers = word_hash<std::uint32_t>(numbers);
     return header;
 }
 
@@ -112,11 +113,12 @@ Error unusable(const fs::path& path, const CacheKind& kind, std::string_view fou
                              kind.name, kind.version, computed_again)};
 }
 
-// Reads and verifies `count` floats; absent if there is no file.
-Result<std::optional<std::vector<float>>> read_numbers(const fs::path& path, const CacheKey& key,
-                                                       std::size_t count) {
-    using Numbers = std::optional<std::vector<float>>;
-    const std::size_t expected_bytes = sizeof(CacheHeader) + count * sizeof(float);
+// Reads and verifies `count` numbers; absent if there is no file.
+template <class Number>
+Result<std::optional<std::vector<Number>>> read_numbers(const fs::path& path, const CacheKey& key,
+                                                        std::size_t count) {
+    using Numbers = std::optional<std::vector<Number>>;
+    const std::size_t expected_bytes = sizeof(CacheHeader) + count * sizeof(Number);
     const auto file = read_cache_file(path, expected_bytes);
     if (!file) {
         return Error{fmt::format("{}{}", file.error().message, computed_again)};
@@ -128,7 +130,7 @@ Result<std::optional<std::vector<float>>> read_numbers(const fs::path& path, con
     if (bytes.size() != expected_bytes) {
         return unusable(path, key.kind, fmt::format("a length of {} bytes", bytes.size()));
     }
-    std::vector<float> numbers(count);
+    std::vector<Number> numbers(count);
     const auto content = std::as_writable_bytes(std::span(numbers));
     CacheHeader header;
     std::memcpy(&header, bytes.data(), sizeof(header));
@@ -136,30 +138,27 @@ Result<std::optional<std::vector<float>>> read_numbers(const fs::path& path, con
         return unusable(path, key.kind, fmt::format("version {}", header.version));
     }
     std::memcpy(content.data(), bytes.data() + sizeof(header), content.size());
-    const CacheHeader expected = header_of(key, numbers);
+    const CacheHeader expected = header_of<Number>(key, numbers);
     if (std::memcmp(&header, &expected, sizeof(header)) != 0) {
         return unusable(path, key.kind, "a wrong checksum");
     }
     return Numbers(std::move(numbers));
 }
 
+template <class Number>
 Result<void> write_numbers(const fs::path& path, const CacheKey& key,
-                           std::span<const float> numbers) {
+                           std::span<const Number> numbers) {
     const CacheHeader header = header_of(key, numbers);
-    const auto start = std::as_bytes(std::span(&header, 1));
-    const auto content = std::as_bytes(numbers);
-    std::vector<std::byte> bytes(start.begin(), start.end());
-    bytes.insert(bytes.end(), content.begin(), content.end());
-    return write_cache_file(path, bytes);
+    return write_cache_file(path, {std::as_bytes(std::span(&header, 1)), std::as_bytes(numbers)});
 }
 
 // The value of a file; absent if there is none, null if stopped.
-template <class T, class Restore, class IsValid>
+template <class T, class Number, class Restore, class IsValid>
 Result<std::optional<std::shared_ptr<const T>>>
 read_value(const fs::path& path, const CacheKey& key, std::size_t count, const Restore& restore,
            const IsValid& is_valid) {
     using Value = std::optional<std::shared_ptr<const T>>;
-    const auto numbers = read_numbers(path, key, count);
+    const auto numbers = read_numbers<Number>(path, key, count);
     if (!numbers) {
         return numbers.error();
     }
@@ -173,7 +172,8 @@ read_value(const fs::path& path, const CacheKey& key, std::size_t count, const R
 // `restore(numbers)` and `compute()` return null if stopped; `numbers_of` is the inverse of
 // `restore`, and `is_valid(numbers, value)` finds nonsense. `make_key` is called only if there is a
 // folder.
-template <class T, class MakeKey, class Restore, class IsValid, class Compute, class NumbersOf>
+template <class T, class Number, class MakeKey, class Restore, class IsValid, class Compute,
+          class NumbersOf>
 std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
                                 const MakeKey& make_key, const Restore& restore,
                                 const IsValid& is_valid, const Compute& compute,
@@ -182,7 +182,7 @@ std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
     const CacheKey key = options.folder ? make_key() : CacheKey();
     const fs::path path = key.file_in(options.folder.value_or(fs::path()));
     if (options.folder) {
-        auto found = read_value<T>(path, key, count, restore, is_valid);
+        auto found = read_value<T, Number>(path, key, count, restore, is_valid);
         if (found && *found) {
             result.value = std::move(**found);
             return result.value ? std::optional(result) : std::nullopt;
@@ -195,20 +195,18 @@ std::optional<Cached<T>> cached(const CacheOptions& options, std::size_t count,
         return std::nullopt;
     }
     if (options.folder && watch.seconds() >= options.min_seconds) {
-        const auto written = write_numbers(path, key, numbers_of(*result.value));
+        const auto written = write_numbers<Number>(path, key, numbers_of(*result.value));
         result.note = written ? result.note : written.error().message;
     }
     return result;
 }
 
-// Errors and radii alternate; an infinite error forces a split.
-bool are_in_range(std::span<const float> bounds) {
-    bool in_range = true;
-    for (std::size_t i = 0; i < bounds.size(); i += 2) {
-        in_range =
-            in_range && bounds[i] >= 0.0F && bounds[i + 1] >= 0.0F && std::isfinite(bounds[i + 1]);
-    }
-    return in_range;
+// An infinite error forces a split.
+bool are_in_range(std::span<const terrain::SplitBounds> bounds) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    return std::all_of(bounds.begin(), bounds.end(), [](const terrain::SplitBounds& split) {
+        return split.error.value() <= infinity && split.radius.value() < infinity;
+    });
 }
 
 } // namespace
@@ -256,7 +254,7 @@ std::optional<Cached<material::ConeMaps>> cached_cones(GridView<const float> uni
         numbers.insert(numbers.end(), relaxed.begin(), relaxed.end());
         return numbers;
     };
-    return cached<ConeMaps>(
+    return cached<ConeMaps, float>(
         options, 2 * count, [&] { return cone_key(unit_heights); }, restore,
         [&](const std::vector<float>&, const ConeMaps& cones) {
             return material::are_cones_of(cones, unit_heights);
@@ -272,7 +270,7 @@ std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Height
     const auto unless_stopped = [&](Shared bisection) {
         return options.parallel.stop.stop_requested() ? Shared() : std::move(bisection);
     };
-    const auto restore = [&](const std::vector<float>& bounds) {
+    const auto restore = [&](const std::vector<terrain::SplitBounds>& bounds) {
         return unless_stopped(
             std::make_shared<const Bisection>(heightfield, placement, bounds, options.parallel));
     };
@@ -282,10 +280,10 @@ std::optional<Cached<terrain::Bisection>> cached_bisection(const terrain::Height
     };
     const std::size_t count =
         Bisection::bounds_count({heightfield.heights.cols(), heightfield.heights.rows()});
-    return cached<Bisection>(
+    return cached<Bisection, terrain::SplitBounds>(
         options, count, [&] { return bisection_key(heightfield, placement); }, restore,
-        [&](const std::vector<float>& bounds, const Bisection& bisection) {
-            const std::uint64_t hash = word_hash<std::uint32_t, float>(bounds);
+        [&](const std::vector<terrain::SplitBounds>& bounds, const Bisection& bisection) {
+            const std::uint64_t hash = word_hash<std::uint32_t, terrain::SplitBounds>(bounds);
             return are_in_range(bounds) &&
                    bisection.is_valid(static_cast<std::uint32_t>(hash >> 32U), options.parallel);
         },

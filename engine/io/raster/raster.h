@@ -36,7 +36,8 @@ struct RasterOptions {
     std::stop_token stop;
 };
 
-/// Bytes per sample of a drawn terrain: height, vertex, gradient, colour with mipmaps, void mask.
+/// Bounds the memory of a terrain in bytes per sample, with any technique: heights, their pyramid,
+/// error bounds or cones, and textures (Memory.StaysWithinTheBudget).
 inline constexpr std::size_t bytes_per_sample = 40;
 
 /// Maximum side of a draped image, pixels.

@@ -15,17 +15,18 @@ struct MinMax {
 };
 
 /// Bounds of a bilinear height surface over blocks of 2^level × 2^level cells. A cell lies between
-/// four samples. Level 0 has (cols−1)×(rows−1) blocks, the last level one. The bounds are exact: a
-/// bilinear patch has its extrema at its corners.
+/// four samples. The last level has one block. Level 0, the cells, is not stored: its four samples
+/// are there. The bounds are exact: a bilinear patch has its extrema at its corners.
 class MinMaxPyramid {
 public:
     MinMaxPyramid() = default;
     /// Precondition: at least 2×2 samples.
     explicit MinMaxPyramid(GridView<const float> heights);
 
-    [[nodiscard]] int levels() const { return static_cast<int>(levels_.size()); }
+    [[nodiscard]] int last_level() const { return static_cast<int>(levels_.size()); }
+    /// Precondition: 1 to last_level().
     [[nodiscard]] const Grid<MinMax>& level(int index) const {
-        return levels_[static_cast<std::size_t>(index)];
+        return levels_[static_cast<std::size_t>(index) - 1];
     }
     /// Of the whole surface. Precondition: not default-constructed.
     [[nodiscard]] MinMax total() const { return levels_.back()(0, 0); }
@@ -34,7 +35,7 @@ public:
     [[nodiscard]] MinMax bounds(glm::ivec2 first, glm::ivec2 last) const;
 
 private:
-    std::vector<Grid<MinMax>> levels_;
+    std::vector<Grid<MinMax>> levels_; // from level 1
 };
 
 } // namespace reljef::terrain

@@ -74,7 +74,7 @@ public:
     // `side`: of the ray before its range begins.
     Traversal(const SurfaceTile& tile, const Ray& ray, Side side)
         : heights_(tile.heights), pyramid_(*tile.pyramid), first_(tile.first), ray_(ray),
-          inverse_(inverse_of(ray)), side_(side), level_(pyramid_.levels() - 1) {}
+          inverse_(inverse_of(ray)), side_(side), level_(pyramid_.last_level()) {}
 
     std::optional<double> run(Interval range) {
         begin_ = range.begin;
@@ -136,9 +136,8 @@ private:
     }
 
     [[nodiscard]] bool is_inside() const {
-        const Grid<MinMax>& blocks = pyramid_.level(level_);
-        return block_.x >= 0 && block_.y >= 0 && block_.x < blocks.cols() &&
-               block_.y < blocks.rows();
+        return block_.x >= 0 && block_.y >= 0 && block_.x << level_ < last(0) &&
+               block_.y << level_ < last(1);
     }
 
     [[nodiscard]] bool has_escaped() const {
@@ -213,7 +212,7 @@ private:
     void advance(bool along_x, bool along_y) {
         const bool left_parent_x = along_x && leave_block(0);
         const bool left_parent_y = along_y && leave_block(1);
-        if ((left_parent_x || left_parent_y) && level_ + 1 < pyramid_.levels() && is_inside()) {
+        if ((left_parent_x || left_parent_y) && level_ < pyramid_.last_level() && is_inside()) {
             ++level_;
             block_ = block_ / 2;
         }

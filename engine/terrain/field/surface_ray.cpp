@@ -58,8 +58,7 @@ std::optional<MinMax> bounds_in_tile(const TiledSurface& surface, glm::ivec2 at,
     if (tile == nullptr) {
         return surface.range(at);
     }
-    const Grid<MinMax>& cells = tile->pyramid->level(0);
-    const glm::ivec2 far(cells.cols() - 1, cells.rows() - 1);
+    const glm::ivec2 far(tile->heights.cols() - 2, tile->heights.rows() - 2); // cell
     return tile->pyramid->bounds(glm::clamp(first - tile->first, glm::ivec2(0), far),
                                  glm::clamp(last - tile->first, glm::ivec2(0), far));
 }

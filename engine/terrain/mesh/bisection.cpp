@@ -40,11 +40,9 @@ constexpr double must_split = std::numeric_limits<double>::infinity();
 // Spheres grow by this factor from child to parent, for the rounding of sums and positions.
 constexpr double sphere_growth = 1.0 + 0x1p-20;
 
-float rounded_up(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest >= value ? nearest
-                            : std::nextafter(nearest, std::numeric_limits<float>::infinity());
-}
+// Error of the spheres' centres on an ellipsoid, of the distance between samples. The radii grow by
+// it; those of the smallest splits at samples are one and a half such distances.
+constexpr double max_share_of_step = 0x1p-5;
 
 // Calls `body(first, last)` for runs of `at_once` of [0, count), from several threads.
 template <class Body>
@@ -145,9 +143,9 @@ public:
 
     void build(Bisection& result, const ParallelOptions& parallel) const {
         for_each_split(parallel, [&](glm::ivec2 place) {
-            StoredSplit split = enclosing_children(place);
-            split.error = std::max(split.error, own_error(place));
-            result.stored(place, size_, on_side_) = split;
+            SplitBounds bounds = enclosing_children(place);
+            bounds.error = std::max(bounds.error, own_error(place));
+            result.stored(place, size_, on_side_) = {bounds, bisection_.heights_(place.x, place.y)};
         });
     }
 
@@ -156,9 +154,9 @@ public:
         for_each_split(parallel, [&](glm::ivec2 place) {
             const bool checks_own = is_checked(glm::uvec2(place), seed);
             if (checks_own || size_ >= min_size_all_nested) {
-                const StoredSplit& found = bisection_.stored(place, size_, on_side_);
-                const StoredSplit minimum = enclosing_children(place);
-                const float own = checks_own ? own_error(place) : found.error;
+                const SplitBounds& found = bisection_.stored(place, size_, on_side_).bounds;
+                const SplitBounds minimum = enclosing_children(place);
+                const UpperBound own = checks_own ? own_error(place) : found.error;
                 if (found.error != std::max(minimum.error, own) || found.radius != minimum.radius) {
                     valid = false;
                 }
@@ -187,7 +185,7 @@ private:
         });
     }
 
-    [[nodiscard]] StoredSplit enclosing_children(glm::ivec2 place) const {
+    [[nodiscard]] SplitBounds enclosing_children(glm::ivec2 place) const {
         double error = 0.0;
         double radius = 0.0;
         const glm::dvec3 center = bisection_.position(place.x, place.y);
@@ -195,16 +193,15 @@ private:
             error = std::max(error, child.error);
             radius = std::max(radius, glm::distance(center, child.center) + child.radius);
         });
-        return {rounded_up(error), rounded_up(radius * sphere_growth),
-                bisection_.heights_(place.x, place.y)};
+        return {UpperBound(error), UpperBound(radius * sphere_growth)};
     }
 
-    [[nodiscard]] float own_error(glm::ivec2 place) const {
+    [[nodiscard]] UpperBound own_error(glm::ivec2 place) const {
         double error = 0.0;
         for (const SampleTriangle& triangle : halved_at(place, size_, on_side_)) {
             error = std::max(error, error_of(triangle));
         }
-        return rounded_up(error);
+        return UpperBound(error);
     }
 
     double error_of(const SampleTriangle& triangle) const {
@@ -264,22 +261,19 @@ Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
       shorter_from_(placement.lattice() != nullptr
                         ? placement.lattice()->shorter_from()
                         : glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
-      is_regular_(placement.kind() == PlacementKind::plane && placement.lattice() == nullptr),
-      middle_(0.5 * glm::dvec2(heights_.cols() - 1, heights_.rows() - 1)),
-      metres_(heightfield.spacing, placement.exaggeration()),
-      bending_(bending_of(heightfield, placement)), min_size_(min_size_for(heightfield)) {
+      bending_(bending_of(heightfield, placement)),
+      positions_(heightfield, placement, bending_.curvature, max_share_of_step * bending_.stretch),
+      min_size_(min_size_for(heightfield)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
     const glm::ivec2 samples(heights_.cols(), heights_.rows());
-    for (std::size_t level = 0; level < levels; ++level) {
+    for (std::size_t level = 1; level < levels; ++level) {
         const glm::ivec2 middles = splits_in_middles(samples, level);
+        const glm::ivec2 sides = splits_on_sides(samples, level);
         in_middles_[level] = Grid<StoredSplit>(middles.x, middles.y);
-        if (level > 0) {
-            const glm::ivec2 sides = splits_on_sides(samples, level);
-            on_sides_[level] = Grid<StoredSplit>(sides.x, sides.y);
-        }
+        on_sides_[level] = Grid<StoredSplit>(sides.x, sides.y);
     }
-    store_positions(parallel);
-    for_runs(in_middles_[0].rows(), samples_at_once, parallel,
+    cells_ = Grid<SplitBounds>(samples.x - 1, samples.y - 1);
+    for_runs(cells_.rows(), samples_at_once, parallel,
              [&](int first, int last) { store_cell_rows(first, last); });
 }
 
@@ -343,56 +337,27 @@ int Bisection::min_size_for(const Heightfield& heightfield) const {
     return steps_per_sample / (height > max_height * spacing ? 64 : 2048);
 }
 
-void Bisection::store_positions(const ParallelOptions& parallel) {
-    if (is_regular_) {
-        return;
-    }
-    const glm::ivec2 tiles((heights_.cols() + tile_cells - 1) / tile_cells,
-                           (heights_.rows() + tile_cells - 1) / tile_cells);
-    origins_ = Grid<glm::dvec3>(tiles.x, tiles.y);
-    offsets_ = Grid<glm::vec3>(heights_.cols(), heights_.rows());
-    for (int j = 0; j < tiles.y; ++j) {
-        for (int i = 0; i < tiles.x; ++i) {
-            origins_(i, j) = placement_->world_from_sample(
-                {(i + 0.5) * tile_cells, (j + 0.5) * tile_cells, 0.0});
-        }
-    }
-    const ParallelOptions silent{parallel.threads, parallel.stop, {}};
-    for_each_cell(heights_.cols(), heights_.rows(), silent, [&](int col, int row) {
-        const glm::dvec3 world = placement_->world_from_sample({col, row, heights_(col, row)});
-        offsets_(col, row) = glm::vec3(world - origins_(col / tile_cells, row / tile_cells));
-    });
-}
-
 void Bisection::store_cell_rows(int first, int last) {
     const int low = std::max(first - 1, 0);
-    Grid<StoredSplit>& cells = in_middles_[0];
-    const int high = std::min(last + 1, cells.rows());
-    Grid<CellBend> bends(cells.cols(), high - low);
+    const int high = std::min(last + 1, cells_.rows());
+    Grid<CellBend> bends(cells_.cols(), high - low);
     for (int row = low; row < high; ++row) {
-        for (int col = 0; col < cells.cols(); ++col) {
+        for (int col = 0; col < cells_.cols(); ++col) {
             bends(col, row - low) = bend_of_cell(col, row);
         }
     }
     for (int row = first; row < last; ++row) {
-        for (int col = 0; col < cells.cols(); ++col) {
+        for (int col = 0; col < cells_.cols(); ++col) {
             CellBend bound = bends(col, row - low);
             for (int i = 0; i < 9; ++i) {
                 const CellBend& near = bends.clamped(col + i % 3 - 1, row - low + i / 3 - 1);
                 bound.side = std::max(bound.side, near.side);
                 bound.reach = std::max(bound.reach, near.reach);
             }
-            cells(col, row) = {rounded_up(0.25 * std::max(bound.middle, bound.side)),
-                               rounded_up(1.5 * bound.reach * sphere_growth + bending_.curvature),
-                               0.0F};
+            cells_(col, row) = {UpperBound(0.25 * std::max(bound.middle, bound.side)),
+                                UpperBound(1.5 * bound.reach * sphere_growth + center_error())};
         }
     }
-}
-
-glm::dvec3 Bisection::position(int col, int row) const {
-    return offsets_.empty()
-               ? placement_->world_from_sample({col, row, heights_(col, row)})
-               : origins_(col / tile_cells, row / tile_cells) + glm::dvec3(offsets_(col, row));
 }
 
 // Bilinear between the cell's corners. On an ellipsoid the error is below the curvature.
@@ -418,15 +383,16 @@ Bisection::CellBend Bisection::bend_of_cell(int col, int row) const {
     const double leaning = steepness * bending_.turn;
     return {twist + bending_.curvature + std::sqrt(2.0) * leaning,
             0.25 * twist + 0.5 * bending_.curvature + leaning,
-            offsets_.empty()
+            bending_.curvature == 0.0
                 ? std::sqrt(bending_.stretch * bending_.stretch + steepness * steepness)
                 : bending_.stretch + steepness};
 }
 
 Split Bisection::split_in_cell(Steps place, int size, bool on_side) const {
     if (size == steps_per_sample && !on_side) {
-        const StoredSplit& cell = stored(sample_before(place), 1, false);
-        return {cell.error, position_in_cell(place), cell.radius};
+        const glm::ivec2 cell = sample_before(place);
+        const SplitBounds& bounds = cells_(cell.x, cell.y);
+        return {bounds.error.value(), position_in_cell(place), bounds.radius.value()};
     }
     const int reach = on_side ? size : 3 * size / 2;
     const glm::ivec2 own = sample_before(place);
@@ -445,7 +411,7 @@ Split Bisection::split_in_cell(Steps place, int size, bool on_side) const {
     }
     const double samples = static_cast<double>(size) / steps_per_sample;
     return {0.25 * samples * samples * bend, position_in_cell(place),
-            longest * reach / steps_per_sample * sphere_growth + bending_.curvature};
+            longest * reach / steps_per_sample * sphere_growth + center_error()};
 }
 
 double Bisection::height(Steps place) const {
@@ -455,15 +421,11 @@ double Bisection::height(Steps place) const {
 }
 
 glm::dvec3 Bisection::world(Steps place) const {
-    const glm::ivec2 sample = sample_before(place);
-    return steps_of(sample) == place
-               ? position(sample.x, sample.y)
-               : placement_->world_from_sample({samples_of(place), height(place)});
+    return placement_->world_from_sample({samples_of(place), height(place)});
 }
 
 glm::ivec2 Bisection::splits_in_middles(glm::ivec2 samples, std::size_t level) {
-    const glm::ivec2 last = samples - 1;
-    return level == 0 ? last : last / (1 << level) + 1;
+    return (samples - 1) / (1 << level) + 1;
 }
 
 glm::ivec2 Bisection::splits_on_sides(glm::ivec2 samples, std::size_t level) {
@@ -479,7 +441,7 @@ std::size_t Bisection::bounds_count(glm::ivec2 samples) {
         splits += static_cast<std::size_t>(middles.x) * static_cast<std::size_t>(middles.y) +
                   static_cast<std::size_t>(sides.x) * static_cast<std::size_t>(sides.y);
     }
-    return 2 * splits;
+    return splits;
 }
 
 template <class Self, class Visit> void Bisection::for_each_stored(Self& self, const Visit& visit) {
@@ -501,24 +463,22 @@ template <class Self, class Visit> void Bisection::for_each_stored(Self& self, c
     }
 }
 
-std::vector<float> Bisection::bounds() const {
-    std::vector<float> bounds;
+std::vector<SplitBounds> Bisection::bounds() const {
+    std::vector<SplitBounds> bounds;
     bounds.reserve(bounds_count({heights_.cols(), heights_.rows()}));
-    for_each_stored(*this, [&](const StoredSplit& split, glm::ivec2) {
-        bounds.insert(bounds.end(), {split.error, split.radius});
-    });
+    for_each_stored(*this,
+                    [&](const StoredSplit& split, glm::ivec2) { bounds.push_back(split.bounds); });
     return bounds;
 }
 
 Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
-                     std::span<const float> bounds, const ParallelOptions& parallel)
+                     std::span<const SplitBounds> bounds, const ParallelOptions& parallel)
     : Bisection(heightfield, placement, parallel, CellsOnly{}) {
     check(bounds.size() == bounds_count({heights_.cols(), heights_.rows()}),
           "the bounds of another bisection");
     auto next = bounds.begin();
     for_each_stored(*this, [&](StoredSplit& split, glm::ivec2 sample) {
-        split.error = *next++;
-        split.radius = *next++;
+        split.bounds = *next++;
         if (sample.x < heights_.cols() && sample.y < heights_.rows()) {
             split.height = heights_(sample.x, sample.y);
         }

@@ -16,6 +16,8 @@
 #include "engine/core/parallel_for.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/placement.h"
+#include "engine/terrain/mesh/sample_positions.h"
+#include "engine/terrain/mesh/upper_bound.h"
 
 namespace reljef::terrain {
 
@@ -48,6 +50,13 @@ struct Split {
     double radius = 0.0;
 };
 
+/// A split's error and radius, as they are stored.
+struct SplitBounds {
+    UpperBound error;
+    UpperBound radius;
+    friend bool operator==(const SplitBounds&, const SplitBounds&) = default;
+};
+
 /// The two triangles of a split. Their common edge reaches from `place - along` to `place + along`.
 /// Their apexes are `place + across` and `place - across`; the parent splits are there.
 struct Halving {
@@ -71,11 +80,11 @@ public:
               const ParallelOptions& parallel = {});
 
     /// Errors and radii of the splits at samples, for a cache file.
-    [[nodiscard]] std::vector<float> bounds() const;
+    [[nodiscard]] std::vector<SplitBounds> bounds() const;
     static std::size_t bounds_count(glm::ivec2 samples);
     /// The same bisection from its bounds. Precondition: bounds_count() of them.
     Bisection(const Heightfield& heightfield, const Placement& placement,
-              std::span<const float> bounds, const ParallelOptions& parallel = {});
+              std::span<const SplitBounds> bounds, const ParallelOptions& parallel = {});
 
     /// Whether a sample of the bounds is nested and right: what was read from a file may be
     /// nonsense. Of the splits of less than 16 samples, `seed` chooses one in 64; a checksum of the
@@ -95,7 +104,8 @@ public:
         }
         const glm::ivec2 sample = sample_before(place);
         const StoredSplit& split = stored(sample, size / steps_per_sample, on_side);
-        return {split.error, position(sample, split), split.radius};
+        return {split.bounds.error.value(), positions_.at(sample, split.height),
+                split.bounds.radius.value()};
     }
 
     /// Prefetches the memory that split() reads. Precondition: as split().
@@ -124,8 +134,7 @@ private:
         double reach = 0.0;  // metres between places one sample apart in col and row
     };
     struct StoredSplit {
-        float error = 0.0F;
-        float radius = 0.0F;
+        SplitBounds bounds;
         float height = 0.0F; // metres
     };
     class LevelBuilder;
@@ -138,7 +147,6 @@ private:
     static glm::ivec2 splits_on_sides(glm::ivec2 samples, std::size_t level);
     static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     [[nodiscard]] int min_size_for(const Heightfield& heightfield) const;
-    void store_positions(const ParallelOptions& parallel);
     [[nodiscard]] const StoredSplit& stored(glm::ivec2 sample, int size, bool on_side) const {
         const int shift = std::countr_zero(static_cast<unsigned>(size));
         const auto level = static_cast<std::size_t>(shift);
@@ -151,14 +159,12 @@ private:
     void store_cell_rows(int first, int last);
     // Calls `visit(split, sample)` for the splits at samples.
     template <class Self, class Visit> static void for_each_stored(Self& self, const Visit& visit);
-    [[nodiscard]] glm::dvec3 position(int col, int row) const;
-    [[nodiscard]] glm::dvec3 position(glm::ivec2 sample, const StoredSplit& split) const {
-        return offsets_.empty()
-                   ? glm::dvec3((sample.x - middle_.x) * metres_.x,
-                                (middle_.y - sample.y) * metres_.y, split.height * metres_.z)
-                   : position(sample.x, sample.y);
+    [[nodiscard]] glm::dvec3 position(int col, int row) const {
+        return positions_.at({col, row}, heights_(col, row));
     }
     [[nodiscard]] glm::dvec3 position_in_cell(Steps place) const;
+    /// Bounds how far position_in_cell() is from the surface, metres.
+    [[nodiscard]] double center_error() const { return bending_.curvature + positions_.error(); }
     [[nodiscard]] CellBend bend_of_cell(int col, int row) const;
     [[nodiscard]] Split split_in_cell(Steps place, int size, bool on_side) const;
 
@@ -166,19 +172,15 @@ private:
     const Placement* placement_;
     Steps end_{0};
     glm::ivec2 shorter_from_; // sample where the last cells begin if they are shorter
-    bool is_regular_;         // a plane with samples at equal distances around the origin
-    // If it is regular:
-    glm::dvec2 middle_{0.0}; // sample
-    glm::dvec3 metres_{1.0}; // scene metres per sample, sample and metre
     Bending bending_;
-    int min_size_; // steps
-    // Of squares of 1, 2, 4 … samples. A view reads neighbours, which lie side by side.
+    SamplePositions positions_;
+    int min_size_;            // steps
+    Grid<SplitBounds> cells_; // of the splits in the middles of cells
+    // Of squares of 2, 4, 8 … samples from index 1. A view reads neighbours, which lie side by
+    // side.
     static constexpr std::size_t levels = 8;
     std::array<Grid<StoredSplit>, levels> in_middles_; // (col, row) of the square
     std::array<Grid<StoredSplit>, levels> on_sides_;   // two rows for each row of squares
-    // Empty if it is regular:
-    Grid<glm::vec3> offsets_;  // samples minus their tile's origin
-    Grid<glm::dvec3> origins_; // of tiles
 };
 
 } // namespace reljef::terrain

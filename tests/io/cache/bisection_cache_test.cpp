@@ -1,8 +1,8 @@
 #include "engine/io/cache/disk_cache.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
+#include <limits>
 #include <tuple>
 
 #include <gmock/gmock.h>
@@ -112,37 +112,40 @@ TEST_F(BisectionCache, AFlippedBitAnywhereIsFound) {
     }
 }
 
-// Errors and radii alternate.
 TEST_F(BisectionCache, NonsenseBehindAValidChecksumIsFound) {
-    const std::vector<std::function<void(std::span<float>)>> changes{
-        [](std::span<float> numbers) { std::fill(numbers.begin(), numbers.end(), 0.0F); },
-        [](std::span<float> numbers) { numbers[0] = std::nanf(""); },
-        [](std::span<float> numbers) { numbers[1] = std::nanf(""); },
-        [](std::span<float> numbers) { numbers[100] = -1.0F; },
-        [](std::span<float> numbers) { numbers[101] = HUGE_VALF; },
-        [](std::span<float> numbers) { // not nested
-            for (std::size_t i = 1; i < numbers.size(); i += 2) {
-                numbers[i] *= 0.5F;
+    using terrain::SplitBounds;
+    using terrain::UpperBound;
+    using Bounds = std::span<SplitBounds>;
+    const auto no_number = UpperBound::from_bits(0xffff);
+    const UpperBound infinite(std::numeric_limits<double>::infinity());
+    const std::vector<std::function<void(Bounds)>> changes{
+        [](Bounds bounds) { std::fill(bounds.begin(), bounds.end(), SplitBounds()); },
+        [&](Bounds bounds) { bounds[0].error = no_number; },
+        [&](Bounds bounds) { bounds[0].radius = no_number; },
+        [&](Bounds bounds) { bounds[50].radius = infinite; },
+        [](Bounds bounds) { // not nested
+            for (SplitBounds& split : bounds) {
+                split.radius = UpperBound(0.5 * split.radius.value());
             }
         },
-        [](std::span<float> numbers) { std::reverse(numbers.begin(), numbers.end()); },
-        [](std::span<float> numbers) { // nested and in range, but of no heights
-            for (std::size_t i = 0; i < numbers.size(); i += 2) {
-                numbers[i] += 1.0F;
+        [](Bounds bounds) { std::reverse(bounds.begin(), bounds.end()); },
+        [](Bounds bounds) { // nested and in range, but of no heights
+            for (SplitBounds& split : bounds) {
+                split.error = UpperBound(split.error.value() + 1.0);
             }
         },
     };
     for (const auto& change : changes) {
-        expect_rebuilt_from(test::resealed(good_, change), "nonsense found");
+        expect_rebuilt_from(test::resealed<SplitBounds>(good_, change), "nonsense found");
     }
 }
 
 // A checksum is the seed, so that what one content hides, another shows.
 TEST_F(BisectionCache, NonsenseOfNoSplitEscapesEverySeed) {
-    const std::vector<float> good = terrain_.bisection.bounds();
-    for (const std::size_t wrong : {std::size_t{0}, good.size() / 4 * 2}) { // errors of splits
-        std::vector<float> bad = good;
-        bad[wrong] += 1.0F;
+    const std::vector<terrain::SplitBounds> good = terrain_.bisection.bounds();
+    for (const std::size_t wrong : {std::size_t{0}, good.size() / 2}) {
+        std::vector<terrain::SplitBounds> bad = good;
+        bad[wrong].error = terrain::UpperBound(bad[wrong].error.value() + 1.0);
         const terrain::Bisection bisection(terrain_.heightfield, terrain_.placement, bad);
         int found = 0;
         for (std::uint32_t seed = 0; seed < 512; ++seed) {

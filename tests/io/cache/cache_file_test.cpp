@@ -19,7 +19,7 @@ using testing::HasSubstr;
 class DiskCache : public testing::Test {
 protected:
     [[nodiscard]] Result<void> write(std::string_view text = "new") const {
-        return write_cache_file(file_, std::as_bytes(std::span(text)));
+        return write_cache_file(file_, {std::as_bytes(std::span(text))});
     }
     // Neither read nor replaced.
     void expect_left_alone(const std::string& why) const {

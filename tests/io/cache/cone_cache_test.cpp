@@ -108,7 +108,7 @@ TEST_F(ConeCache, NonsenseBehindAValidChecksumIsFound) {
         },
     };
     for (const auto& change : changes) {
-        expect_rebuilt_from(test::resealed(good_, change), "nonsense found");
+        expect_rebuilt_from(test::resealed<float>(good_, change), "nonsense found");
     }
 }
 
