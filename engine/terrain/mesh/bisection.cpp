@@ -323,14 +323,10 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
     return {first_margin * bound.first, second_margin * bound.second, first_margin * bound.turn};
 }
 
-// On the ellipsoid the bounds inside a cell are those of the whole heightfield: near a pole finer
-// squares would cut millions of triangles. Floats from the eye hold 2^-24 of their length: of
-// ground that is 2^20 samples high, finer triangles would have lost their shape.
+// Floats from the eye hold 2^-24 of their length: of ground that is 2^20 samples high, finer
+// triangles would have lost their shape.
 int Bisection::min_size_for(const Heightfield& heightfield) const {
     constexpr double max_height = 0x1p20; // samples
-    if (bending_.curvature > 0.0) {
-        return steps_per_sample / 32;
-    }
     const double height = placement_->exaggeration() *
                           (static_cast<double>(heightfield.range.high) - heightfield.range.low);
     const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
