@@ -101,6 +101,11 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
     cli::add_parsed(command, "--seed", choice.options.seed,
                     cli::number_in<std::uint32_t>("--seed", 0, 4'294'967'295U),
                     "of random views and paths (1)", "N");
+    cli::add_parsed(command, "--poses", choice.options.poses,
+                    cli::number_in<int>("--poses", 1, 1'000'000),
+                    "views of error-bound, half of them near the ground, and of each terrain of "
+                    "streamed-bound (2000 and 100; with --quick 80)",
+                    "N");
     add_suite_options(command, choice.options.suite);
     add_json_option(command, choice.outputs);
     add_page_option(command, choice.outputs);
@@ -124,6 +129,7 @@ cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Examples:\n"
         "  reljef-bench stress --quick\n"
         "  reljef-bench stress --terrain N45E006.hgt --only near-ground --technique exact\n"
+        "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000\n"
         "  reljef-bench stress --json stress.json --html stress");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_stress_command(*choice, *arguments, interrupt);

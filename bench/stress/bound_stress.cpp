@@ -1,6 +1,7 @@
 // The error bound of polygons: in memory from random eyes, and streamed in too little memory.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <random>
 
@@ -146,6 +147,7 @@ Result<std::vector<Image>> streamed_pictures(const StressRun& run, const fs::pat
 struct StatedErrors {
     std::size_t frames = 0;
     std::size_t over = 0;       // pixels farther off than the frame states
+    std::size_t holes = 0;      // pixels
     std::size_t unproven = 0;   // tiles
     Worst worst;                // pixels
     Worst kept;                 // stated, pixels
@@ -169,6 +171,12 @@ struct StatedErrors {
     }
 };
 
+// Pixels within which a silhouette may have moved.
+int reach_of(double error) {
+    constexpr double max_reach = 1e6; // larger than any picture
+    return static_cast<int>(std::ceil(std::min(error, max_reach))) + 1;
+}
+
 Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene) {
     session::Log silent;
     auto frames = make_frames(run, silent);
@@ -178,7 +186,8 @@ Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene)
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     std::mt19937 random(run.options().seed);
     StatedErrors found;
-    for (int i = 0; i < run.cases(2, 100) && !run.stopped(); ++i) {
+    const int poses = run.options().poses.value_or(run.cases(2, 100));
+    for (int i = 0; i < poses && !run.stopped(); ++i) {
         *scene.camera->get<scene::Camera>() = view_near_the_ground(random, *terrain.surface);
         static_cast<void>(session::stand_above_ground(scene, *frames, run.stop()));
         const auto hits = frames->draw_hits(scene.scene, run.parallel());
@@ -189,6 +198,12 @@ Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene)
         if (!errors) {
             return errors.error();
         }
+        const double stated = frames->frame_stats().kept_error.value_or(0.0);
+        const auto holes = streamed_holes(scene.scene, *hits, reach_of(stated), run.parallel());
+        if (!holes) {
+            return holes.error();
+        }
+        found.holes += *holes;
         const glm::dvec3 eye = scene.scene.camera().eye;
         found.add(*errors, frames->frame_stats(),
                   fmt::format("eye {:.2f},{:.2f},{:.2f}", eye.x, eye.y, eye.z));
@@ -222,6 +237,7 @@ Result<void> add_streamed_rows(StressRun& run, const StreamedGround& ground) {
         run.add(row);
     };
     add("pixels farther off than stated", static_cast<double>(found->over), 0.0, found->worst.at());
+    add("holes", static_cast<double>(found->holes), 0.0, "sky within ground");
     add("unproven tiles", static_cast<double>(found->unproven), 0.0, "all tiles indexed");
     add("largest error, px", found->worst.value(), std::nullopt, found->worst.at());
     add("largest stated error, px", found->kept.value(), std::nullopt, found->kept.at());
@@ -259,8 +275,9 @@ Result<void> stress_error_bound(StressRun& run) {
     options.suite.progress = {};
     options.terrains = run.options().terrains;
     options.built_in_size = run.cases(257, 0);
-    options.poses = run.cases(40, 1'000);
-    options.near_poses = run.cases(40, 1'000);
+    const int poses = run.options().poses.value_or(run.cases(80, 2'000));
+    options.near_poses = poses / 2;
+    options.poses = poses - options.near_poses;
     options.error = stressed_bound;
     options.flight_errors = {};
     options.seed = run.options().seed;

@@ -40,6 +40,7 @@ struct StressOptions {
     std::vector<scene::Technique> techniques; ///< empty: all that draw terrains
     std::vector<std::string> stresses;        ///< of stress_names(); empty: all
     std::uint32_t seed = 1;                   ///< of random cases
+    std::optional<int> poses;                 ///< of the error bound; absent: a usual number
 };
 
 struct StressResults {

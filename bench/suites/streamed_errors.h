@@ -15,4 +15,10 @@ namespace reljef::bench {
 Result<std::vector<double>> streamed_errors(const scene::Scene& scene, const HitBuffer& hits,
                                             int step, const ParallelOptions& parallel = {});
 
+/// Pixels that show sky, but whose exact rays, and those `reach` pixels around them, hit the
+/// terrain. A terrain's silhouette may have moved by less. Fails as streamed_errors(), and on a
+/// terrain that is not streamed.
+Result<std::size_t> streamed_holes(const scene::Scene& scene, const HitBuffer& hits, int reach,
+                                   const ParallelOptions& parallel = {});
+
 } // namespace reljef::bench

@@ -90,6 +90,23 @@ TEST(StressCommand, MadeFilesAreNamedWithoutTheirTemporaryFolder) {
     EXPECT_THAT(report, Not(HasSubstr(std::filesystem::temp_directory_path().string())));
 }
 
+TEST(StressCommand, ChecksTheErrorBoundFromAsManyPosesAsAskedFor) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "stress.json";
+    const auto result =
+        test::reljef_bench({"stress", "--quick", "--quiet", "--context", "osmesa", "--only",
+                            "error-bound", "--poses", "7", "--json", file.string()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    int frames = 0;
+    const auto report = nlohmann::json::parse(test::read_bytes(file));
+    for (const auto& row : report.at("rows")) {
+        if (row.at("figure") == "holes") {
+            frames += std::stoi(row.at("at").get<std::string>());
+        }
+    }
+    EXPECT_EQ(frames, 7);
+}
+
 TEST(StressCommand, AnUnknownStressIsNamed) {
     const auto result = test::reljef_bench({"stress", "--only", "poles"});
     EXPECT_EQ(result.exit_code, 2);
