@@ -33,13 +33,19 @@ TileCount count_of(const io::IndexReport& report) {
     return count;
 }
 
+// Of the proven tiles of a level, metres; empty if there are none.
+std::optional<double> max_error_of(const io::ErrorIndex::Level& level) {
+    return level.unproven < level.tiles ? std::optional(level.max_error) : std::nullopt;
+}
+
 Json json_of(const session::IndexedTerrain& indexed) {
     const io::IndexReport& report = *indexed.report;
     Json levels = Json::array();
     for (const auto& level : report.levels) {
+        const auto error = max_error_of(level);
         levels.push_back({{"tiles", level.tiles},
                           {"unproven", level.unproven},
-                          {"max_error_m", level.max_error}});
+                          {"max_error_m", error ? Json(*error) : Json()}});
     }
     return {{"file", indexed.file.string()},
             {"bytes_of_errors", report.bytes_of_proofs},
@@ -55,8 +61,9 @@ void print_report(const session::IndexedTerrain& indexed) {
     fmt::print("{:<8}{:>10}{:>10}{:>18}\n", "level", "tiles", "unproven", "largest error, m");
     for (std::size_t level = 0; level < report.levels.size(); ++level) {
         const auto& found = report.levels[level];
-        fmt::print("{:<8}{:>10}{:>10}{:>18.3f}\n", level, found.tiles, found.unproven,
-                   found.max_error);
+        const auto error = max_error_of(found);
+        fmt::print("{:<8}{:>10}{:>10}{:>18}\n", level, found.tiles, found.unproven,
+                   error ? fmt::format("{:.3f}", *error) : "unknown");
     }
     fmt::print("{} tiles, {} unproven; errors {:.2f} MB, heights {:.1f} MB; {:.1f} s\n{}\n",
                count.tiles, count.unproven, static_cast<double>(report.bytes_of_proofs) / megabyte,

@@ -72,6 +72,19 @@ TEST_F(IndexCommand, StatesTilesBytesAndTheLargestErrorOfEachLevel) {
     EXPECT_NE(text.out.find("39 tiles, 0 unproven"), std::string::npos) << text.out;
 }
 
+TEST_F(IndexCommand, StatesNoErrorOfLevelsWithoutAProof) {
+    const auto file = folder_.path() / "waves.tif";
+    test::write_waves(file, 300, 300);
+    std::string bytes = test::read_bytes(file);
+    bytes.resize(bytes.size() - 100'000); // the last samples of the finest level
+    const std::string damaged = folder_.write("damaged.tif", bytes).string();
+    const auto text = index({damaged, "--memory", "1"});
+    EXPECT_NE(text.out.find("unknown"), std::string::npos) << text.out << text.err;
+    const auto found = nlohmann::json::parse(index({damaged, "--memory", "1", "--json"}).out);
+    EXPECT_GT(found["levels"][0]["unproven"], 0);
+    EXPECT_TRUE(found["levels"][0]["max_error_m"].is_null()) << found;
+}
+
 TEST_F(IndexCommand, SaysWhichTerrainsNeedNone) {
     EXPECT_EQ(index({write_dem(folder_)}).out, "dem.asc fits in --memory 512 and needs no index\n");
     EXPECT_EQ(index({"natural"}).out, "natural is generated in memory and needs no index\n");
