@@ -46,7 +46,8 @@ std::uint64_t hash_of_raster(const std::filesystem::path& path, std::uint64_t ha
         const std::string name = names[i];
         VSIStatBufL status{};
         if (VSIStatL(name.c_str(), &status) == 0 && VSI_ISREG(status.st_mode)) {
-            hash = fnv_hash(fmt::format("{} {} {}\n", name, status.st_size, status.st_mtime), hash);
+            hash = fnv_hash(
+                fmt::format("{} {} {}\n", full_name(name), status.st_size, status.st_mtime), hash);
             hash = hash_of_blocks(name, static_cast<vsi_l_offset>(status.st_size), hash);
         }
     }
@@ -69,9 +70,9 @@ Result<std::uint64_t> TileSet::fingerprint() const {
     }
     std::uint64_t hash = fnv_start;
     for (const IndexedFile& file : now->files) {
-        hash = fnv_hash(
-            fmt::format("{} {} {} {}\n", file.path, file.bytes, file.modified, file.sidecar_hash),
-            hash);
+        hash = fnv_hash(fmt::format("{} {} {} {}\n", full_name(file.path), file.bytes,
+                                    file.modified, file.sidecar_hash),
+                        hash);
     }
     for (const TileFile& file : files().first(std::min(files().size(), max_opened_files))) {
         hash = hash_of_raster(file.path, hash);

@@ -15,6 +15,7 @@
 
 #include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -126,11 +127,9 @@ glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {
 
 fs::path index_file(const TileSet& tiles, const TileGrid& grid, Gaps gaps,
                     const fs::path& cache_folder) {
-    std::error_code ignored;
-    const fs::path place = fs::weakly_canonical(tiles.name(), ignored);
     const std::string what = fmt::format(
-        "{}\n{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", tiles.name(),
-        place.string(), grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
+        "{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", full_name(tiles.name()),
+        grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
         gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale, tiles.options().height_offset);
     return cache_folder / fmt::format("{:016x}.index", fnv_hash(what));
 }

@@ -223,6 +223,12 @@ bool is_remote(const fs::path& path) {
                        [&](std::string_view beginning) { return name.starts_with(beginning); });
 }
 
+std::string full_name(const fs::path& path) {
+    std::error_code ignored;
+    const fs::path full = fs::weakly_canonical(path, ignored);
+    return is_remote(path) || full.empty() ? path.string() : full.string();
+}
+
 void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {

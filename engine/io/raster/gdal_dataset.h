@@ -59,6 +59,9 @@ void add_options(CPLStringList& list, std::initializer_list<std::string> options
 /// Whether GDAL reads the path from a server ("https://…") or a virtual file system ("/vsi…").
 bool is_remote(const std::filesystem::path& path);
 
+/// One name for a file, however its path is written; remote ones stay as they are.
+std::string full_name(const std::filesystem::path& path);
+
 /// A part of a band, and the buffer for its samples, row after row.
 struct BandWindow {
     glm::ivec2 first{0};

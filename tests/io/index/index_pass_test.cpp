@@ -62,8 +62,9 @@ protected:
 
     [[nodiscard]] fs::path raster() const { return folder_.path() / "dem.tif"; }
     [[nodiscard]] fs::path cache() const { return folder_.path() / "cache"; }
-    [[nodiscard]] IndexSource source() const {
-        auto tiles = TileSet::open(raster());
+    [[nodiscard]] IndexSource source() const { return source_at(raster()); }
+    [[nodiscard]] IndexSource source_at(const fs::path& path) const {
+        auto tiles = TileSet::open(path);
         EXPECT_TRUE(tiles) << tiles.error().message;
         const TileGrid grid = tiles->grid();
         auto source = index_source(std::move(*tiles), grid, Gaps::holes, cache());
@@ -275,6 +276,17 @@ TEST_F(IndexPass, AnIndexThatWasCutIsMadeAnew) {
     EXPECT_FALSE((*index)->find(terrain.tree.root()));
     ASSERT_TRUE(make_index(terrain, {}));
     expect_complete(terrain);
+}
+
+TEST_F(IndexPass, OfAFileIsTheSameHoweverItsPathIsWritten) {
+    const IndexSource by_name = source();
+    const fs::path folder = raster().parent_path();
+    const fs::path detour = folder / ".." / folder.filename() / "." / "dem.tif";
+    for (const fs::path& path : {detour, fs::relative(raster())}) {
+        const IndexSource other = source_at(path);
+        EXPECT_EQ(other.file, by_name.file) << path;
+        EXPECT_EQ(other.fingerprint, by_name.fingerprint) << path;
+    }
 }
 
 TEST_F(IndexPass, IndexesTheRestOfADamagedFileAndTriesAgain) {
