@@ -7,16 +7,6 @@
 #include <glm/matrix.hpp>
 
 namespace reljef {
-namespace {
-
-// The nearest float. Volatile: vectorized code of g++ 12 skips the conversion.
-double rounded_to_float(double value) {
-    const volatile float rounded = static_cast<float>(value);
-    return rounded;
-}
-
-} // namespace
-
 SplitPoint split_into_floats(glm::dvec3 point) {
     const glm::dvec3 rounded(rounded_to_float(point.x), rounded_to_float(point.y),
                              rounded_to_float(point.z));

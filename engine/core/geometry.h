@@ -14,6 +14,12 @@ namespace reljef {
 /// Maximum coordinate, metres. Doubles still resolve 1e-7 m there, and the whole Earth fits.
 inline constexpr double max_world_coordinate = 1e9;
 
+/// The nearest float. Volatile: vectorized code of g++ 12 skips the conversion.
+inline double rounded_to_float(double value) {
+    const volatile float rounded = static_cast<float>(value);
+    return static_cast<double>(rounded);
+}
+
 /// A point as two floats per axis: the nearest float and the remainder, with twice the precision.
 struct SplitPoint {
     glm::vec3 rounded{0.0F};

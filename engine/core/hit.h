@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/core/geometry.h"
 #include "engine/core/grid.h"
 
 namespace reljef {
@@ -32,9 +33,14 @@ static_assert(sizeof(Hit) == 24);
 
 /// Rounds a place on the terrain. `height`: true metres; `depth`: scene metres.
 inline Hit hit_at(glm::dvec2 place, double height, double depth) {
-    const glm::vec2 high(place);
-    const glm::vec2 low(place - glm::dvec2(high));
-    return {high.x, high.y, static_cast<float>(height), static_cast<float>(depth), low.x, low.y};
+    const glm::dvec2 high(rounded_to_float(place.x), rounded_to_float(place.y));
+    const glm::vec2 low(place - high);
+    return {static_cast<float>(high.x),
+            static_cast<float>(high.y),
+            static_cast<float>(height),
+            static_cast<float>(depth),
+            low.x,
+            low.y};
 }
 
 /// One hit per pixel, row 0 at the top.
