@@ -45,7 +45,7 @@ public:
     /// Passes on messages since the last call.
     void relay_to(session::Log& log);
     /// The light for SceneRenderer::add_light() if it is new since the last call, else null.
-    std::shared_ptr<const render::PreparedLight> take_light() {
+    std::shared_ptr<const view::PreparedLight> take_light() {
         return std::exchange(light_, nullptr);
     }
 
@@ -68,7 +68,7 @@ private:
     session::TerrainScene& scene_;
     AppearanceSwitchOptions options_;
     session::RelayedLog log_; // of finished work
-    std::shared_ptr<const render::PreparedLight> light_;
+    std::shared_ptr<const view::PreparedLight> light_;
     std::vector<scene::Technique> before_; // of the materials, before the last change
     std::unique_ptr<Pending> pending_;
     std::vector<std::unique_ptr<Pending>> retired_; // stopping

@@ -60,7 +60,7 @@ Result<OpenedScene> open(const session::SourceOptions& terrain, const session::S
                                first_technique(opened.scene), largest_side);
     if (light) {
         const auto task = log.start("lighting " + light->surface->terrain().name);
-        opened.light = std::make_shared<const render::PreparedLight>(render::prepare_light(*light));
+        opened.light = std::make_shared<const view::PreparedLight>(view::prepare_light(*light));
     }
     return opened;
 }

@@ -15,7 +15,7 @@ namespace reljef::app {
 struct OpenedScene {
     session::TerrainScene scene;
     /// For first_technique(); null in the gallery.
-    std::shared_ptr<const render::PreparedLight> light;
+    std::shared_ptr<const view::PreparedLight> light;
 };
 
 /// Opens a scene in the background while the window shows the progress. Empty if the user closes

@@ -55,7 +55,7 @@ void ProofSwitch::prepare(Proofs proofs) {
     if (request) {
         request->stream = stream_;
         lighting_.emplace([request = std::move(*request)](const std::stop_token&) {
-            return std::make_shared<const render::PreparedLight>(render::prepare_light(request));
+            return std::make_shared<const view::PreparedLight>(view::prepare_light(request));
         });
     }
 }

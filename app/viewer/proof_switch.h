@@ -28,13 +28,13 @@ public:
     /// Passes on messages since the last call.
     void relay_to(session::Log& log) { log_.relay_to(log); }
     /// The new stream's light for SceneRenderer::add_light(), once, else null.
-    std::shared_ptr<const render::PreparedLight> take_light() {
+    std::shared_ptr<const view::PreparedLight> take_light() {
         return std::exchange(light_, nullptr);
     }
 
 private:
     using Proofs = std::shared_ptr<const session::ProvenTiles>;
-    using Light = std::shared_ptr<const render::PreparedLight>;
+    using Light = std::shared_ptr<const view::PreparedLight>;
     void prepare(Proofs proofs);
     void show();
 

@@ -277,7 +277,7 @@ void Viewer::relay_to(session::Log& log) {
     }
 }
 
-std::shared_ptr<const render::PreparedLight> Viewer::take_light() {
+std::shared_ptr<const view::PreparedLight> Viewer::take_light() {
     auto light = switch_.take_light();
     return light == nullptr && proofs_ ? proofs_->take_light() : light;
 }

@@ -74,7 +74,7 @@ public:
     [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
     void relay_to(session::Log& log);
     bool undo_technique();
-    std::shared_ptr<const render::PreparedLight> take_light();
+    std::shared_ptr<const view::PreparedLight> take_light();
 
     [[nodiscard]] std::string title(const view::FrameStats& stats, const FrameTiming& timing) const;
 

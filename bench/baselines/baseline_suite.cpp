@@ -15,9 +15,9 @@
 #include "bench/baselines/baseline_scene.h"
 #include "bench/baselines/irrlicht/protocol.h"
 #include "engine/core/memory_file.h"
-#include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/session/scene_renderer.h"
+#include "engine/view/terrain_maps.h"
 
 namespace reljef::bench {
 namespace {
@@ -51,7 +51,7 @@ Result<BaselineFiles> files_of(const scene::TerrainSurface& surface) {
             columns.push_back(heights(col, row));
         }
     }
-    const Image lit = render::lit_map(surface, std::nullopt, side);
+    const Image lit = view::lit_map(surface, std::nullopt, side);
     std::vector<std::uint8_t> colors;
     for (int row = 0; row < side; ++row) {
         for (int col = 0; col < side; ++col) {

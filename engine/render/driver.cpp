@@ -111,7 +111,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     return stats;
 }
 
-Result<DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
+Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
         auto target = gl::Framebuffer::create(
             {.size = size(), .color = gl::Format::rgba32f, .second_color = gl::Format::rg32f});
@@ -138,7 +138,7 @@ Result<DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
                            [](const glm::vec4& hit, const glm::vec4& rest) {
                                return Hit{hit.x, hit.y, hit.z, hit.w, rest.x, rest.y};
                            });
-    return DrawnHits{std::move(hits), stats};
+    return view::DrawnHits{std::move(hits), stats};
 }
 
 Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameStats& stats) {

@@ -7,7 +7,6 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
-#include "engine/core/hit.h"
 #include "engine/core/result.h"
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/limits.h"
@@ -37,12 +36,6 @@ struct DriverOptions {
     int samples = 1;
 };
 
-/// The stats' times are 0.
-struct DrawnHits {
-    HitBuffer hits;
-    view::FrameStats stats;
-};
-
 /// Draws selected frames with the current context into its own framebuffer object with reversed
 /// 32-bit float depth. Keeps drawn content in GPU memory as long as the scene lives. Destroy while
 /// the context is current, like all objects of this room that own GL objects.
@@ -55,14 +48,16 @@ public:
     /// check_techniques() and check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
-    Result<DrawnHits> draw_hits(const view::FrameView& frame);
+    Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
 
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
     void show_in_window(glm::ivec2 window_size) const;
 
     /// Adds precomputed light of a terrain in the next frame. Fails when GL has no memory.
-    Result<void> add_light(const PreparedLight& prepared) { return residency_.add_light(prepared); }
+    Result<void> add_light(const view::PreparedLight& prepared) {
+        return residency_.add_light(prepared);
+    }
     [[nodiscard]] int max_texture_side() const { return limits_.max_texture_size; }
 
     Result<void> resize(glm::ivec2 size);

@@ -123,15 +123,15 @@ MissingMaps missing_maps(const TerrainScene& scene,
     return missing;
 }
 
-std::optional<render::LightRequest> light_request(const TerrainScene& scene,
-                                                  const scene::Light& light,
-                                                  const scene::Technique& technique,
-                                                  int largest_side) {
+std::optional<view::LightRequest> light_request(const TerrainScene& scene,
+                                                const scene::Light& light,
+                                                const scene::Technique& technique,
+                                                int largest_side) {
     if (!scene.models.empty() || scene.light == nullptr) {
         return std::nullopt;
     }
     const auto& node = *scene.terrain->get<scene::TerrainNode>();
-    return render::LightRequest{
+    return view::LightRequest{
         .surface = node.surface,
         .stream = node.stream,
         .light = {scene::turned(light, scene.light->world_from_local()),
@@ -174,7 +174,7 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
     if (missing.light) {
         const auto task = log.start("lighting " + missing.light->surface->terrain().name);
         made.light =
-            std::make_shared<const render::PreparedLight>(render::prepare_light(*missing.light));
+            std::make_shared<const view::PreparedLight>(view::prepare_light(*missing.light));
     }
     return stop.stop_requested() ? Result<PreparedMaps>(Error{"stopped while maps were made"})
                                  : Result<PreparedMaps>(std::move(made));

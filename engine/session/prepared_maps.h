@@ -8,11 +8,11 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/relief_material.h"
-#include "engine/render/residency/terrain_maps.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
 #include "engine/terrain/mesh/bisection.h"
+#include "engine/view/terrain_maps.h"
 
 namespace reljef::session {
 
@@ -24,7 +24,7 @@ struct MissingMaps {
     bool bisection = false;                               ///< for polygons with an error bound
     bool cones = false;                                   ///< for the technique cone
     std::map<Set, std::vector<material::KnownCones>> set_cones; ///< sides of detail textures
-    std::optional<render::LightRequest> light;                  ///< missing_maps() leaves it empty
+    std::optional<view::LightRequest> light;                    ///< missing_maps() leaves it empty
 
     [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty() && !light; }
 };
@@ -36,17 +36,17 @@ MissingMaps missing_maps(const TerrainScene& scene,
 
 /// The terrain's light for a technique; empty in the gallery, whose models are lit by shaders.
 /// `largest_side`: of its maps, texels; SceneRenderer::max_texture_side().
-std::optional<render::LightRequest> light_request(const TerrainScene& scene,
-                                                  const scene::Light& light,
-                                                  const scene::Technique& technique,
-                                                  int largest_side);
+std::optional<view::LightRequest> light_request(const TerrainScene& scene,
+                                                const scene::Light& light,
+                                                const scene::Technique& technique,
+                                                int largest_side);
 
 struct PreparedMaps {
     std::shared_ptr<const scene::TerrainSurface> surface; ///< of the maps
     std::shared_ptr<const terrain::Bisection> bisection;
     std::shared_ptr<const material::ConeMaps> cones;
     std::map<MissingMaps::Set, MissingMaps::Set> sets; ///< detail textures, and the same with cones
-    std::shared_ptr<const render::PreparedLight> light; ///< for SceneRenderer::add_light()
+    std::shared_ptr<const view::PreparedLight> light;  ///< for SceneRenderer::add_light()
 };
 
 /// Makes the maps or reads them from the cache, on any thread. `threads` 0: as many as the machine

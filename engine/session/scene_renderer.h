@@ -36,9 +36,7 @@ public:
     /// Draws the frame selected last; `wait`: until it is finished. Precondition: the scene has not
     /// changed since.
     Result<view::FrameStats> draw_selected(bool wait = false);
-    Result<render::DrawnHits> draw_selected_hits() {
-        return driver_.draw_hits(selector_.selected());
-    }
+    Result<view::DrawnHits> draw_selected_hits() { return driver_.draw_hits(selector_.selected()); }
 
     /// Selects and draws; FrameStats::cpu_ms includes the selection.
     Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);
@@ -53,7 +51,7 @@ public:
     /// Copies the last frame to the window's back buffer.
     void show_in_window(glm::ivec2 window_size) const { driver_.show_in_window(window_size); }
     /// Takes the prepared light of a terrain, so that the next frame need not compute it.
-    Result<void> add_light(const render::PreparedLight& light) { return driver_.add_light(light); }
+    Result<void> add_light(const view::PreparedLight& light) { return driver_.add_light(light); }
     [[nodiscard]] int max_texture_side() const { return driver_.max_texture_side(); }
     Result<void> resize(glm::ivec2 size) { return driver_.resize(size); }
     /// For later frames, see render::DriverOptions::samples.

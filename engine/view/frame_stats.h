@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <optional>
 
+#include "engine/core/hit.h"
+
 namespace reljef::view {
 
 /// Counts and times of one frame.
@@ -19,6 +21,7 @@ struct FrameStats {
     std::optional<double> kept_error;
     /// Whether triangles had larger errors than the bound leaves them, to fit their number.
     bool lacks_triangles = false;
+    std::size_t rays = 0;  ///< cast on the CPU
     int draws = 0;         ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures, uniform blocks and modes set
     int uploads = 0;       ///< buffers and textures filled
@@ -41,6 +44,12 @@ struct FrameStats {
 
     double cpu_ms = 0.0; ///< uploads and submission; with the selection if the caller adds it
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
+};
+
+/// The stats' times are 0.
+struct DrawnHits {
+    HitBuffer hits;
+    FrameStats stats;
 };
 
 } // namespace reljef::view

@@ -60,7 +60,7 @@ TEST(SceneRendererGl, DrawsWithTheLightThatWasPrepared) {
         const auto request = light_request(scene, *scene.light->get<scene::Light>(), drawn,
                                            renderer.max_texture_side());
         ASSERT_TRUE(request);
-        render::PreparedLight light = render::prepare_light(*request);
+        view::PreparedLight light = view::prepare_light(*request);
         std::fill(light.lit.samples().begin(), light.lit.samples().end(), Rgba8{255, 0, 0, 255});
         std::fill(light.sun.samples().begin(), light.sun.samples().end(), Rgba8{0, 0, 0, 255});
         ASSERT_TRUE(renderer.add_light(light));

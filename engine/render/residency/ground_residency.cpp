@@ -24,7 +24,7 @@ std::vector<const view::TileDraw*> first_detailed(const std::vector<view::TileDr
 
 } // namespace
 
-Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
+Result<ResidentGround> resident_ground(const view::GroundMap& map, glm::vec4 ground_from_sample,
                                        view::FrameStats& stats) {
     auto albedo = upload_mipmapped(map.albedo, gl::Format::rgba8_srgb, stats);
     if (!albedo) {
@@ -69,12 +69,14 @@ Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const v
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const GroundMap map = ground_map(*terrain.surface, light, gl::query_limits().max_texture_size);
+    const view::GroundMap map =
+        view::ground_map(*terrain.surface, light, gl::query_limits().max_texture_size);
     const Grid<float>& heights = terrain.surface->heightfield().heights;
-    auto resident = resident_ground(map,
-                                    texture_from_sample({heights.cols(), heights.rows()},
-                                                        {map.albedo.cols(), map.albedo.rows()}),
-                                    stats);
+    auto resident =
+        resident_ground(map,
+                        view::texture_from_sample({heights.cols(), heights.rows()},
+                                                  {map.albedo.cols(), map.albedo.rows()}),
+                        stats);
     if (!resident) {
         return resident.error();
     }

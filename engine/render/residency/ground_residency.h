@@ -8,20 +8,20 @@
 
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
-#include "engine/render/residency/terrain_maps.h"
 #include "engine/render/residency/tile_residency.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/terrain_maps.h"
 
 namespace reljef::render {
 
-/// A terrain's ground_map(). Texture coordinate = sample · xy + zw.
+/// A terrain's view::ground_map(). Texture coordinate = sample · xy + zw.
 struct ResidentGround {
     gl::Texture2D albedo;
     gl::Texture2D surface;
     glm::vec4 ground_from_sample{0.0F};
 };
-Result<ResidentGround> resident_ground(const GroundMap& map, glm::vec4 ground_from_sample,
+Result<ResidentGround> resident_ground(const view::GroundMap& map, glm::vec4 ground_from_sample,
                                        view::FrameStats& stats);
 
 /// The surface detail of terrains in GPU memory: its tiles, and the maps of the ground, again when

@@ -9,9 +9,9 @@
 
 #include "engine/gl/limits.h"
 #include "engine/render/residency/prewarp.h"
-#include "engine/render/residency/terrain_maps.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/view/terrain_maps.h"
 
 namespace reljef::render {
 namespace {
@@ -20,7 +20,7 @@ Result<ResidentMaps> with_place(const scene::TerrainSurface& surface, gl::Textur
                                 std::optional<gl::Texture2D> sun) {
     const Grid<float>& heights = surface.heightfield().heights;
     const glm::vec4 lit_from_sample =
-        texture_from_sample({heights.cols(), heights.rows()}, lit.size());
+        view::texture_from_sample({heights.cols(), heights.rows()}, lit.size());
     return ResidentMaps{std::move(lit), std::move(sun), lit_from_sample};
 }
 
@@ -43,9 +43,9 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
                                view::FrameStats& stats) {
     const int largest_side = gl::query_limits().max_texture_size;
     if (!in_parts) {
-        return upload_light(surface, lit_map(surface, light, largest_side), {}, stats);
+        return upload_light(surface, view::lit_map(surface, light, largest_side), {}, stats);
     }
-    const LightParts parts = light_parts(surface, *light, largest_side);
+    const view::LightParts parts = view::light_parts(surface, *light, largest_side);
     return upload_light(surface, parts.sky, parts.sun, stats);
 }
 
@@ -74,8 +74,8 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     return done ? meshes_.prepare(list.meshes, list.camera, stats) : done;
 }
 
-Result<void> Residency::add_light(const PreparedLight& prepared) {
-    const LightRequest& request = prepared.request;
+Result<void> Residency::add_light(const view::PreparedLight& prepared) {
+    const view::LightRequest& request = prepared.request;
     if (request.stream != nullptr) {
         tile_maps_.add_light(request.stream, request.light, prepared.irradiance);
         return {};

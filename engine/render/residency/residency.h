@@ -12,15 +12,15 @@
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
-#include "engine/render/residency/terrain_maps.h"
 #include "engine/render/residency/terrain_meshes.h"
 #include "engine/render/residency/tile_maps.h"
 #include "engine/view/draw_list.h"
+#include "engine/view/terrain_maps.h"
 
 namespace reljef::render {
 
-/// A terrain's lit_map(), or its light_parts() if rays cast the shadows. Texture coordinate =
-/// sample · xy + zw.
+/// A terrain's view::lit_map(), or its view::light_parts() if rays cast the shadows. Texture
+/// coordinate = sample · xy + zw.
 struct ResidentMaps {
     gl::Texture2D lit;
     std::optional<gl::Texture2D> sun; ///< the sun's part; then lit is the sky's
@@ -42,7 +42,7 @@ public:
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
     /// Adds precomputed light of a terrain in the next frame. Fails without GL memory.
-    Result<void> add_light(const PreparedLight& prepared);
+    Result<void> add_light(const view::PreparedLight& prepared);
 
     /// Precondition: prepared.
     [[nodiscard]] const TerrainMeshes& terrain_meshes() const { return terrain_meshes_; }

@@ -16,13 +16,13 @@ glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::Terrain
 }
 
 // A tile's ground map with the albedo's size and the overview's shadows.
-GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
-                         const scene::TerrainIrradiance* irradiance) {
+view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
+                               const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     const glm::dvec2 first = maker.first(tile.id);
     const double step = maker.step(tile.id);
-    GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
+    view::GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
     for (int row = 0; row < map.surface.rows(); ++row) {
         for (int col = 0; col < map.surface.cols(); ++col) {
             const glm::dvec2 vertex = tile.vertex_of({col, row});

@@ -1,4 +1,4 @@
-#include "engine/render/residency/terrain_maps.h"
+#include "engine/view/terrain_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "tests/render/made_scene.h"
 
-namespace reljef::render {
+namespace reljef::view {
 namespace {
 
 std::shared_ptr<const scene::TerrainSurface> surface(terrain::Heightfield heightfield,
@@ -128,4 +128,4 @@ TEST(LitMap, CliffsAreNoNumbersOutOfRange) {
 }
 
 } // namespace
-} // namespace reljef::render
+} // namespace reljef::view

@@ -11,7 +11,7 @@
 #include "engine/scene/graph/terrain_light.h"
 #include "engine/scene/tile_stream.h"
 
-namespace reljef::render {
+namespace reljef::view {
 
 /// The terrain's diffuse reflection: albedo times irradiance (scene/terrain_light.h); without a
 /// light the albedo. sRGB, opaque. Has the finer resolution of imagery and heights, sides up to
@@ -58,4 +58,4 @@ GroundMap ground_map(const scene::TerrainSurface& surface,
 /// Texture coordinate = sample · xy + zw; the outermost texel centres are the outermost samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels);
 
-} // namespace reljef::render
+} // namespace reljef::view

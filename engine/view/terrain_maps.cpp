@@ -1,4 +1,4 @@
-#include "engine/render/residency/terrain_maps.h"
+#include "engine/view/terrain_maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/terrain/field/gradient.h"
 
-namespace reljef::render {
+namespace reljef::view {
 namespace {
 
 // Nearest samples, including the border, with sides up to `largest`.
@@ -141,4 +141,4 @@ glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
     return {scale, 0.5F / glm::vec2(texels)};
 }
 
-} // namespace reljef::render
+} // namespace reljef::view
