@@ -82,6 +82,7 @@ const std::vector<Library>& guarded_libraries() {
         {"libcurl", {"curl/"}, {"engine/io/remote/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
+        {"Highway", {"hwy/"}, {"engine/cast/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
     };
     return libraries;

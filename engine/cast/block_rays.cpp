@@ -1,0 +1,130 @@
+#include "engine/cast/block_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+namespace reljef::cast {
+namespace {
+
+constexpr double no_hit = std::numeric_limits<double>::infinity();
+
+// Floats have errors of 2^-24, and a height above the surface adds a few of them.
+constexpr double height_rounding = 0x1p-20;
+
+// Bases are whole numbers that floats have exactly.
+constexpr double max_base = 0x1p22;
+
+BlockRays::Vectors relative(const PictureRays::Vectors& vectors, glm::dvec3 middle) {
+    return {glm::vec3(middle), glm::vec3(vectors.right), glm::vec3(vectors.down)};
+}
+
+// The rays at the anchor; their origins there are linear in the pixel, too.
+PictureRays::Vectors anchored(const PictureRays& rays) {
+    return {rays.origin.first + rays.anchor * rays.direction.first,
+            rays.origin.right + rays.anchor * rays.direction.right,
+            rays.origin.down + rays.anchor * rays.direction.down};
+}
+
+bool are_finite(const PictureRays::Vectors& vectors) {
+    const glm::dvec3 sum = vectors.first + vectors.right + vectors.down;
+    return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
+}
+
+BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock& block) {
+    const PictureRays::Vectors origin = anchored(rays);
+    const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
+    const glm::dvec3 place = origin.at(middle);
+    const glm::dvec2 base =
+        glm::clamp(glm::round(glm::dvec2(place)), glm::dvec2(-max_base), glm::dvec2(max_base));
+    const terrain::MinMax total = tile.total();
+    BlockRays block_rays;
+    block_rays.base = glm::ivec2(base);
+    block_rays.base_height = static_cast<float>(place.z);
+    const double base_height = block_rays.base_height;
+    block_rays.origin = relative(origin, place - glm::dvec3(base, base_height));
+    block_rays.direction = relative(rays.direction, rays.direction.at(middle));
+    block_rays.begin = static_cast<float>(rays.range.begin - rays.anchor);
+    block_rays.end = static_cast<float>(
+        std::min(rays.range.end - rays.anchor, 0.5 * std::numeric_limits<float>::max()));
+    const double lift =
+        height_rounding * (std::max(std::abs(total.low), std::abs(total.high)) +
+                           std::abs(base_height) + std::numeric_limits<float>::min());
+    block_rays.lift = static_cast<float>(lift);
+    block_rays.lowest = static_cast<float>(total.low - base_height - lift);
+    block_rays.highest = static_cast<float>(total.high - base_height + lift);
+    return block_rays;
+}
+
+TileSamples samples_of(const RayTile& tile) {
+    return {.heights = &tile.heights()(0, 0),
+            .height_stride = static_cast<int>(&tile.heights()(0, 1) - &tile.heights()(0, 0)),
+            .maxima = tile.maxima(),
+            .stride = tile.stride(),
+            .rows = tile.rows(),
+            .top_level = tile.top_level(),
+            .cells = tile.cells()};
+}
+
+PixelBlock beam_block(const PixelBlock& block, int index) {
+    return {block.first + beam_side * glm::ivec2(index % beams_a_side, index / beams_a_side),
+            glm::ivec2(beam_side)};
+}
+
+// The starts of the beams in a block; false if nothing is hit.
+bool find_starts(const RayTile& tile, const PictureRays& rays, const PixelBlock& block,
+                 BlockJob& job) {
+    const glm::ivec2 end = block.first + block.size;
+    const double nearest =
+        clear_until(tile, rays, {block.first, glm::ivec2(block_side)}, rays.range.begin);
+    bool may_hit = false;
+    for (std::size_t i = 0; i < job.starts.size(); ++i) {
+        const PixelBlock beam = beam_block(block, static_cast<int>(i));
+        const bool is_seen = beam.first.x < end.x && beam.first.y < end.y;
+        const double start =
+            is_seen && nearest < no_hit ? clear_until(tile, rays, beam, nearest) : no_hit;
+        job.starts[i] = static_cast<float>(start - rays.anchor);
+        may_hit = may_hit || start < no_hit;
+    }
+    return may_hit;
+}
+
+} // namespace
+
+std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
+                                  const PixelBlock& block, bool beams) {
+    const bool is_finite = are_finite(rays.origin) && are_finite(rays.direction);
+    if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
+        return std::nullopt;
+    }
+    BlockJob job;
+    job.starts.fill(static_cast<float>(rays.range.begin - rays.anchor));
+    if (beams && !find_starts(tile, rays, block, job)) {
+        return std::nullopt;
+    }
+    job.tile = samples_of(tile);
+    job.rays = rays_of(tile, rays, block);
+    return job;
+}
+
+BlockJob empty_job() {
+    BlockJob job;
+    job.starts.fill(std::numeric_limits<float>::infinity());
+    return job;
+}
+
+bool for_each_block(glm::ivec2 size, const ParallelOptions& parallel,
+                    const std::function<void(const PixelBlock& block)>& body) {
+    const glm::ivec2 blocks = (size + block_side - 1) / block_side;
+    return parallel_for(
+        blocks.x * blocks.y,
+        [&](int index) {
+            const glm::ivec2 first = block_side * glm::ivec2(index % blocks.x, index / blocks.x);
+            body({first, glm::min(size - first, glm::ivec2(block_side))});
+        },
+        parallel);
+}
+
+} // namespace reljef::cast

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "engine/cast/picture_rays.h"
+#include "engine/cast/ray_tile.h"
+#include "engine/core/hit.h"
+#include "engine/core/parallel_for.h"
+#include "engine/core/result.h"
+
+namespace reljef::cast {
+
+struct CastOptions {
+    ParallelOptions parallel = {}; ///< no influence on the result
+    bool beams = true;             ///< to measure their effect; no influence on the result
+};
+
+/// The first hit of each ray of a picture, exact for the bilinear surface: a crossing from above to
+/// below. A ray that enters beneath the surface at the border continues to a front face. A ray that
+/// is not finite has no hit. Fails when stopped. Precondition: `rays` was made for the tile.
+Result<HitBuffer> cast_hits(const RayTile& tile, const PictureRays& rays,
+                            const CastOptions& options = {});
+
+} // namespace reljef::cast

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/cast/lit_levels.h"
+#include "engine/cast/picture_rays.h"
+#include "engine/cast/ray_tile.h"
+#include "engine/core/color.h"
+#include "engine/core/hit.h"
+#include "engine/core/result.h"
+#include "engine/view/frame_stats.h"
+#include "engine/view/select.h"
+#include "engine/view/terrain_maps.h"
+
+namespace reljef::cast {
+
+struct DriverOptions {
+    glm::ivec2 size{1024, 768}; ///< of the picture, pixels
+    unsigned threads = 0;       ///< 0: one per hardware thread; no influence on the result
+};
+
+/// Fails unless the CPU draws each terrain and mesh of a list: at most one terrain, on a plane and
+/// in memory, with `exact` or an error bound, which exact rays keep.
+Result<void> check_support(const view::DrawList& list);
+
+/// Draws selected frames by rays on the CPU (cast_hits.h); light, air and sky are those of
+/// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
+class Driver {
+public:
+    /// Fails on a size below one pixel.
+    static Result<Driver> create(const DriverOptions& options = {});
+
+    /// Draws a frame of size(). Fails as check_support().
+    Result<view::FrameStats> draw(const view::FrameView& frame);
+    Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
+
+    /// The last frame.
+    [[nodiscard]] const Image& read_color() const { return picture_; }
+
+    /// Takes the light of a terrain that was computed before.
+    void add_light(const view::PreparedLight& prepared);
+
+    Result<void> resize(glm::ivec2 size);
+    [[nodiscard]] glm::ivec2 size() const { return {picture_.cols(), picture_.rows()}; }
+
+    /// Of the maps that light a terrain, texels.
+    static constexpr int max_map_side = 1 << 14;
+
+private:
+    struct Light {
+        std::optional<scene::TerrainLight> light;
+        std::shared_ptr<const LitLevels> levels;
+    };
+    struct Surface {
+        std::weak_ptr<const scene::TerrainSurface> owner;
+        std::shared_ptr<const RayTile> tile;
+        Light light; // of the last frame
+    };
+    struct PlacedTerrain;
+
+    explicit Driver(const DriverOptions& options);
+    Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
+    const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
+    const LitLevels& levels_of(const scene::TerrainNode& terrain,
+                               const std::optional<scene::TerrainLight>& light,
+                               view::FrameStats& stats);
+    void paint(const view::DrawList& list, const std::optional<PlacedTerrain>& terrain,
+               view::FrameStats& stats);
+
+    DriverOptions options_;
+    Image picture_;
+    std::map<const scene::TerrainSurface*, Surface> surfaces_;
+};
+
+} // namespace reljef::cast

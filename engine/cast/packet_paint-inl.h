@@ -1,0 +1,251 @@
+// The colours of a packet of rays, as the shaders of engine/render compute them. Included once for
+// each instruction set.
+#if defined(RELJEF_PACKET_PAINT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELJEF_PACKET_PAINT_INL_H
+#undef RELJEF_PACKET_PAINT_INL_H
+#else
+#define RELJEF_PACKET_PAINT_INL_H
+#endif
+
+#include "engine/cast/packet_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace reljef::cast::HWY_NAMESPACE {
+
+// Linear light.
+struct Color {
+    Floats r;
+    Floats g;
+    Floats b;
+};
+
+HWY_INLINE Color all(glm::vec3 color) {
+    return {all(color.r), all(color.g), all(color.b)};
+}
+
+HWY_INLINE Color chosen(Lanes lanes, const Color& yes, const Color& no) {
+    return {hn::IfThenElse(lanes, yes.r, no.r), hn::IfThenElse(lanes, yes.g, no.g),
+            hn::IfThenElse(lanes, yes.b, no.b)};
+}
+
+HWY_INLINE Color mixed(const Color& a, const Color& b, Floats part) {
+    return {mixed(a.r, b.r, part), mixed(a.g, b.g, part), mixed(a.b, b.b, part)};
+}
+
+HWY_INLINE Color scaled(const Color& color, Floats by) {
+    return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
+}
+
+// Cubic polynomials interpolate at Chebyshev's places; the errors are relative to the result's
+// range.
+HWY_INLINE Floats cubic(Floats x, float c0, float c1, float c2, float c3) {
+    return hn::MulAdd(hn::MulAdd(hn::MulAdd(all(c3), x, all(c2)), x, all(c1)), x, all(c0));
+}
+
+// 2^x within 1.2e-4, for x <= 0; 0 below the smallest float.
+HWY_INLINE Floats exp2_of(Floats x) {
+    const Floats least = all(-126.0F);
+    const Floats clamped = hn::Max(x, least);
+    const Floats whole = hn::Floor(clamped);
+    const Floats power =
+        cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
+    return hn::IfThenElseZero(hn::Gt(x, least),
+                              hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
+}
+
+// log2(x) within 8.3e-4, for positive x.
+HWY_INLINE Floats log2_of(Floats x) {
+    const Ints bits = hn::BitCast(ints, x);
+    const Ints exponent = hn::Sub(hn::ShiftRight<23>(bits), all(127));
+    const Floats mantissa =
+        hn::BitCast(floats, hn::Or(hn::And(bits, all(0x007FFFFF)), all(std::int32_t{0x3F800000})));
+    return hn::Add(hn::ConvertTo(floats, exponent),
+                   cubic(mantissa, -2.1362321F, 3.0111622F, -1.0268049F, 0.15270028F));
+}
+
+// The nearest 8-bit sRGB value within 0.08 (IEC 61966-2-1), for linear light.
+HWY_INLINE Ints srgb_byte(Floats linear) {
+    const Floats inside = hn::Min(hn::Max(linear, hn::Zero(floats)), all(1.0F));
+    const Floats root = hn::Sqrt(hn::Sqrt(inside)); // a smooth function of it
+    const Floats curve = cubic(root, -0.07261468F, 0.2609616F, 0.94347196F, -0.13197231F);
+    const Floats encoded =
+        hn::IfThenElse(hn::Le(inside, all(0.0031308F)), hn::Mul(inside, all(12.92F)), curve);
+    return hn::NearestInt(hn::Mul(hn::Min(encoded, all(1.0F)), all(255.0F)));
+}
+
+HWY_INLINE Ints bytes_of(const Color& color) {
+    const Ints red_green = hn::Or(srgb_byte(color.r), hn::ShiftLeft<8>(srgb_byte(color.g)));
+    const Ints blue = hn::ShiftLeft<16>(srgb_byte(color.b));
+    return hn::Or(hn::Or(red_green, blue), hn::ShiftLeft<24>(all(255)));
+}
+
+// World directions of the rays, and their length per t.
+struct ViewRays {
+    Floats x;
+    Floats y;
+    Floats z;
+    Floats length;
+};
+
+HWY_INLINE ViewRays view_rays(const BlockPaint& paint, const PixelOffsets& pixels) {
+    ViewRays view{pixels.of(paint.view, 0), pixels.of(paint.view, 1), pixels.of(paint.view, 2),
+                  hn::Zero(floats)};
+    view.length =
+        hn::Sqrt(hn::MulAdd(view.x, view.x, hn::MulAdd(view.y, view.y, hn::Mul(view.z, view.z))));
+    return view;
+}
+
+// Forward scattering: a wide glow around the disc.
+HWY_INLINE Floats sun_glow(const BlockPaint& paint, const ViewRays& view, Floats per_length) {
+    const Floats zero = hn::Zero(floats);
+    const Floats along =
+        hn::MulAdd(view.x, all(paint.to_sun.x),
+                   hn::MulAdd(view.y, all(paint.to_sun.y), hn::Mul(view.z, all(paint.to_sun.z))));
+    const Floats toward = hn::Max(hn::Mul(along, per_length), zero);
+    const Floats square = hn::Mul(toward, toward);
+    const Floats fourth = hn::Mul(square, square);
+    constexpr float disc_begin = 0.99985F;
+    constexpr float disc_width = 0.0001F;
+    const Floats into =
+        hn::Min(hn::Max(hn::Mul(hn::Sub(toward, all(disc_begin)), all(1.0F / disc_width)), zero),
+                all(1.0F));
+    const Floats disc = hn::Mul(hn::Mul(into, into), hn::NegMulAdd(all(2.0F), into, all(3.0F)));
+    return hn::MulAdd(all(0.18F), hn::Mul(fourth, fourth), disc);
+}
+
+HWY_INLINE Color sky_color(const BlockPaint& paint, const ViewRays& view) {
+    if (!paint.has_sky) {
+        return all(glm::vec3(0.0F));
+    }
+    const Floats zero = hn::Zero(floats);
+    const Floats per_length = hn::Div(all(1.0F), view.length);
+    const Floats height = hn::Mul(view.z, per_length);
+    const Color horizon = all(paint.horizon);
+    const Color above = mixed(horizon, all(paint.zenith), hn::Sqrt(hn::Max(height, zero)));
+    const Floats darker = hn::MulAdd(all(0.35F), hn::Max(height, all(-1.0F)), all(1.0F));
+    const Color sky = chosen(hn::Gt(height, zero), above, scaled(horizon, darker));
+    const Floats glow = sun_glow(paint, view, per_length);
+    return {hn::MulAdd(all(paint.sun.r), glow, sky.r), hn::MulAdd(all(paint.sun.g), glow, sky.g),
+            hn::MulAdd(all(paint.sun.b), glow, sky.b)};
+}
+
+// How the surface lies: its slopes at the hits, metres per sample.
+struct Slopes {
+    Floats col;
+    Floats row;
+};
+
+HWY_INLINE Slopes slopes_of(const PacketHits& hits) {
+    const Corners& corners = hits.corners;
+    return {
+        mixed(hn::Sub(corners.h10, corners.h00), hn::Sub(corners.h11, corners.h01), hits.row_part),
+        mixed(hn::Sub(corners.h01, corners.h00), hn::Sub(corners.h11, corners.h10), hits.col_part)};
+}
+
+// Squared texels by which the hit moves from a pixel to its neighbour in the plane that touches the
+// surface. `origin`, `direction`: the changes of the ray.
+HWY_INLINE Floats texels_moved(const BlockPaint& paint, const Rays& rays, const PacketHits& hits,
+                               const Slopes& slopes, Floats per_facing, glm::vec3 origin,
+                               glm::vec3 direction) {
+    const auto moved = [&](int axis) HWY_ATTR {
+        return hn::MulAdd(hits.t, all(direction[axis]), all(origin[axis]));
+    };
+    const Floats col = moved(0);
+    const Floats row = moved(1);
+    const Floats above = hn::Sub(moved(2), hn::MulAdd(slopes.col, col, hn::Mul(slopes.row, row)));
+    const Floats later = hn::Neg(hn::Mul(above, per_facing)); // t
+    const glm::vec2 scale = paint.levels[0].texels_per_sample;
+    const Floats u = hn::Mul(hn::MulAdd(later, rays.col.direction, col), all(scale.x));
+    const Floats v = hn::Mul(hn::MulAdd(later, rays.row.direction, row), all(scale.y));
+    return hn::MulAdd(u, u, hn::Mul(v, v));
+}
+
+// The mip level of a packet's hits, limited to an anisotropy of 8 by `longest_texels`.
+HWY_INLINE Floats level_of(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
+                           const PacketHits& hits, Floats metres) {
+    const Slopes slopes = slopes_of(hits);
+    const Floats facing = hn::Sub(rays.rise, hn::MulAdd(slopes.col, rays.col.direction,
+                                                        hn::Mul(slopes.row, rays.row.direction)));
+    const Floats per_facing = hn::Div(all(1.0F), moving(facing));
+    const BlockRays& block = job.rays;
+    const Floats right = texels_moved(paint, rays, hits, slopes, per_facing, block.origin.right,
+                                      block.direction.right);
+    const Floats down = texels_moved(paint, rays, hits, slopes, per_facing, block.origin.down,
+                                     block.direction.down);
+    const Floats longest =
+        hn::MulAdd(metres, all(paint.longest_texels.y), all(paint.longest_texels.x));
+    const Floats square = hn::Min(hn::Max(right, down), hn::Mul(longest, longest));
+    const Floats level = hn::Mul(all(0.5F), log2_of(hn::Max(square, all(1.0F))));
+    return hn::Min(level, all(static_cast<float>(paint.level_count - 1)));
+}
+
+// Adds a texel, times its weight.
+HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
+    const Ints mask = all(1023);
+    const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
+        const Floats root = hn::ConvertTo(floats, hn::And(bits, mask));
+        channel = hn::MulAdd(hn::Mul(root, root), weight, channel);
+    };
+    add(texel, sum.r);
+    add(hn::ShiftRight<10>(texel), sum.g);
+    add(hn::ShiftRight<20>(texel), sum.b);
+}
+
+// Adds the bilinear colours of a level, times their weights.
+HWY_INLINE void add_level(const PaintLevel& level, Floats col, Floats row, Floats weight,
+                          Color& sum) {
+    const Floats zero = hn::Zero(floats);
+    const Floats u = hn::MulAdd(col, all(level.texels_per_sample.x), all(level.first.x));
+    const Floats v = hn::MulAdd(row, all(level.texels_per_sample.y), all(level.first.y));
+    const Floats inside_u = hn::Min(hn::Max(u, zero), all(level.last.x));
+    const Floats inside_v = hn::Min(hn::Max(v, zero), all(level.last.y));
+    const Ints texel_col = hn::ConvertTo(ints, inside_u);
+    const Ints texel_row = hn::ConvertTo(ints, inside_v);
+    const Floats part_u = hn::Sub(inside_u, hn::ConvertTo(floats, texel_col));
+    const Floats part_v = hn::Sub(inside_v, hn::ConvertTo(floats, texel_row));
+    const Ints index = hn::Add(hn::Mul(texel_row, all(level.stride)), texel_col);
+    const auto* const texels = reinterpret_cast<const std::int32_t*>(level.texels);
+    const Floats right = hn::Mul(weight, part_u);
+    const Floats left = hn::Sub(weight, right);
+    const Floats right_below = hn::Mul(right, part_v);
+    const Floats left_below = hn::Mul(left, part_v);
+    add_texel(hn::GatherIndex(ints, texels, index), hn::Sub(left, left_below), sum);
+    add_texel(hn::GatherIndex(ints, texels + 1, index), hn::Sub(right, right_below), sum);
+    add_texel(hn::GatherIndex(ints, texels + level.stride, index), left_below, sum);
+    add_texel(hn::GatherIndex(ints, texels + level.stride + 1, index), right_below, sum);
+}
+
+// The colours of the map: bilinear in the two levels nearest to each lane's.
+HWY_INLINE Color map_color(const BlockPaint& paint, const PacketHits& hits, Floats level) {
+    const Floats col = hn::Add(hn::ConvertTo(floats, hits.col), hits.col_part);
+    const Floats row = hn::Add(hn::ConvertTo(floats, hits.row), hits.row_part);
+    const Floats highest = all(static_cast<float>(paint.level_count));
+    const Floats lower = hn::IfThenElse(hits.found, level, highest);
+    const int first = static_cast<int>(hn::GetLane(hn::MinOfLanes(floats, lower)));
+    const float last = hn::GetLane(hn::MaxOfLanes(floats, hn::IfThenElseZero(hits.found, level)));
+    Color sum = all(glm::vec3(0.0F));
+    for (int i = first; static_cast<float>(i) < last + 1.0F && i < paint.level_count; ++i) {
+        const Floats away = hn::Abs(hn::Sub(level, all(static_cast<float>(i))));
+        const Floats weight = hn::Max(hn::Sub(all(1.0F), away), hn::Zero(floats));
+        add_level(paint.levels[static_cast<std::size_t>(i)], col, row, weight, sum);
+    }
+    return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
+}
+
+// Of the hits, seen through the air (Koschmieder 1924).
+HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
+                              const ViewRays& view, const PacketHits& hits) {
+    const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
+    const Color lit = map_color(paint, hits, level_of(job, paint, rays, hits, metres));
+    if (paint.extinction <= 0.0F) {
+        return lit;
+    }
+    constexpr float log2_e = 1.4426950F;
+    const Floats left = exp2_of(hn::Mul(metres, all(-log2_e * paint.extinction)));
+    return mixed(all(paint.horizon), lit, left);
+}
+
+} // namespace reljef::cast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

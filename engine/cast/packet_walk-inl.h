@@ -1,0 +1,348 @@
+// The first hits of a packet of rays. Included once for each instruction set.
+#if defined(RELJEF_PACKET_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELJEF_PACKET_WALK_INL_H
+#undef RELJEF_PACKET_WALK_INL_H
+#else
+#define RELJEF_PACKET_WALK_INL_H
+#endif
+
+#include "engine/cast/packet_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace reljef::cast::HWY_NAMESPACE {
+
+// The piece of a ray over a cell, along one axis. Where the ray crosses the border, the place in
+// the cell is exactly 0 or 1.
+struct PieceAxis {
+    Floats enter; // in the cell, [0, 1]
+    Floats leave;
+    Floats way; // leave − enter
+};
+
+// The piece of each ray over its cell, and the height of the ray above the cell's bilinear surface
+// along it: start + slope · u + bend · u², u in [0, 1]. It depends on ray and cell alone. Two cells
+// share the bits of the height at the border between them, so that no ray passes between.
+struct Piece {
+    Floats begin; // t
+    Floats end;
+    PieceAxis col;
+    PieceAxis row;
+    Floats start;
+    Floats slope;
+    Floats bend;
+    Floats finish;
+};
+
+// A patch's corners, metres above the base height: exact for heights near it (Sterbenz).
+struct Corners {
+    Floats h00;
+    Floats h10;
+    Floats h01;
+    Floats h11;
+};
+
+HWY_INLINE Corners corners_of(const BlockJob& job, Ints col, Ints row) {
+    const Ints index = hn::Add(hn::Mul(row, all(job.tile.height_stride)), col);
+    const float* const heights = job.tile.heights;
+    const Floats base = all(job.rays.base_height);
+    const auto corner = [&](std::ptrdiff_t offset) HWY_ATTR {
+        return hn::Sub(hn::GatherIndex(floats, heights + offset, index), base);
+    };
+    const std::ptrdiff_t below = job.tile.height_stride;
+    return {corner(0), corner(1), corner(below), corner(below + 1)};
+}
+
+// Exactly `a` at part 0 and `b` at part 1.
+HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
+    return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
+}
+
+HWY_INLINE Floats height_in(const Corners& corners, Floats col_part, Floats row_part) {
+    return mixed(mixed(corners.h00, corners.h01, row_part),
+                 mixed(corners.h10, corners.h11, row_part), col_part);
+}
+
+// Lines of a cell, and the t at which the ray crosses them.
+struct Lines {
+    Floats cell; // from the base
+    Floats ahead;
+    Floats entering;
+    Floats leaving;
+};
+
+HWY_INLINE Lines lines_of(const Axis& axis, Ints cell) {
+    Lines lines;
+    lines.cell = hn::Sub(hn::ConvertTo(floats, cell), axis.base);
+    lines.ahead = hn::ConvertTo(floats, axis.ahead);
+    const Floats near = hn::Sub(hn::Add(lines.cell, all(1.0F)), lines.ahead);
+    lines.entering = axis.time_at(near);
+    lines.leaving = axis.time_at(hn::Add(lines.cell, lines.ahead));
+    return lines;
+}
+
+HWY_INLINE PieceAxis piece_along(const Axis& axis, const Lines& lines, Floats begin, Floats end) {
+    const Floats one = all(1.0F);
+    const Floats origin = hn::Sub(axis.origin, lines.cell);
+    const auto part = [&](Floats t) HWY_ATTR {
+        const Floats place = hn::MulAdd(t, axis.direction, origin);
+        return hn::Min(hn::Max(place, hn::Zero(floats)), one);
+    };
+    PieceAxis piece;
+    piece.enter =
+        hn::IfThenElse(hn::Eq(begin, lines.entering), hn::Sub(one, lines.ahead), part(begin));
+    piece.leave = hn::IfThenElse(hn::Eq(end, lines.leaving), lines.ahead, part(end));
+    piece.way = hn::Sub(piece.leave, piece.enter);
+    return piece;
+}
+
+HWY_INLINE Piece piece_in(const Rays& rays, const Corners& corners, Ints col, Ints row) {
+    const Lines cols = lines_of(rays.col, col);
+    const Lines rows = lines_of(rays.row, row);
+    Piece piece;
+    piece.begin = hn::Max(hn::Max(cols.entering, rows.entering), rays.begin);
+    piece.end = hn::Min(hn::Min(cols.leaving, rows.leaving), rays.end);
+    piece.col = piece_along(rays.col, cols, piece.begin, piece.end);
+    piece.row = piece_along(rays.row, rows, piece.begin, piece.end);
+    const Floats twist =
+        hn::Sub(hn::Sub(corners.h11, corners.h01), hn::Sub(corners.h10, corners.h00));
+    piece.start = hn::Sub(hn::MulAdd(piece.begin, rays.rise, rays.height),
+                          height_in(corners, piece.col.enter, piece.row.enter));
+    piece.finish = hn::Sub(hn::MulAdd(piece.end, rays.rise, rays.height),
+                           height_in(corners, piece.col.leave, piece.row.leave));
+    piece.bend = hn::Neg(hn::Mul(twist, hn::Mul(piece.col.way, piece.row.way)));
+    piece.slope = hn::Sub(hn::Sub(piece.finish, piece.start), piece.bend);
+    return piece;
+}
+
+HWY_INLINE Floats under_root(const Piece& piece) {
+    return hn::NegMulAdd(hn::Mul(all(4.0F), piece.bend), piece.start,
+                         hn::Mul(piece.slope, piece.slope));
+}
+
+// Whether the ray crosses the surface from above to below in its cell: its height changes its sign
+// on the way, or it dips below the surface, or rises above it, and returns.
+HWY_INLINE Lanes crosses(const Piece& piece) {
+    const Floats zero = hn::Zero(floats);
+    const Lanes begins_below = hn::Lt(piece.start, zero);
+    const Lanes ends_below = hn::Lt(piece.finish, zero);
+    const Lanes falls = hn::AndNot(begins_below, ends_below);
+    // The extremum lies within the piece, on the other side of the surface.
+    const Floats twice = hn::Add(piece.bend, piece.bend);
+    const Lanes dips =
+        hn::And(hn::Lt(piece.slope, zero), hn::Gt(hn::Add(piece.slope, twice), zero));
+    const Lanes humps =
+        hn::And(hn::Gt(piece.slope, zero), hn::Lt(hn::Add(piece.slope, twice), zero));
+    const Lanes returns = hn::Or(hn::AndNot(hn::Or(begins_below, ends_below), dips),
+                                 hn::And(hn::And(begins_below, ends_below), humps));
+    return hn::Or(falls, hn::And(returns, hn::Gt(under_root(piece), zero)));
+}
+
+// The u of the crossing. Precondition: crosses().
+HWY_INLINE Floats crossing_of(const Piece& piece) {
+    const Floats root = hn::Sqrt(hn::Max(under_root(piece), hn::Zero(floats)));
+    const Lanes falls = hn::Lt(piece.slope, hn::Zero(floats));
+    const Floats numerator = hn::IfThenElse(falls, hn::Add(piece.start, piece.start),
+                                            hn::Sub(hn::Neg(piece.slope), root));
+    const Floats denominator =
+        hn::IfThenElse(falls, hn::Sub(root, piece.slope), hn::Add(piece.bend, piece.bend));
+    const Floats u = hn::Div(numerator, denominator);
+    return hn::Min(hn::Max(u, hn::Zero(floats)), all(1.0F));
+}
+
+// Where each ray is: a block of a level of the maximum mipmap, which it enters at t.
+struct Walk {
+    Floats t;
+    Ints col;
+    Ints row;
+    Ints level;
+    Lanes active;  // not hit, not at the end
+    Lanes arrived; // in a cell that it may hit
+};
+
+// The cell at the start: that of the place, corrected by the t of its lines.
+HWY_INLINE Ints cell_at(const Axis& axis, Floats start) {
+    const Floats first = hn::Neg(axis.base);
+    const Floats last = hn::Add(first, all(static_cast<float>(axis.last)));
+    const auto inside = [&](Floats cell) HWY_ATTR { return hn::Min(hn::Max(cell, first), last); };
+    const Floats cell = inside(hn::Floor(axis.at(start)));
+    const Floats ahead = hn::ConvertTo(floats, axis.ahead);
+    const Floats stride = hn::Sub(hn::Add(ahead, ahead), all(1.0F));
+    const Floats entering = axis.time_at(hn::Sub(hn::Add(cell, all(1.0F)), ahead));
+    const Floats leaving = axis.time_at(hn::Add(cell, ahead));
+    const Floats back = hn::IfThenElseZero(hn::Lt(start, entering), stride);
+    const Floats onward = hn::IfThenElseZero(hn::Ge(start, leaving), stride);
+    const Floats corrected = inside(hn::Add(hn::Sub(cell, back), onward));
+    return hn::ConvertTo(ints, hn::Add(corrected, axis.base));
+}
+
+// The level at which rays begin: a start is near the surface.
+constexpr int first_level = 2;
+
+HWY_INLINE Walk walk_from(const Rays& rays, const TileSamples& tile, Floats start) {
+    const int level = tile.top_level < first_level ? tile.top_level : first_level;
+    Walk walk;
+    walk.active = hn::Lt(start, rays.end);
+    walk.arrived = no_lanes();
+    walk.t = hn::IfThenElse(walk.active, start, rays.begin);
+    walk.level = all(level);
+    walk.col = hn::ShiftRightSame(cell_at(rays.col, walk.t), level);
+    walk.row = hn::ShiftRightSame(cell_at(rays.row, walk.t), level);
+    return walk;
+}
+
+HWY_INLINE Floats size_of(Ints level) {
+    constexpr int exponent_bits = 23;
+    constexpr int exponent_of_one = 127;
+    return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
+}
+
+// The t at which the ray leaves its block.
+struct Exits {
+    Floats col;
+    Floats row;
+};
+
+HWY_INLINE Floats exit_of(const Axis& axis, Ints block, Floats size) {
+    const Floats next = hn::ConvertTo(floats, hn::Add(block, axis.ahead));
+    return axis.time_at(hn::MulSub(next, size, axis.base));
+}
+
+HWY_INLINE Exits exits_of(const Rays& rays, const Walk& walk) {
+    const Floats size = size_of(walk.level);
+    return {exit_of(rays.col, walk.col, size), exit_of(rays.row, walk.row, size)};
+}
+
+HWY_INLINE Floats max_height(const TileSamples& tile, const Walk& walk, Lanes lanes) {
+    const Ints all_rows = all(2 * tile.rows);
+    const Ints first_row = hn::Sub(all_rows, hn::Shr(all_rows, walk.level));
+    const Ints index = hn::Add(hn::Mul(hn::Add(walk.row, first_row), all(tile.stride)), walk.col);
+    const Ints safe = hn::IfThenElseZero(hn::RebindMask(ints, lanes), index);
+    return hn::GatherIndex(floats, tile.maxima, safe);
+}
+
+// To the next block; a level up where that has another parent.
+HWY_INLINE void move_on(const Rays& rays, const TileSamples& tile, const Exits& exits, Lanes lanes,
+                        Walk& walk) {
+    const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
+    walk.t = hn::IfThenElse(lanes, leave, walk.t);
+    walk.active = hn::AndNot(hn::And(lanes, hn::Ge(leave, rays.end)), walk.active);
+    const IntLanes moved = hn::RebindMask(ints, lanes);
+    const IntLanes sideways = hn::RebindMask(ints, hn::Le(exits.col, exits.row));
+    const Ints one = all(1);
+    const Ints ahead = hn::IfThenElse(sideways, rays.col.ahead, rays.row.ahead);
+    const Ints stride = hn::Sub(hn::Add(ahead, ahead), one);
+    const Ints col = hn::Add(walk.col, hn::IfThenElseZero(sideways, stride));
+    const Ints row = hn::Add(walk.row, hn::IfThenZeroElse(sideways, stride));
+    const Ints next = hn::IfThenElse(sideways, col, row);
+    const IntLanes is_new_parent = hn::Ne(hn::And(next, one), ahead);
+    const IntLanes up = hn::And(is_new_parent, hn::Lt(walk.level, all(tile.top_level)));
+    const Ints shift = hn::IfThenElseZero(up, one);
+    walk.col = hn::IfThenElse(moved, hn::Shr(col, shift), walk.col);
+    walk.row = hn::IfThenElse(moved, hn::Shr(row, shift), walk.row);
+    walk.level = hn::IfThenElse(moved, hn::Add(walk.level, shift), walk.level);
+}
+
+// The half of the block along one axis in which the ray is at t.
+HWY_INLINE Ints half_of(const Axis& axis, Ints block, Floats size, Floats t) {
+    const Ints twice = hn::Add(block, block);
+    const Floats middle = hn::ConvertTo(floats, hn::Add(twice, all(1)));
+    const Lanes is_past = hn::Ge(t, axis.time_at(hn::MulSub(middle, size, axis.base)));
+    const IntLanes high =
+        hn::Eq(hn::IfThenElseZero(hn::RebindMask(ints, is_past), all(1)), axis.ahead);
+    return hn::Add(twice, hn::IfThenElseZero(high, all(1)));
+}
+
+HWY_INLINE void descend(const Rays& rays, Lanes lanes, Walk& walk) {
+    const IntLanes down = hn::RebindMask(ints, lanes);
+    const Ints level = hn::Sub(walk.level, all(1));
+    const Floats size = size_of(level);
+    walk.col = hn::IfThenElse(down, half_of(rays.col, walk.col, size, walk.t), walk.col);
+    walk.row = hn::IfThenElse(down, half_of(rays.row, walk.row, size, walk.t), walk.row);
+    walk.level = hn::IfThenElse(down, level, walk.level);
+}
+
+// One step of all rays that have not arrived.
+HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
+    const Lanes run = hn::AndNot(walk.arrived, walk.active);
+    const Exits exits = exits_of(rays, walk);
+    const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
+    const Lanes falls = hn::Lt(rays.rise, hn::Zero(floats));
+    const Floats lowest = hn::MulAdd(hn::IfThenElse(falls, leave, walk.t), rays.rise, rays.height);
+    const Floats bound = all(job.rays.base_height - job.rays.lift);
+    const Floats highest = max_height(job.tile, walk, run);
+    const Lanes over = hn::And(hn::Gt(hn::Add(lowest, bound), highest), run);
+    const Lanes in_cell = hn::RebindMask(floats, hn::Eq(walk.level, hn::Zero(ints)));
+    const Lanes under = hn::AndNot(over, run);
+    walk.arrived = hn::Or(walk.arrived, hn::And(in_cell, under));
+    const Lanes down = hn::AndNot(in_cell, under);
+    if (!hn::AllFalse(floats, down)) {
+        descend(rays, down, walk);
+    }
+    if (!hn::AllFalse(floats, over)) {
+        move_on(rays, job.tile, exits, over, walk);
+    }
+}
+
+// Ends the rays that hit their cells and moves the others on.
+HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
+    const IntLanes there = hn::RebindMask(ints, walk.arrived);
+    const Ints col = hn::IfThenElseZero(there, walk.col);
+    const Ints row = hn::IfThenElseZero(there, walk.row);
+    const Piece piece = piece_in(rays, corners_of(job, col, row), col, row);
+    const Lanes hit = hn::And(crosses(piece), walk.arrived);
+    walk.active = hn::AndNot(hit, walk.active);
+    const Lanes missed = hn::AndNot(hit, walk.arrived);
+    walk.arrived = no_lanes();
+    if (!hn::AllFalse(floats, missed)) {
+        move_on(rays, job.tile, exits_of(rays, walk), missed, walk);
+    }
+    return hit;
+}
+
+// Walks all rays to their first hit. Cells are solved when half of the lanes have arrived at one.
+HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
+    Lanes hits = no_lanes();
+    while (!hn::AllFalse(floats, walk.active)) {
+        step(rays, job, walk);
+        const std::size_t arrived = hn::CountTrue(floats, walk.arrived);
+        const bool has_others = !hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
+        if (2 * arrived >= lane_count || (arrived > 0 && !has_others)) {
+            hits = hn::Or(hits, solve(rays, job, walk));
+        }
+    }
+    return hits;
+}
+
+// Where a packet's rays hit.
+struct PacketHits {
+    Lanes found;
+    Ints col; // cell
+    Ints row;
+    Floats t;
+    Floats col_part; // in the cell, [0, 1]
+    Floats row_part;
+    Floats height; // metres above the base height
+    Corners corners;
+};
+
+HWY_INLINE PacketHits hits_of(const Rays& rays, const BlockJob& job, float start) {
+    Walk walk = walk_from(rays, job.tile, start_of(rays, start));
+    PacketHits hits;
+    hits.found = find_hits(rays, job, walk);
+    const IntLanes found = hn::RebindMask(ints, hits.found);
+    hits.col = hn::IfThenElseZero(found, walk.col);
+    hits.row = hn::IfThenElseZero(found, walk.row);
+    hits.corners = corners_of(job, hits.col, hits.row);
+    const Piece piece = piece_in(rays, hits.corners, hits.col, hits.row);
+    const Floats u = crossing_of(piece);
+    hits.t = hn::MulAdd(u, hn::Sub(piece.end, piece.begin), piece.begin);
+    hits.col_part = hn::MulAdd(u, piece.col.way, piece.col.enter);
+    hits.row_part = hn::MulAdd(u, piece.row.way, piece.row.enter);
+    hits.height = height_in(hits.corners, hits.col_part, hits.row_part);
+    return hits;
+}
+
+} // namespace reljef::cast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

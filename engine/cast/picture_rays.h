@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/terrain/field/placement.h"
+
+namespace reljef::cast {
+
+/// The rays of a picture in sample coordinates (col, row, height in true metres). They are linear
+/// in the place on the picture, and their t is the depth along the view axis.
+struct PictureRays {
+    /// A ray, and its changes for a pixel to the right and a pixel down.
+    struct Vectors {
+        glm::dvec3 first{0.0}; ///< at the top left corner of the picture
+        glm::dvec3 right{0.0};
+        glm::dvec3 down{0.0};
+
+        [[nodiscard]] glm::dvec3 at(glm::dvec2 pixel) const {
+            return first + pixel.x * right + pixel.y * down;
+        }
+    };
+
+    glm::ivec2 size{0}; ///< of the picture, pixels
+    Vectors origin;     ///< constant in perspective
+    Vectors direction;  ///< constant on a map
+    Interval range;     ///< of t
+    double anchor =
+        0.0; ///< t before which no ray is over `bounds`; the rays are precise from there
+};
+
+/// The rays of a camera over a terrain on a plane. `bounds`: of the surface, in samples. Map
+/// cameras have a fitted depth (scene::with_fitted_depth). Preconditions: an invertible transform,
+/// a plane placement.
+PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
+                         const glm::dmat4& world_from_local, const terrain::Placement& placement,
+                         const Box& bounds);
+
+} // namespace reljef::cast
