@@ -49,7 +49,8 @@ Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice
                                  .size = choice.view.size,
                                  .shader_dir = choice.view.shader_dir,
                                  .samples = choice.view.samples.value_or(render::automatic_samples),
-                                 .threads = choice.terrain.threads});
+                                 .threads = choice.terrain.threads,
+                                 .simd = choice.view.simd});
     return device ? Result<Maker>(Maker(new session::DeviceFrames(
                         std::move(*device), log, {choice.stats, choice.terrain.memory_megabytes})))
                   : device.error();
@@ -352,7 +353,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;
     terrain.index = choice.truth ? session::IndexUse::none : terrain.index;
-    session::SceneOptions view = choice.view;
+    session::SceneOptions view = session::drawn_by(choice.view.context, choice.view);
     view.prepares_maps = !choice.truth;
     const bool has_camera_of_file =
         description->eye && !choice.view.eye && !choice.view.geodetic && !choice.view.pose;
@@ -397,8 +398,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "--truth", choice->truth,
         "draw the reference picture with exact rays on the CPU, of all samples, also "
         "of a terrain larger than --memory");
-    for (const char* option :
-         {"--wireframe", "--context", "--technique", "--shader-dir", "--detail", "--samples"}) {
+    for (const char* option : {"--wireframe", "--context", "--simd", "--technique", "--shader-dir",
+                               "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));
     }
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),

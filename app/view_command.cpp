@@ -73,10 +73,11 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
     auto renderer = session::SceneRenderer::create(
-        {.driver = {.size = (*window)->framebuffer_size(),
-                    .shader_dir = choice.view.shader_dir,
-                    .software = (*window)->context().is_software(),
-                    .samples = choice.view.samples.value_or(render::automatic_samples)}});
+        {.driver = render::DriverOptions{
+             .size = (*window)->framebuffer_size(),
+             .shader_dir = choice.view.shader_dir,
+             .software = (*window)->context().is_software(),
+             .samples = choice.view.samples.value_or(render::automatic_samples)}});
     if (!renderer) {
         return renderer.error();
     }
@@ -101,10 +102,10 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         const auto context = choice->view.context;
-        if (context && *context != platform::ContextKind::glfw) {
+        if (context && *context != session::BackendKind::glfw) {
             throw CLI::ValidationError(fmt::format(
                 "--context: {} found, but view needs a window: auto or glfw was expected",
-                platform::to_string(*context)));
+                session::to_string(*context)));
         }
     });
     arguments->footer(

@@ -9,7 +9,7 @@
 namespace reljef::bench {
 
 void add_suite_options(CLI::App& command, SuiteOptions& options) {
-    using Context = std::optional<platform::ContextKind>;
+    using Context = std::optional<session::BackendKind>;
     command.add_flag("--quick", options.quick,
                      "finish within a minute: smaller pictures, fewer frames");
     cli::add_parsed(command, "--rounds", options.rounds,
@@ -24,11 +24,18 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
     cli::add_parsed(
         command, "--context", options.context,
         cli::word_of<Context>("--context", {{"auto", std::nullopt},
-                                            {"glfw", platform::ContextKind::glfw},
-                                            {"egl", platform::ContextKind::egl},
-                                            {"osmesa", platform::ContextKind::osmesa}}),
-        "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)",
+                                            {"glfw", session::BackendKind::glfw},
+                                            {"egl", session::BackendKind::egl},
+                                            {"osmesa", session::BackendKind::osmesa},
+                                            {"cpu", session::BackendKind::cpu}}),
+        "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); cpu: "
+        "exact rays without OpenGL; auto: egl or osmesa (auto)",
         "KIND");
+    command
+        .add_option("--simd", options.simd,
+                    "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
+                    "fastest of the machine)")
+        ->type_name("TARGET");
     cli::add_parsed(command, "--threads", options.threads,
                     cli::number_in<int>("--threads", 0, 1024),
                     "number of threads; 0: one per processor (0)", "N");

@@ -156,11 +156,11 @@ Result<std::optional<double>> parse_max_error(const std::string& text) {
     return std::optional(*bound);
 }
 
-Result<std::optional<platform::ContextKind>> parse_context(const std::string& text) {
-    const auto kind = platform::context_kind_from_string(text);
+Result<std::optional<session::BackendKind>> parse_context(const std::string& text) {
+    const auto kind = session::backend_from_string(text);
     if (!kind && text != "auto") {
         return Error{fmt::format(
-            "--context: '{}' found, one of auto, glfw, egl, osmesa was expected", text)};
+            "--context: '{}' found, one of auto, glfw, egl, osmesa, cpu was expected", text)};
     }
     return kind;
 }
@@ -178,8 +178,15 @@ CLI::Validator existing_folder() {
 void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--context", choice.context, parse_context,
-        "OpenGL context: auto, glfw (window), egl (GPU without a window) or osmesa (CPU) (auto)",
+        "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); cpu: "
+        "exact rays without OpenGL, for one terrain on a plane in memory; auto: egl or osmesa "
+        "(auto)",
         "KIND");
+    command
+        .add_option("--simd", choice.simd,
+                    "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
+                    "fastest of the machine)")
+        ->type_name("TARGET");
     add_parsed(command, "--size", choice.size, parse_size, "size of the picture, pixels (1024x768)",
                "WxH");
     add_parsed(

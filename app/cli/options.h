@@ -8,7 +8,6 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
-#include "engine/platform/context.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/options.h"
 
@@ -23,7 +22,8 @@ struct TerrainChoice : session::SourceOptions {
 };
 
 struct ViewChoice : session::SceneOptions {
-    std::optional<platform::ContextKind> context; ///< absent: auto
+    std::optional<session::BackendKind> context; ///< absent: auto
+    std::string simd;           ///< instruction set of rays on the CPU; empty: the fastest
     std::optional<int> samples; ///< per pixel; absent: 4 for pictures with triangles, else 1
     std::string path; ///< a built-in path ("orbit", "flyover") or a path file; empty: none
     int frames = 1;

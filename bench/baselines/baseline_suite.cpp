@@ -191,7 +191,7 @@ private:
 
     Result<void> open_device() {
         auto opened = session::Device::create(
-            {.context = options_.suite.context.value_or(platform::ContextKind::glfw),
+            {.context = options_.suite.context.value_or(session::BackendKind::glfw),
              .size = options_.suite.size,
              .shader_dir = options_.suite.shader_dir,
              .threads = options_.suite.threads});
@@ -199,7 +199,7 @@ private:
             return opened.error();
         }
         device_.emplace(std::move(*opened));
-        results_.environment = environment_of(device_->context(), options_.suite.threads);
+        results_.environment = environment_of(device_->info(), options_.suite.threads);
         return {};
     }
 

@@ -32,13 +32,9 @@ unsigned renderer_threads(int requested) {
 
 } // namespace
 
-Environment environment_of(const platform::Context& context, int threads) {
-    return {context.renderer(),
-            context.version(),
-            std::string(platform::to_string(context.kind())),
-            renderer_threads(threads),
-            cpu_name(),
-            RELJEF_COMMIT};
+Environment environment_of(const platform::RendererInfo& info, int threads) {
+    return {info.renderer, info.version, info.context, renderer_threads(threads),
+            cpu_name(),    RELJEF_COMMIT};
 }
 
 Setting setting_of(const scene::Technique& technique) {

@@ -30,7 +30,7 @@ struct Environment {
 };
 
 /// `threads`: 0 takes LP_NUM_THREADS, which limits llvmpipe, or else all of the machine.
-Environment environment_of(const platform::Context& context, int threads);
+Environment environment_of(const platform::RendererInfo& info, int threads);
 
 /// Rows with a larger noise floor are noisy.
 inline constexpr double max_noise = 0.10;

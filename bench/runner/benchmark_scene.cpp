@@ -77,6 +77,7 @@ Result<session::Device> make_device(const SuiteOptions& options) {
                                     .size = options.size,
                                     .shader_dir = options.shader_dir,
                                     .threads = options.threads,
+                                    .simd = options.simd,
                                     .selects_always = true});
 }
 

@@ -179,8 +179,8 @@ public:
         if (!device) {
             return device.error();
         }
-        results_.environment = environment_of(device->context(), options_.threads);
-        is_software_ = device->context().is_software();
+        results_.environment = environment_of(device->info(), options_.threads);
+        is_software_ = device->info().is_software;
         if (auto opened = open_scenes(); !opened) {
             return opened;
         }

@@ -2,19 +2,21 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <glm/vec2.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "engine/platform/context.h"
+#include "engine/session/options.h"
 
 namespace reljef::bench {
 
 /// Options of all suites that measure.
 struct SuiteOptions {
     glm::ivec2 size{1024, 768};
-    std::optional<platform::ContextKind> context; ///< absent: EGL on a hardware GPU, else OSMesa
-    int threads = 0;                              ///< 0: all of the machine
+    std::optional<session::BackendKind> context; ///< absent: EGL on a hardware GPU, else OSMesa
+    std::string simd;                 ///< instruction set of rays on the CPU; empty: the fastest
+    int threads = 0;                  ///< 0: all of the machine
     int rounds = 0;                   ///< of each measurement; 0: as many as fit, at least 5
     bool quick = false;               ///< ends within a minute, with fewer rounds if necessary
     double quick_seconds = 48.0;      ///< of a quick run; the rest of the minute is a reserve

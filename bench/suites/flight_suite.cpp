@@ -126,7 +126,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     }
     FlightResults results;
     results.options = options;
-    results.environment = environment_of(frames->context(), options.terrain.threads);
+    results.environment = environment_of(frames->info(), options.terrain.threads);
     if (auto flown = fly(*scene, *path, *frames, log, watch, results, stop); !flown) {
         return flown.error();
     }

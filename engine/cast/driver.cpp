@@ -176,6 +176,11 @@ Driver::Driver(const DriverOptions& options)
     : options_(options), picture_(options.size.x, options.size.y) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
+    if (options.samples != 1 && options.samples != automatic_samples) {
+        return Error{fmt::format("picture with {} samples a pixel: rays on the CPU found, 1 was "
+                                 "expected; --context osmesa draws several",
+                                 options.samples)};
+    }
     Driver driver({.size = {1, 1}, .threads = options.threads});
     auto sized = driver.resize(options.size);
     return sized ? Result<Driver>(std::move(driver)) : sized.error();
@@ -218,7 +223,7 @@ const LitLevels& Driver::levels_of(const scene::TerrainNode& terrain,
     if (surface.light.levels == nullptr || surface.light.light != light) {
         const Grid<float>& heights = terrain.surface->heightfield().heights;
         surface.light = {light, std::make_shared<const LitLevels>(
-                                    view::lit_map(*terrain.surface, light, max_map_side),
+                                    view::lit_map(*terrain.surface, light, max_texture_side()),
                                     glm::ivec2(heights.cols(), heights.rows()))};
         ++stats.uploads;
         stats.upload_bytes += surface.light.levels->bytes();
@@ -228,15 +233,16 @@ const LitLevels& Driver::levels_of(const scene::TerrainNode& terrain,
     return *surface.light.levels;
 }
 
-void Driver::add_light(const view::PreparedLight& prepared) {
+Result<void> Driver::add_light(const view::PreparedLight& prepared) {
     const view::LightRequest& request = prepared.request;
     if (request.stream != nullptr || request.in_parts) {
-        return;
+        return {}; // not drawn by rays
     }
     const Grid<float>& heights = request.surface->heightfield().heights;
     surface_of(request.surface).light = {
         request.light, std::make_shared<const LitLevels>(
                            prepared.lit, glm::ivec2(heights.cols(), heights.rows()))};
+    return {};
 }
 
 void Driver::paint(const view::DrawList& list, const std::optional<PlacedTerrain>& terrain,

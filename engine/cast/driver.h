@@ -22,7 +22,11 @@ namespace reljef::cast {
 struct DriverOptions {
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels
     unsigned threads = 0;       ///< 0: one per hardware thread; no influence on the result
+    int samples = 1;            ///< per pixel: 1, or automatic_samples
 };
+
+/// The driver's choice: 1.
+inline constexpr int automatic_samples = 0;
 
 /// Fails unless the CPU draws each terrain and mesh of a list: at most one terrain, on a plane and
 /// in memory, with `exact` or an error bound, which exact rays keep.
@@ -32,10 +36,10 @@ Result<void> check_support(const view::DrawList& list);
 /// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
 class Driver {
 public:
-    /// Fails on a size below one pixel.
+    /// Fails on a size that is out of range, and with several samples per pixel.
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame of size(). Fails as check_support().
+    /// Draws a frame of size(), and has finished when it returns. Fails as check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame);
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
 
@@ -43,13 +47,13 @@ public:
     [[nodiscard]] const Image& read_color() const { return picture_; }
 
     /// Takes the light of a terrain that was computed before.
-    void add_light(const view::PreparedLight& prepared);
+    Result<void> add_light(const view::PreparedLight& prepared);
 
     Result<void> resize(glm::ivec2 size);
     [[nodiscard]] glm::ivec2 size() const { return {picture_.cols(), picture_.rows()}; }
 
     /// Of the maps that light a terrain, texels.
-    static constexpr int max_map_side = 1 << 14;
+    [[nodiscard]] static int max_texture_side() { return 1 << 14; }
 
 private:
     struct Light {

@@ -44,12 +44,12 @@ HWY_INLINE Floats cubic(Floats x, float c0, float c1, float c2, float c3) {
 
 // 2^x within 1.2e-4, for x <= 0; 0 below the smallest float.
 HWY_INLINE Floats exp2_of(Floats x) {
-    const Floats least = all(-126.0F);
-    const Floats clamped = hn::Max(x, least);
+    const Floats smallest = all(-126.0F);
+    const Floats clamped = hn::Max(x, smallest);
     const Floats whole = hn::Floor(clamped);
     const Floats power =
         cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
-    return hn::IfThenElseZero(hn::Gt(x, least),
+    return hn::IfThenElseZero(hn::Gt(x, smallest),
                               hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
 }
 

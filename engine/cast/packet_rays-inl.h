@@ -71,8 +71,8 @@ struct Rays {
 
 // A direction of 0 leaves no line; this one moves by less than rounding within any range of t.
 HWY_INLINE Floats moving(Floats direction) {
-    const Floats least = all(1e-25F);
-    return hn::IfThenElse(hn::Lt(hn::Abs(direction), least), least, direction);
+    const Floats slowest = all(1e-25F);
+    return hn::IfThenElse(hn::Lt(hn::Abs(direction), slowest), slowest, direction);
 }
 
 HWY_INLINE Axis axis_of(Floats origin, Floats direction, int base, int cells) {

@@ -120,6 +120,11 @@ bool Context::is_software() const {
                        [&](const char* name) { return renderer_.find(name) != std::string::npos; });
 }
 
+RendererInfo info_of(const Context& context) {
+    return {context.renderer(), context.version(), std::string(to_string(context.kind())),
+            context.is_software()};
+}
+
 Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOptions& options) {
     return make_with(release_current(), [&]() -> MadeContext {
         auto made = create(kind, options);

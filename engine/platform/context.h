@@ -59,6 +59,15 @@ private:
     std::string version_;
 };
 
+/// What draws, for reports.
+struct RendererInfo {
+    std::string renderer;
+    std::string version;
+    std::string context; ///< as on the command line
+    bool is_software = true;
+};
+RendererInfo info_of(const Context& context);
+
 /// Makes a context and makes it current. Fails with the kind, the found version and the packages to
 /// install.
 Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOptions& options = {});

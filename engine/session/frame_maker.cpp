@@ -180,7 +180,7 @@ std::string DeviceFrames::stats() const {
     return streams_text(stream_stats_) + times_text(times_) + memory_text(times_.memory_before) +
            fmt::format(
                "renderer: {}\n"
-               "nodes: {}, tiles: {}, triangles: {}, draws: {}, state changes: {}\n"
+               "nodes: {}, tiles: {}, triangles: {}, rays: {}, draws: {}, state changes: {}\n"
                "uploads: {} ({:.1f} MB)\n"
                "tiles cut: {}, unproven: {}, kept error: {}\n"
                "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
@@ -188,7 +188,7 @@ std::string DeviceFrames::stats() const {
                "triangles under the error, {} details too small, {} selections, {} cuts and {} "
                "uploads that were there\n"
                "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-               device_.context().renderer(), stats_.nodes, stats_.tiles, stats_.triangles,
+               device_.info().renderer, stats_.nodes, stats_.tiles, stats_.triangles, stats_.rays,
                stats_.draws, stats_.state_changes, stats_.uploads,
                static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
                stats_.tiles_unproven,

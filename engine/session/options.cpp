@@ -1,5 +1,7 @@
 #include "engine/session/options.h"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <variant>
 
@@ -8,6 +10,31 @@
 #include "engine/scene/graph/terrain_node.h"
 
 namespace reljef::session {
+namespace {
+
+constexpr std::array<std::string_view, 4> backend_names{"osmesa", "egl", "glfw", "cpu"};
+
+} // namespace
+
+std::string_view to_string(BackendKind kind) {
+    return backend_names[static_cast<std::size_t>(kind)];
+}
+
+std::optional<BackendKind> backend_from_string(std::string_view text) {
+    const auto* const found = std::find(backend_names.begin(), backend_names.end(), text);
+    return found == backend_names.end()
+               ? std::nullopt
+               : std::optional(static_cast<BackendKind>(found - backend_names.begin()));
+}
+
+SceneOptions drawn_by(std::optional<BackendKind> backend, SceneOptions options) {
+    const bool is_bounded = options.max_error.value_or(default_max_error) > 0.0;
+    if (backend == BackendKind::cpu && !options.technique && is_bounded) {
+        options.technique = scene::Technique{scene::Exact{}};
+        options.max_error.reset();
+    }
+    return options;
+}
 
 scene::Technique technique_of(const SceneOptions& options) {
     scene::Technique technique = options.technique.value_or(scene::Technique{});

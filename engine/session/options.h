@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -21,6 +22,12 @@ namespace reljef::session {
 /// The index that proves the errors of streamed tiles (terrain_index.h): none, one that is there,
 /// or one that open_scene() makes first if the user names an error bound.
 enum class IndexUse { none, existing, made };
+
+/// What draws frames: an OpenGL context of a kind, or rays on the CPU without OpenGL.
+enum class BackendKind { osmesa, egl, glfw, cpu };
+/// As on the command line.
+std::string_view to_string(BackendKind kind);
+std::optional<BackendKind> backend_from_string(std::string_view text);
 
 struct SourceOptions {
     /// A built-in name, a scene file (.toml), a DEM file or its address, a folder of them, or web
@@ -97,5 +104,9 @@ Result<void> check(const SceneOptions& options);
 /// Streams the source only if the options allow it. A terrain that fits in memory is not streamed
 /// with an error bound: in memory, its errors are proven without an index.
 SourceOptions streamed_for(SourceOptions source, const SceneOptions& options);
+
+/// As `backend` draws them (absent: chosen by the machine): exact rays of the CPU keep the error
+/// bound that stands for all unnamed techniques.
+SceneOptions drawn_by(std::optional<BackendKind> backend, SceneOptions options);
 
 } // namespace reljef::session

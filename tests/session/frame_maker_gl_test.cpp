@@ -25,7 +25,7 @@ const std::string utm_31_prj =
     R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
 
 Device osmesa_device() {
-    return std::move(*Device::create({.context = platform::ContextKind::osmesa, .size = picture}));
+    return std::move(*Device::create({.context = session::BackendKind::osmesa, .size = picture}));
 }
 
 TEST(DeviceFramesGl, SelectEachViewOnce) {

@@ -33,7 +33,8 @@ inline Result<scene::CameraPath> open_path(const session::TerrainScene& scene,
 inline Result<session::SceneRenderer> make_renderer(glm::ivec2 size,
                                                     const view::SelectOptions& select = {}) {
     return session::SceneRenderer::create(
-        {.driver = {.size = size, .shader_dir = {}, .software = true}, .select = select});
+        {.driver = render::DriverOptions{.size = size, .shader_dir = {}, .software = true},
+         .select = select});
 }
 
 } // namespace reljef::test

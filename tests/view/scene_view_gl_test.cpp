@@ -146,7 +146,9 @@ TEST_F(StillView, IsDecidedOnceAndDrawnTheSame) {
 TEST_F(StillView, IsDecidedAnewWhereThatIsMeasured) {
     World world;
     session::SceneRenderer made = test::must(session::SceneRenderer::create(
-        {.driver = {.size = size, .shader_dir = {}}, .select = {}, .selects_always = true}));
+        {.driver = render::DriverOptions{.size = size, .shader_dir = {}},
+         .select = {},
+         .selects_always = true}));
     for (int frame = 0; frame < 2; ++frame) {
         EXPECT_EQ(test::must(made.draw(world.scene)).skipped.selections_unchanged, 0);
     }

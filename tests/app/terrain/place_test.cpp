@@ -42,7 +42,7 @@ public:
         view.max_error = 0.0; // every sample of a tile
         scene_ = std::move(*test::make_scene(std::move(*source), choice, view));
         frames_.emplace(std::move(*session::Device::create(
-                            {.context = platform::ContextKind::osmesa, .size = picture_size})),
+                            {.context = session::BackendKind::osmesa, .size = picture_size})),
                         log_);
     }
 

@@ -99,7 +99,7 @@ TEST_P(StreamedError, of_no_pixel_is_more_than_the_frame_states) {
     session::Log silent;
     ASSERT_TRUE(session::index_terrain(choice_, silent, {}));
     auto device =
-        session::Device::create({.context = platform::ContextKind::osmesa, .size = picture});
+        session::Device::create({.context = session::BackendKind::osmesa, .size = picture});
     ASSERT_TRUE(device) << device.error().message;
     session::DeviceFrames frames(std::move(*device), silent,
                                  {.memory_megabytes = choice_.memory_megabytes});

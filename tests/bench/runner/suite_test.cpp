@@ -25,7 +25,7 @@ protected:
     SuiteOptions options() {
         SuiteOptions options;
         options.size = {64, 48};
-        options.context = platform::ContextKind::osmesa;
+        options.context = session::BackendKind::osmesa;
         options.rounds = 3;
         options.quiet = true;
         return options;

@@ -14,7 +14,7 @@ namespace {
 ErrorBoundOptions few_poses(const std::string& terrain) {
     ErrorBoundOptions options;
     options.suite.size = {64, 48};
-    options.suite.context = platform::ContextKind::osmesa;
+    options.suite.context = session::BackendKind::osmesa;
     options.suite.quiet = true;
     options.terrains = {terrain};
     options.poses = 10;

@@ -37,7 +37,7 @@ FlightOptions short_flight(const test::TemporaryFolder& folder) {
             .string();
     options.view.frames = 4;
     options.view.size = {64, 48};
-    options.view.context = platform::ContextKind::osmesa;
+    options.view.context = session::BackendKind::osmesa;
     return options;
 }
 

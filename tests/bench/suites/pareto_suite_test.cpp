@@ -170,7 +170,7 @@ TEST(ParetoSuite, front_that_lacks_a_technique_has_no_area) {
     options.terrains = {folder.write("dem.asc", test::small_dem).string()};
     options.techniques = {scene::make_technique(scene::TechniqueId::polygons)};
     options.suite.size = {64, 48};
-    options.suite.context = platform::ContextKind::osmesa;
+    options.suite.context = session::BackendKind::osmesa;
     options.suite.quiet = true;
     options.suite.quick = true;
     for (const double seconds : {0.0, 1000.0}) {

@@ -16,7 +16,7 @@ class Scaling : public testing::Test {
 protected:
     void SetUp() override {
         options_.suite.size = {64, 48};
-        options_.suite.context = platform::ContextKind::osmesa;
+        options_.suite.context = session::BackendKind::osmesa;
         options_.suite.quiet = true;
         options_.sides = {64, 700};
         options_.memory_megabytes = 16; // 700² samples take 19

@@ -21,7 +21,7 @@ protected:
         options.terrains = {folder_.write("a.asc", test::small_dem).string(),
                             folder_.write("b.asc", test::small_dem).string()};
         options.suite.size = {64, 48};
-        options.suite.context = platform::ContextKind::osmesa;
+        options.suite.context = session::BackendKind::osmesa;
         options.suite.rounds = 6;
         options.suite.quiet = true;
         return options;
