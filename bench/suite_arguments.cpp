@@ -28,8 +28,9 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
                                             {"egl", session::BackendKind::egl},
                                             {"osmesa", session::BackendKind::osmesa},
                                             {"cpu", session::BackendKind::cpu}}),
-        "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); cpu: "
-        "exact rays without OpenGL; auto: egl or osmesa (auto)",
+        "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); auto: "
+        "egl or osmesa; cpu: as auto, and tables and pareto measure exact rays without OpenGL "
+        "beside it (auto)",
         "KIND");
     command
         .add_option("--simd", options.simd,

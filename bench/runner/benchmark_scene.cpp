@@ -73,9 +73,18 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
 } // namespace
 
 Result<session::Device> make_device(const SuiteOptions& options) {
-    return session::Device::create({.context = options.context,
+    const bool is_beside_rays = options.context == session::BackendKind::cpu;
+    return session::Device::create(
+        {.context = is_beside_rays ? std::optional<session::BackendKind>() : options.context,
+         .size = options.size,
+         .shader_dir = options.shader_dir,
+         .threads = options.threads,
+         .selects_always = true});
+}
+
+Result<session::Device> make_rays_device(const SuiteOptions& options) {
+    return session::Device::create({.context = session::BackendKind::cpu,
                                     .size = options.size,
-                                    .shader_dir = options.shader_dir,
                                     .threads = options.threads,
                                     .simd = options.simd,
                                     .selects_always = true});

@@ -18,8 +18,11 @@
 
 namespace reljef::bench {
 
-/// The device of a suite; it selects tiles in every frame. Fails as session::Device::create.
+/// The device of a suite; it selects tiles in every frame. With session::BackendKind::cpu it is
+/// that of OpenGL, which measures beside rays. Fails as session::Device::create.
 Result<session::Device> make_device(const SuiteOptions& options);
+/// The same for rays on the CPU.
+Result<session::Device> make_rays_device(const SuiteOptions& options);
 
 /// A terrain, or copies of a detail texture on a level square, to measure on.
 struct SceneChoice {

@@ -20,6 +20,7 @@ namespace {
 struct Entry {
     Row row;
     scene::Technique technique;
+    bool by_rays = false;
     view::FrameStats stats{};     // of the last frame
     std::vector<double> gpu_ms{}; // of every frame
 };
@@ -50,6 +51,32 @@ private:
     double index_ = 0.0;
 };
 
+Setting labelled(const Candidate& candidate) {
+    Setting setting = setting_of(candidate.technique);
+    setting.label += candidate.by_rays ? " on cpu" : "";
+    return setting;
+}
+
+bool may_be_rays(const scene::Technique& technique) {
+    return technique.options == scene::TechniqueOptions{} &&
+           (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
+}
+
+Suite with_rays(Suite suite) {
+    for (Group& group : suite.groups) {
+        std::vector<Candidate> candidates;
+        for (Candidate& candidate : group.candidates) {
+            Candidate by_rays{candidate.technique, {}, true};
+            candidates.push_back(std::move(candidate));
+            if (group.scene.detail.empty() && may_be_rays(by_rays.technique)) {
+                candidates.push_back(std::move(by_rays));
+            }
+        }
+        group.candidates = std::move(candidates);
+    }
+    return suite;
+}
+
 std::vector<Entry> entries_of(const Group& group, std::string_view suite, const std::string& scene,
                               glm::ivec2 size) {
     check(!group.candidates.empty(), "a group without candidates");
@@ -60,10 +87,10 @@ std::vector<Entry> entries_of(const Group& group, std::string_view suite, const 
         row.test = group.test;
         row.scene = scene;
         row.pose = group.pose;
-        row.setting = setting_of(candidate.technique);
+        row.setting = labelled(candidate);
         row.size = size;
         row.source = candidate.source;
-        entries.push_back({std::move(row), candidate.technique});
+        entries.push_back({std::move(row), candidate.technique, candidate.by_rays});
     }
     return entries;
 }
@@ -79,7 +106,7 @@ std::size_t repeated_entry(std::span<const Entry> entries) {
 std::vector<Entry> with_null_row(std::vector<Entry> entries) {
     if (!entries.empty()) {
         const Entry& repeated = entries[repeated_entry(entries)];
-        Entry null_entry{repeated.row, repeated.technique};
+        Entry null_entry{repeated.row, repeated.technique, repeated.by_rays};
         null_entry.row.null_row = true;
         null_entry.row.source.reset();
         null_entry.row.view.reset();
@@ -140,7 +167,7 @@ LeftOut left_out_of(const Group& group, const std::string& scene, std::span<cons
     std::set<scene::TechniqueId> found;
     for (const Candidate& candidate : group.candidates) {
         const bool is_first = found.insert(candidate.technique.id()).second;
-        const Setting setting = setting_of(candidate.technique);
+        const Setting setting = labelled(candidate);
         const bool has_row = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
             return row.setting.label == setting.label;
         });
@@ -178,6 +205,15 @@ public:
         auto device = make_device(options_);
         if (!device) {
             return device.error();
+        }
+        if (options_.context == session::BackendKind::cpu) {
+            auto rays = make_rays_device(options_);
+            if (!rays) {
+                return rays.error();
+            }
+            rays_.emplace(std::move(*rays));
+            results_.notes.push_back(
+                fmt::format("on cpu: {}, {}", rays_->info().renderer, rays_->info().version));
         }
         results_.environment = environment_of(device->info(), options_.threads);
         is_software_ = device->info().is_software;
@@ -227,6 +263,9 @@ private:
         const double seconds = group_seconds(options_, since_begin_.seconds(), left);
         since_group_ = Stopwatch();
         driver.forget_scene();
+        if (rays_) {
+            rays_->renderer().forget_scene();
+        }
         const auto scene = scenes_.get(group.scene);
         if (!scene) {
             return scene.error();
@@ -285,7 +324,7 @@ private:
                                   session::SceneRenderer& driver) {
         const bool is_texture = cost.frames == 0;
         const Stopwatch since_begin;
-        auto measured = scene.measure_error(entry.technique, driver, stop_);
+        auto measured = scene.measure_error(entry.technique, renderer_of(entry, driver), stop_);
         if (!measured) {
             return measured.error();
         }
@@ -298,7 +337,7 @@ private:
             entry.row.view = std::move(*view);
         }
         const Stopwatch since_checked;
-        if (auto drawn = frame_of(entry, scene, driver)(); !drawn) {
+        if (auto drawn = frame_of(entry, scene, renderer_of(entry, driver))(); !drawn) {
             return drawn.error();
         }
         const double frame = since_checked.seconds();
@@ -307,6 +346,10 @@ private:
         return GroupCost{
             since_group_.seconds(), is_texture ? 0.0 : cost.error_seconds + since_begin.seconds(),
             is_texture ? 0 : cost.checked + 1, cost.round + frames * frame, cost.frames + frames};
+    }
+
+    session::SceneRenderer& renderer_of(const Entry& entry, session::SceneRenderer& driver) {
+        return entry.by_rays ? rays_->renderer() : driver;
     }
 
     // Of the last frame with the same setting.
@@ -320,7 +363,7 @@ private:
         std::vector<DrawFrame> frames;
         frames.reserve(entries.size());
         for (Entry& entry : entries) {
-            frames.push_back(frame_of(entry, scene, driver));
+            frames.push_back(frame_of(entry, scene, renderer_of(entry, driver)));
         }
         const std::size_t repeated = repeated_entry(entries);
         timing.null_pair = {repeated, frames.size() - 1};
@@ -372,6 +415,7 @@ private:
     Stopwatch since_group_;
     BenchmarkScenes scenes_;
     RowViews views_;
+    std::optional<session::Device> rays_;
     bool is_software_ = true;
     std::map<std::string, double> frame_seconds_; // by label
     std::set<std::string> shared_names_;
@@ -392,7 +436,9 @@ std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& techni
 
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop) {
     Results results;
-    const auto done = SuiteRun(results, suite, options, stop).run();
+    const bool has_rays = options.context == session::BackendKind::cpu;
+    const Suite measured = has_rays ? with_rays(suite) : suite;
+    const auto done = SuiteRun(results, measured, options, stop).run();
     if (stop.stop_requested()) {
         results.stopped =
             Error{results.rows.empty() ? "interrupted before the first frame was timed"

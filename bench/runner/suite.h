@@ -14,6 +14,7 @@ namespace reljef::bench {
 struct Candidate {
     scene::Technique technique;
     std::optional<SourceFigure> source = {};
+    bool by_rays = false; ///< drawn by rays on the CPU (session::BackendKind::cpu)
 };
 /// Texture, then the other techniques.
 std::vector<Candidate> candidates_of(const std::vector<scene::Technique>& techniques);
@@ -38,7 +39,9 @@ struct Suite {
 
 /// Measures a suite group by group: first the error of each candidate, then its frame time. Rows
 /// are in the order of the groups, each group's null row last. A run that is stopped or fails keeps
-/// its rows; after a stop it draws the checked candidates once. Fails without groups.
+/// its rows; after a stop it draws the checked candidates once. Fails without groups. With
+/// session::BackendKind::cpu, OpenGL draws the candidates, and rays on the CPU beside it those that
+/// are exact or keep an error bound; their labels say so.
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench
