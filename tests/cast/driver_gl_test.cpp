@@ -1,0 +1,171 @@
+#include "engine/cast/driver.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/scene/motion/poses.h"
+#include "engine/truth/image_error.h"
+#include "tests/cast/made_rays.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/session/made_session.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr glm::ivec2 small_picture{320, 240};
+
+// Hills below a sun and a hazy sky, drawn by exact rays.
+struct LitStage : Stage {
+    LitStage() : Stage(test::hills(301, 257, 12.0), {1.0, 1.0}) {
+        scene.add_light();
+        scene.set_sky({.visibility = 900.0});
+        use(scene::Technique{scene::Exact{}});
+    }
+    void use(const scene::Technique& technique) {
+        terrain->get<scene::TerrainNode>()->material.technique = technique;
+    }
+    void look_from(scene::Pose pose) {
+        look(scene::pose_camera(pose, surface().bounds(), [&](double x, double y) {
+            return surface().height_at(x, y).value_or(0.0);
+        }));
+    }
+};
+
+Image drawn_by_rays(const scene::Scene& scene, unsigned threads = 0) {
+    Driver driver = test::must(Driver::create({.size = small_picture, .threads = threads}));
+    test::must(driver.draw(view::select(scene, small_picture)));
+    return driver.read_color();
+}
+
+// Pixels with a channel that is off by more than `levels`.
+double share_of_others(const Image& a, const Image& b, int levels) {
+    int others = 0;
+    for (int row = 0; row < a.rows(); ++row) {
+        for (int col = 0; col < a.cols(); ++col) {
+            const Rgba8 p = a(col, row);
+            const Rgba8 q = b(col, row);
+            const int off =
+                std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+            others += off > levels ? 1 : 0;
+        }
+    }
+    return static_cast<double>(others) / (a.cols() * a.rows());
+}
+
+class CastDriverGlTest : public test::GlTest {
+protected:
+    static Image drawn_by_opengl(const scene::Scene& scene) {
+        session::SceneRenderer made = test::must(test::make_renderer(small_picture));
+        test::must(made.draw(scene));
+        return made.read_color();
+    }
+};
+
+// The shaders filter with derivatives of four pixels and round colours to bytes.
+TEST_F(CastDriverGlTest, DrawsWhatTheShadersDraw) {
+    LitStage stage;
+    for (const scene::Pose pose :
+         {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
+        stage.look_from(pose);
+        const Image rays = drawn_by_rays(stage.scene);
+        const Image shaders = drawn_by_opengl(stage.scene);
+        const auto errors = truth::image_errors(rays, shaders);
+        ASSERT_TRUE(errors);
+        EXPECT_LE(errors->rmse, 0.005) << scene::to_string(pose);
+        EXPECT_LE(errors->flip.mean, 0.02) << scene::to_string(pose);
+        EXPECT_LE(share_of_others(rays, shaders, 2), 0.01) << scene::to_string(pose);
+    }
+}
+
+TEST_F(CastDriverGlTest, DrawsSkyAndSunWithoutTerrain) {
+    LitStage stage;
+    stage.terrain->set_visible(false);
+    scene::Camera camera;
+    const scene::Light sun;
+    camera.target = camera.eye + scene::to_light(sun) + glm::dvec3(0.1, 0.0, 0.1);
+    stage.look(camera);
+    const Image rays = drawn_by_rays(stage.scene);
+    const auto errors = truth::image_errors(rays, drawn_by_opengl(stage.scene));
+    ASSERT_TRUE(errors);
+    EXPECT_LE(errors->rmse, 0.002);
+    stage.scene.remove_sky();
+    const auto black = drawn_by_rays(stage.scene);
+    EXPECT_EQ(black(3, 4), drawn_by_opengl(stage.scene)(3, 4));
+}
+
+TEST(CastDriver, DrawsTheSameBitsOnAnyThreads) {
+    LitStage stage;
+    stage.look_from(scene::Pose::low);
+    EXPECT_EQ(drawn_by_rays(stage.scene, 1), drawn_by_rays(stage.scene, 3));
+}
+
+TEST(CastDriver, FindsTheHitsOfTheTruth) {
+    LitStage stage;
+    stage.look_from(scene::Pose::overview);
+    Driver driver = test::must(Driver::create({.size = small_picture}));
+    const auto drawn = test::must(driver.draw_hits(view::select(stage.scene, small_picture)));
+    const auto errors = stage.errors(drawn.hits, stage.truth(small_picture));
+    EXPECT_EQ(errors.wrong, 0U);
+    EXPECT_EQ(drawn.stats.rays, drawn.hits.size());
+}
+
+TEST(CastDriver, KeepsErrorBoundsWithoutError) {
+    LitStage stage;
+    stage.look_from(scene::Pose::overview);
+    const Image exact = drawn_by_rays(stage.scene);
+    scene::Polygons bounded;
+    bounded.error = 2.0;
+    stage.use({bounded});
+    Driver driver = test::must(Driver::create({.size = small_picture}));
+    const auto stats = test::must(driver.draw(view::select(stage.scene, small_picture)));
+    EXPECT_EQ(stats.kept_error, 0.0);
+    EXPECT_EQ(driver.read_color(), exact);
+}
+
+TEST(CastDriver, MakesMapsOnce) {
+    LitStage stage;
+    stage.look_from(scene::Pose::overview);
+    Driver driver = test::must(Driver::create({.size = small_picture}));
+    const auto first = test::must(driver.draw(view::select(stage.scene, small_picture)));
+    EXPECT_EQ(first.uploads, 2);
+    const auto second = test::must(driver.draw(view::select(stage.scene, small_picture)));
+    EXPECT_EQ(second.uploads, 0);
+    EXPECT_EQ(second.skipped.uploads_unchanged, 2);
+}
+
+std::string reason_against(const scene::Scene& scene) {
+    Driver driver = test::must(Driver::create({.size = small_picture}));
+    const auto drawn = driver.draw(view::select(scene, small_picture));
+    return drawn ? std::string() : drawn.error().message;
+}
+
+TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
+    LitStage stage;
+    stage.look_from(scene::Pose::overview);
+    EXPECT_EQ(reason_against(stage.scene), "");
+    stage.use({scene::Texture{}});
+    EXPECT_EQ(reason_against(stage.scene),
+              "rays on the CPU: technique texture found, exact or an error bound over one terrain "
+              "on a plane in memory was expected; --context osmesa draws the others");
+    scene::Technique shadowed{scene::Exact{}};
+    shadowed.options.shadow = scene::Shadow{};
+    stage.use(shadowed);
+    EXPECT_NE(reason_against(stage.scene).find("shadow"), std::string::npos);
+    stage.use({scene::Exact{}});
+    stage.scene.add_mesh(scene::plane_mesh(glm::vec2(30.0F)));
+    EXPECT_NE(reason_against(stage.scene).find("a mesh found"), std::string::npos);
+}
+
+TEST(CastDriver, RefusesSizesAndSamplesOutOfRange) {
+    EXPECT_FALSE(Driver::create({.size = {0, 5}}));
+    EXPECT_FALSE(Driver::create({.size = {5, 1 << 15}}));
+    EXPECT_FALSE(Driver::create({.size = {5, 5}, .samples = 4}));
+    EXPECT_TRUE(Driver::create({.size = {5, 5}, .samples = automatic_samples}));
+}
+
+} // namespace
+} // namespace reljef::cast
