@@ -1,6 +1,8 @@
 #include "engine/cast/driver.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -143,17 +145,16 @@ glm::vec2 longest_texels(const view::DrawList& list, const PictureRays::Vectors&
                                      std::max(per_metre.x, per_metre.y))};
 }
 
+// The bytes of a pixel are those of Rgba8.
+static_assert(std::endian::native == std::endian::little);
+
 void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& picture) {
+    const auto width = static_cast<std::size_t>(block.size.x);
     for (int row = 0; row < block.size.y; ++row) {
-        for (int col = 0; col < block.size.x; ++col) {
-            const std::uint32_t bits =
-                pixels.rgba[static_cast<std::size_t>(row * block_side + col)];
-            const auto byte = [&](unsigned shift) {
-                return static_cast<std::uint8_t>(bits >> shift & 255U);
-            };
-            picture(block.first.x + col, block.first.y + row) = {byte(0), byte(8), byte(16),
-                                                                 byte(24)};
-        }
+        const std::uint32_t* const from =
+            pixels.rgba.data() + static_cast<std::size_t>(row) * block_side;
+        Rgba8* const to = &picture(block.first.x, block.first.y + row);
+        std::memcpy(static_cast<void*>(to), from, width * sizeof(Rgba8));
     }
 }
 
