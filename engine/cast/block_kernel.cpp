@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include "engine/cast/packet_beams-inl.h"
 #include "engine/cast/packet_paint-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
@@ -40,12 +41,12 @@ HWY_INLINE void store_hits(const PacketHits& found, int col, int row, BlockHits&
 }
 
 void cast_all(const BlockJob& job, BlockHits& hits) {
+    BeamStarts starts;
+    find_starts(job, starts);
     for (int row = 0; row < block_side; row += packet_rows) {
         for (int col = 0; col < block_side; col += packet_cols) {
-            const int beam = row / beam_side * beams_a_side + col / beam_side;
-            const float start = job.starts[static_cast<std::size_t>(beam)];
             const Rays rays = rays_of(job, col, row);
-            store_hits(hits_of(rays, job, start), col, row, hits);
+            store_hits(hits_of(rays, job, starts.at(col, row)), col, row, hits);
         }
     }
 }
@@ -68,11 +69,11 @@ HWY_INLINE void paint_packet(const BlockJob& job, const BlockPaint& paint, int c
 }
 
 void paint_all(const BlockJob& job, const BlockPaint& paint, BlockPixels& pixels) {
+    BeamStarts starts;
+    find_starts(job, starts);
     for (int row = 0; row < block_side; row += packet_rows) {
         for (int col = 0; col < block_side; col += packet_cols) {
-            const int beam = row / beam_side * beams_a_side + col / beam_side;
-            const float start = job.starts[static_cast<std::size_t>(beam)];
-            paint_packet(job, paint, col, row, start, pixels);
+            paint_packet(job, paint, col, row, starts.at(col, row), pixels);
         }
     }
 }

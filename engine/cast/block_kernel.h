@@ -12,10 +12,14 @@ namespace reljef::cast {
 // Between the code that is compiled once and block_kernel.cpp, which Highway compiles for each
 // instruction set: numbers only.
 
-/// Sides of the blocks of pixels that share a thread, and a beam; pixels.
+/// Side of the blocks of pixels that a thread casts at a time.
 inline constexpr int block_side = 32;
-inline constexpr int beam_side = 8;
-inline constexpr int beams_a_side = block_side / beam_side;
+
+/// Pixels that share a beam: those of the widest packet of rays.
+inline constexpr int beam_cols = 8;
+inline constexpr int beam_rows = 2;
+inline constexpr int beams_a_row = block_side / beam_cols;
+inline constexpr int beam_count = beams_a_row * (block_side / beam_rows);
 
 /// A RayTile.
 struct TileSamples {
@@ -61,8 +65,9 @@ struct BlockHits {
 struct BlockJob {
     TileSamples tile;
     BlockRays rays;
-    /// The t at which the rays of each beam may begin; infinity: they hit nothing.
-    std::array<float, static_cast<std::size_t>(beams_a_side* beams_a_side)> starts{};
+    /// The t at which the rays may begin; infinity: they hit nothing.
+    float start = 0.0F;
+    bool has_beams = true; ///< finds later starts for the rays of each beam
 };
 
 /// A level of a map of colours: texels of three times 10 bits, the square roots of linear light.

@@ -68,29 +68,6 @@ TileSamples samples_of(const RayTile& tile) {
             .cells = tile.cells()};
 }
 
-PixelBlock beam_block(const PixelBlock& block, int index) {
-    return {block.first + beam_side * glm::ivec2(index % beams_a_side, index / beams_a_side),
-            glm::ivec2(beam_side)};
-}
-
-// The starts of the beams in a block; false if nothing is hit.
-bool find_starts(const RayTile& tile, const PictureRays& rays, const PixelBlock& block,
-                 BlockJob& job) {
-    const glm::ivec2 end = block.first + block.size;
-    const double nearest =
-        clear_until(tile, rays, {block.first, glm::ivec2(block_side)}, rays.range.begin);
-    bool may_hit = false;
-    for (std::size_t i = 0; i < job.starts.size(); ++i) {
-        const PixelBlock beam = beam_block(block, static_cast<int>(i));
-        const bool is_seen = beam.first.x < end.x && beam.first.y < end.y;
-        const double start =
-            is_seen && nearest < no_hit ? clear_until(tile, rays, beam, nearest) : no_hit;
-        job.starts[i] = static_cast<float>(start - rays.anchor);
-        may_hit = may_hit || start < no_hit;
-    }
-    return may_hit;
-}
-
 } // namespace
 
 std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
@@ -99,11 +76,15 @@ std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
     if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
         return std::nullopt;
     }
-    BlockJob job;
-    job.starts.fill(static_cast<float>(rays.range.begin - rays.anchor));
-    if (beams && !find_starts(tile, rays, block, job)) {
+    const PixelBlock whole{block.first, glm::ivec2(block_side)};
+    const double start =
+        beams ? clear_until(tile, rays, whole, rays.range.begin) : rays.range.begin;
+    if (!(start < no_hit)) {
         return std::nullopt;
     }
+    BlockJob job;
+    job.start = static_cast<float>(start - rays.anchor);
+    job.has_beams = beams;
     job.tile = samples_of(tile);
     job.rays = rays_of(tile, rays, block);
     return job;
@@ -111,7 +92,7 @@ std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
 
 BlockJob empty_job() {
     BlockJob job;
-    job.starts.fill(std::numeric_limits<float>::infinity());
+    job.start = std::numeric_limits<float>::infinity();
     return job;
 }
 

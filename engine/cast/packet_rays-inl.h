@@ -6,6 +6,7 @@
 #define RELJEF_PACKET_RAYS_INL_H
 #endif
 
+#include <array>
 #include <bit>
 
 #include <hwy/highway.h>
@@ -27,12 +28,21 @@ constexpr FloatTag floats{};
 constexpr IntTag ints{};
 
 constexpr int lane_count = static_cast<int>(hn::MaxLanes(floats));
-constexpr int packet_cols = lane_count < beam_side ? lane_count : beam_side;
+constexpr int packet_cols = lane_count < beam_cols ? lane_count : beam_cols;
 constexpr int packet_rows = lane_count / packet_cols;
 
 HWY_INLINE Floats all(float value) {
     return hn::Set(floats, value);
 }
+
+// The starts of a block's beams.
+struct BeamStarts {
+    alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> t;
+
+    [[nodiscard]] HWY_INLINE float at(int col, int row) const {
+        return t[static_cast<std::size_t>(row / beam_rows * beams_a_row + col / beam_cols)];
+    }
+};
 
 HWY_INLINE Ints all(std::int32_t value) {
     return hn::Set(ints, value);

@@ -176,7 +176,7 @@ HWY_INLINE Ints cell_at(const Axis& axis, Floats start) {
 }
 
 // The level at which rays begin: a start is near the surface.
-constexpr int first_level = 2;
+constexpr int first_level = 1;
 
 HWY_INLINE Walk walk_from(const Rays& rays, const TileSamples& tile, Floats start) {
     const int level = tile.top_level < first_level ? tile.top_level : first_level;
