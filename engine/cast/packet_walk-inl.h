@@ -220,9 +220,9 @@ HWY_INLINE Floats max_height(const TileSamples& tile, const Walk& walk, Lanes la
     return hn::GatherIndex(floats, tile.maxima, safe);
 }
 
-// To the next block; a level up where that has another parent.
+// To the next block; a level up where that has another parent, for the lanes in `rise`.
 HWY_INLINE void move_on(const Rays& rays, const TileSamples& tile, const Exits& exits, Lanes lanes,
-                        Walk& walk) {
+                        Lanes rise, Walk& walk) {
     const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
     walk.t = hn::IfThenElse(lanes, leave, walk.t);
     walk.active = hn::AndNot(hn::And(lanes, hn::Ge(leave, rays.end)), walk.active);
@@ -235,7 +235,8 @@ HWY_INLINE void move_on(const Rays& rays, const TileSamples& tile, const Exits& 
     const Ints row = hn::Add(walk.row, hn::IfThenZeroElse(sideways, stride));
     const Ints next = hn::IfThenElse(sideways, col, row);
     const IntLanes is_new_parent = hn::Ne(hn::And(next, one), ahead);
-    const IntLanes up = hn::And(is_new_parent, hn::Lt(walk.level, all(tile.top_level)));
+    const IntLanes up = hn::And(hn::And(is_new_parent, hn::RebindMask(ints, rise)),
+                                hn::Lt(walk.level, all(tile.top_level)));
     const Ints shift = hn::IfThenElseZero(up, one);
     walk.col = hn::IfThenElse(moved, hn::Shr(col, shift), walk.col);
     walk.row = hn::IfThenElse(moved, hn::Shr(row, shift), walk.row);
@@ -279,7 +280,11 @@ HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
         descend(rays, down, walk);
     }
     if (!hn::AllFalse(floats, over)) {
-        move_on(rays, job.tile, exits, over, walk);
+        // Near the surface, the next larger block would only be descended into.
+        const Floats drop = hn::Mul(hn::Sub(leave, walk.t), hn::Abs(rays.rise));
+        const Lanes rise =
+            hn::Gt(hn::Sub(hn::Add(lowest, bound), highest), hn::Mul(drop, all(2.0F)));
+        move_on(rays, job.tile, exits, over, rise, walk);
     }
 }
 
@@ -294,19 +299,20 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
     const Lanes missed = hn::AndNot(hit, walk.arrived);
     walk.arrived = no_lanes();
     if (!hn::AllFalse(floats, missed)) {
-        move_on(rays, job.tile, exits_of(rays, walk), missed, walk);
+        move_on(rays, job.tile, exits_of(rays, walk), missed, no_lanes(), walk);
     }
     return hit;
 }
 
-// Walks all rays to their first hit. Cells are solved when half of the lanes have arrived at one.
+// Walks all rays to their first hit. Cells are solved when three quarters of the lanes have arrived
+// at one.
 HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
     Lanes hits = no_lanes();
     while (!hn::AllFalse(floats, walk.active)) {
         step(rays, job, walk);
         const std::size_t arrived = hn::CountTrue(floats, walk.arrived);
         const bool has_others = !hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
-        if (2 * arrived >= lane_count || (arrived > 0 && !has_others)) {
+        if (4 * arrived >= 3 * lane_count || (arrived > 0 && !has_others)) {
             hits = hn::Or(hits, solve(rays, job, walk));
         }
     }
