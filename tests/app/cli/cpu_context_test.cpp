@@ -1,0 +1,74 @@
+// --context cpu: exact rays without OpenGL.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "engine/io/image/image.h"
+#include "engine/truth/image_error.h"
+#include "tests/app/command_line.h"
+#include "tests/support/release_only.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef {
+namespace {
+
+class CpuContext : public testing::Test {
+protected:
+    test::ProgramResult render(std::vector<std::string> options) {
+        std::vector<std::string> arguments{"render", "--size",          "320x240", "--quiet",
+                                           "-o",     file("shown.png"), "--stats"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return test::reljef(arguments);
+    }
+    Image shown() { return io::read_image(file("shown.png")).value(); }
+    std::string file(const std::string& name) { return (folder_.path() / name).string(); }
+
+private:
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(CpuContext, DrawsWhatOpenGlDrawsAndCountsRays) {
+    RELJEF_RELEASE_ONLY("the room cast has tests of its own");
+    const auto rays = render({"urban", "--technique", "exact", "--context", "cpu"});
+    ASSERT_EQ(rays.exit_code, 0) << rays.err;
+    EXPECT_NE(rays.out.find("renderer: exact rays on the CPU"), std::string::npos) << rays.out;
+    EXPECT_NE(rays.out.find("rays: 76800"), std::string::npos) << rays.out;
+    const Image on_cpu = shown();
+    ASSERT_EQ(render({"urban", "--technique", "exact", "--context", "osmesa"}).exit_code, 0);
+    const auto errors = truth::image_errors(on_cpu, shown());
+    ASSERT_TRUE(errors);
+    EXPECT_LE(errors->rmse, 0.02);
+    EXPECT_LE(errors->flip.mean, 0.03);
+}
+
+TEST_F(CpuContext, NeedsNoTechnique) {
+    RELJEF_RELEASE_ONLY("the room cast has tests of its own");
+    ASSERT_EQ(render({"urban", "--context", "cpu", "--technique", "exact"}).exit_code, 0);
+    const Image exact = shown();
+    for (const std::vector<std::string>& bound :
+         {std::vector<std::string>(), {"--max-error", "4"}}) {
+        std::vector<std::string> options{"urban", "--context", "cpu"};
+        options.insert(options.end(), bound.begin(), bound.end());
+        const auto result = render(options);
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(shown(), exact);
+    }
+}
+
+TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
+    const std::vector<std::string> cpu{"--context", "cpu"};
+    const auto with = [&](std::vector<std::string> options) {
+        options.insert(options.end(), cpu.begin(), cpu.end());
+        return render(options);
+    };
+    test::expect_refusal(with({"urban", "--technique", "texture"}), 1,
+                         {"technique texture found", "--context osmesa"});
+    test::expect_refusal(with({"gallery"}), 1, {"a mesh found", "--context osmesa"});
+    test::expect_refusal(with({"urban", "--samples", "4"}), 1, {"4 samples", "1 was expected"});
+    test::expect_refusal(with({"urban", "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
+    test::expect_refusal(test::reljef({"view", "urban", "--context", "cpu"}), 2,
+                         {"--context: cpu found", "glfw"});
+}
+
+} // namespace
+} // namespace reljef
