@@ -416,7 +416,9 @@ std::optional<Grid<float>> cone_map(GridView<const float> heights, ConeKind kind
                          find_rows(first, std::min(first + rows_at_once, ratios.rows()) - 1);
                      },
                      parallel);
-    return done ? std::optional(std::move(ratios)) : std::nullopt;
+    // A stop request may have left rows of the last items.
+    return done && !parallel.stop.stop_requested() ? std::optional(std::move(ratios))
+                                                   : std::nullopt;
 }
 
 std::optional<ConeMaps> cone_maps(GridView<const float> heights, const ParallelOptions& parallel) {

@@ -320,6 +320,14 @@ TEST(ConeMap, TellsHowFarItIsAndStops) {
     EXPECT_FALSE(material::cone_maps(heights.view(), options));
 }
 
+// The last rows may be incomplete then, and no later row notices the stop.
+TEST(ConeMap, AStopDuringTheLastRowsGivesNoMap) {
+    const Grid<float> heights = test::random_heights(17, 9, 0.0F, 1.0F, 1);
+    std::stop_source source;
+    const ParallelOptions options{1, source.get_token(), [&](double) { source.request_stop(); }};
+    EXPECT_FALSE(material::cone_map(heights.view(), material::ConeKind::relaxed, options));
+}
+
 TEST(ConeMapDeathTest, NeedsACell) {
     EXPECT_DEATH(
         static_cast<void>(material::cone_map(Grid<float>(1, 5).view(), material::ConeKind::plain)),
