@@ -36,8 +36,8 @@ struct RasterOptions {
     std::stop_token stop;
 };
 
-/// Bounds the memory of a terrain in bytes per sample, with any technique: heights, their pyramid,
-/// error bounds or cones, and textures (Memory.StaysWithinTheBudget).
+/// Bounds the memory of a terrain in bytes per sample: heights, their pyramid, error bounds or
+/// cones, and textures (Memory.StaysWithinTheBudget), but not the triangles of all samples.
 inline constexpr std::size_t bytes_per_sample = 40;
 
 /// Maximum side of a draped image, pixels.

@@ -40,9 +40,9 @@ constexpr double must_split = std::numeric_limits<double>::infinity();
 // Spheres grow by this factor from child to parent, for the rounding of sums and positions.
 constexpr double sphere_growth = 1.0 + 0x1p-20;
 
-// Error of the spheres' centres on an ellipsoid, of the distance between samples. The radii grow by
-// it; those of the smallest splits at samples are one and a half such distances.
-constexpr double max_share_of_step = 0x1p-5;
+// Error of the spheres' centres on an ellipsoid, of the distance between samples: less than the
+// smallest squares inside cells.
+constexpr double max_share_of_step = 0x1p-12;
 
 // Calls `body(first, last)` for runs of `at_once` of [0, count), from several threads.
 template <class Body>
@@ -324,13 +324,19 @@ Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
 }
 
 // Floats from the eye hold 2^-24 of their length: of ground that is 2^20 samples high, finer
-// triangles would have lost their shape.
+// triangles would have lost their shape. On an ellipsoid, spheres have a part that does not shrink
+// with their square. The eye may be in the spheres of all squares that are as small, and to split
+// them all gains nothing.
 int Bisection::min_size_for(const Heightfield& heightfield) const {
     constexpr double max_height = 0x1p20; // samples
     const double height = placement_->exaggeration() *
                           (static_cast<double>(heightfield.range.high) - heightfield.range.low);
     const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
-    return steps_per_sample / (height > max_height * spacing ? 64 : 2048);
+    int parts = height > max_height * spacing ? 64 : 2048; // of a sample
+    while (parts > 32 && 2.0 * center_error() * parts > bending_.stretch) {
+        parts /= 2;
+    }
+    return steps_per_sample / parts;
 }
 
 void Bisection::store_cell_rows(int first, int last) {

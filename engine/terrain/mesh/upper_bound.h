@@ -8,8 +8,8 @@
 
 namespace reljef::terrain {
 
-/// A non-negative number in 16 bits, rounded up by at most one part in 256: the upper half of a
-/// float without its sign. Larger numbers have larger or the same bits.
+/// A non-negative number in 16 bits, rounded up: of a normal float by at most one part in 256. It
+/// is the upper half of a float without its sign. Larger numbers have larger or the same bits.
 class UpperBound {
 public:
     UpperBound() = default;

@@ -37,7 +37,7 @@ protected:
         view.size = {64, 48};
         scene_.emplace(*session::open_scene(source, view, log_));
         auto device =
-            session::Device::create({.context = platform::ContextKind::osmesa, .size = view.size});
+            session::Device::create({.context = session::BackendKind::osmesa, .size = view.size});
         session::DeviceFrames frames(std::move(*device), log_);
         frames.wait_for_tiles(scene_->scene, {});
         hits_ = *frames.draw_hits(scene_->scene, {});
