@@ -27,7 +27,8 @@ void copy_hits(const BlockHits& found, const BlockRays& rays, const PixelBlock& 
                double anchor, HitBuffer& hits) {
     for (int row = 0; row < block.size.y; ++row) {
         for (int col = 0; col < block.size.x; ++col) {
-            const auto pixel = static_cast<std::size_t>(row * block_side + col);
+            const auto pixel =
+                static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
             hits(block.first.x + col, block.first.y + row) = hit_in(found, rays, pixel, anchor);
         }
     }
