@@ -44,7 +44,7 @@ Result<void> check_error_bound(const LodChoice& choice, const std::stop_token& s
     const ErrorBoundResults results = run_error_bound(options, stop);
     auto reported = report(figure_table(results), choice.outputs.json);
     return reported && !results.within_bound()
-               ? Error{"pixels over the bound, or holes, found; none were expected"}
+               ? Error{"pixels farther off than stated, or holes, found; none were expected"}
                : reported;
 }
 

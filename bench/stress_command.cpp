@@ -104,7 +104,8 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
     cli::add_parsed(command, "--poses", choice.options.poses,
                     cli::number_in<int>("--poses", 1, 1'000'000),
                     "views of error-bound, half of them near the ground, and of each terrain of "
-                    "streamed-bound (2000 and 100; with --quick 80)",
+                    "streamed-bound (2000 and 100; with --quick 80 and 4); of terrains with a "
+                    "place on the Earth, half of them on the ellipsoid, the others on a plane",
                     "N");
     add_suite_options(command, choice.options.suite);
     add_json_option(command, choice.outputs);

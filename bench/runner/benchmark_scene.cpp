@@ -126,7 +126,7 @@ Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice, const Sui
     terrain.terrain = choice.terrain;
     terrain.threads = options.threads;
     cli::ConsoleLog log(options.quiet);
-    terrain.placement = terrain::PlacementKind::plane; // every technique can draw it
+    terrain.placement = choice.placement;
     auto source = open_source(choice, terrain, log, stop);
     if (!source) {
         return source.error();

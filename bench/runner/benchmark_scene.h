@@ -30,6 +30,8 @@ struct SceneChoice {
     std::string terrain;
     int size = 0;          ///< samples a side of a generated terrain; 0: the default
     bool tileable = false; ///< of a generated urban
+    /// Every technique draws terrain on a plane. The ellipsoid needs a georeference.
+    terrain::PlacementKind placement = terrain::PlacementKind::plane;
     /// A name of terrains::detail_names(): the detail texture; empty: the terrain.
     std::string detail = {};
 

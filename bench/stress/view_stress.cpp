@@ -9,7 +9,7 @@
 #include "bench/stress/made_surfaces.h"
 #include "bench/stress/stress_stage.h"
 #include "bench/stress/view_check.h"
-#include "bench/suites/error_bound.h"
+#include "bench/suites/random_views.h"
 #include "engine/scene/motion/poses.h"
 
 namespace reljef::bench {

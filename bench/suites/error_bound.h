@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -19,21 +18,26 @@ struct ErrorBoundOptions {
     SuiteOptions suite;
     std::vector<std::string> terrains;      ///< at least one
     int built_in_size = 0;                  ///< samples a side of natural and urban; 0: theirs
-    int poses = 10'000;                     ///< random poses, shared evenly among the terrains
+    int poses = 10'000;                     ///< see random_view(), shared evenly among the terrains
     int near_poses = 0;                     ///< likewise, see view_near_the_ground()
     double error = 1.0;                     ///< as --max-error, pixels
     std::vector<double> flight_errors{1.0}; ///< bounds of the flights, pixels
     std::uint32_t seed = 1;                 ///< of the random poses
 };
 
+/// "plane" or "ellipsoid".
+const char* placement_name(terrain::PlacementKind placement);
+
 /// Check of --max-error in the views of one kind.
 struct ErrorBoundRow {
     std::string scene;
-    std::string views;                  ///< "random", "near ground", "orbit" or "flyover"
+    std::string views; ///< "random", "near ground", "orbit" or "flyover"
+    terrain::PlacementKind placement = terrain::PlacementKind::plane;
     double error = 1.0;                 ///< the bound, pixels
+    double stated_px = 0.0;             ///< the largest error that a frame stated
     std::size_t frames = 0;             ///< checked
     std::size_t pixels = 0;             ///< checked pixels that show terrain
-    std::size_t violations = 0;         ///< pixels over the bound
+    std::size_t violations = 0;         ///< pixels farther off than their frame states
     std::size_t holes = 0;              ///< pixels without terrain, surrounded by terrain
     double worst_px = 0.0;              ///< infinite if a pixel is unbounded
     std::optional<scene::Camera> worst; ///< its view
@@ -52,13 +56,10 @@ struct ErrorBoundResults {
 
 FigureTable figure_table(const ErrorBoundResults& results);
 
-/// An eye 0.3 to 3 m above the ground at a random place, heading anywhere, pitched -30 to 5
-/// degrees.
-scene::Camera view_near_the_ground(std::mt19937& random, const scene::TerrainSurface& surface);
-
-/// Draws each terrain from random poses and along the paths orbit and flyover. Computes the exact
-/// reprojection error of a sixteenth of the pixels of each random pose, alternating, and of all
-/// pixels of the flights. Keeps its rows when it is stopped or fails.
+/// Draws each terrain from random poses, half of them on the ellipsoid if it has a place there, and
+/// on a plane along the paths orbit and flyover. Computes the exact reprojection error of a
+/// sixteenth of the pixels of each random pose, alternating, and of all pixels of the flights.
+/// Keeps its rows when it is stopped or fails.
 ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

@@ -12,6 +12,9 @@
 
 #include "engine/core/check.h"
 
+// Where the near plane cuts a triangle of size s, its corners are up to f s / near pixels outside
+// the picture. Rasterizers interpolate places between them in floats.
+//
 // A pixel shows a point A of a triangle, which belongs at B = A + D. Along the view's right, up and
 // forward axes A = (Ax, Ay, Az). With f pixels per radian at the middle of the picture
 //   |project(B) - project(A)| = f |(Dx, Dy) Az - (Ax, Ay) Dz| / (Az Bz).
@@ -21,6 +24,9 @@
 
 namespace reljef::view {
 namespace {
+
+// Of a float, and of the few operations that interpolate it.
+constexpr double rounded = 0x1p-23;
 
 // Bounds the factor by which a transform lengthens a vector.
 double max_stretch(const glm::dmat3& axes) {
@@ -91,6 +97,8 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     }
     const double focal = 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov));
     view.scale = focal * (is_vertical ? glm::length(metre_up) : view.stretch);
+    view.rounding_at_near = rounded * focal / camera.near;
+    view.max_rounding = interpolation_error;
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);
     view.lateral_axes = lateral * axes;
     view.lateral_origin = lateral * offset;

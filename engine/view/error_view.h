@@ -16,9 +16,10 @@ namespace reljef::view {
 
 /// Steps per pixel of the grid to which rasterizers snap vertices, in practice.
 inline constexpr float vertex_steps = 256.0F;
-/// The rasterizer's part of the error, pixels: half the diagonal of a step, and as much again for
-/// interpolation in floats.
-inline constexpr double rasterizer_error = 1.5 / 256.0;
+/// The error of places that are interpolated in floats, pixels.
+inline constexpr double interpolation_error = 0.75 / 256.0;
+/// The rasterizer's part of the error, pixels: half the diagonal of a step, and interpolation.
+inline constexpr double rasterizer_error = 0.75 / 256.0 + interpolation_error;
 
 /// Smallest and largest allowed error bound, pixels.
 inline constexpr double min_error = scene::min_polygons_error;

@@ -34,10 +34,11 @@ inline Grid<float> rough_hills(int cols, int rows, unsigned seed) {
 }
 
 struct PlacedTerrain {
-    explicit PlacedTerrain(MadeTerrain made)
-        : name(made.name), heightfield(std::move(made.heightfield)),
-          placement(placed(heightfield, made.exaggeration)), bisection(heightfield, placement),
-          tiles(terrain::tile_layout(heightfield, placement)) {}
+    explicit PlacedTerrain(const MadeTerrain& made)
+        : PlacedTerrain(made, placed(made.heightfield, made.exaggeration)) {}
+    PlacedTerrain(MadeTerrain made, const terrain::Placement& place)
+        : name(std::move(made.name)), heightfield(std::move(made.heightfield)), placement(place),
+          bisection(heightfield, placement), tiles(terrain::tile_layout(heightfield, placement)) {}
     PlacedTerrain(const PlacedTerrain&) = delete;
 
     std::string name;

@@ -68,6 +68,27 @@ inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double l
     return heightfield;
 }
 
+/// A globe of `cells` rows of square cells besides those at its poles, closed as a file is: its
+/// last column is its first, and the outermost rows of its source are `north` and `south` of a row
+/// from the poles. Precondition: their sum is a multiple of 0.5.
+inline terrain::Heightfield closed_globe(int cells, double north, double south, unsigned seed) {
+    const double step = 180.0 / (cells + north + south);
+    const int rows = cells + 1;
+    const int cols = static_cast<int>(std::lround(360.0 / step));
+    terrain::Heightfield globe = geographic_heightfield(
+        random_heights(cols, rows, -9000.0F, 9000.0F, seed), 90.0 - north * step, -180.0, step);
+    const geo::GlobalWrap wrap{.around = true, .east = true, .north = north, .south = south};
+    globe.georeference->geodetic = globe.georeference->geodetic.closed(wrap, cols, rows);
+    const Grid<float> source = std::move(globe.heights);
+    globe.heights = made_heights(cols + 1, rows + wrap.rows(), [&](int col, int row) {
+        const int inner = std::clamp(row - wrap.north_rows(), 0, rows - 1);
+        const bool is_pole = inner != row - wrap.north_rows();
+        return is_pole ? 100.0F : source(col % cols, inner);
+    });
+    globe.range = terrain::height_range(globe.heights, {});
+    return globe;
+}
+
 /// On the ellipsoid where it has a place there, else on a plane.
 inline terrain::Placement placed(const terrain::Heightfield& heightfield,
                                  double exaggeration = 1.0) {

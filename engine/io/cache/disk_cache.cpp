@@ -29,7 +29,7 @@ struct CacheKind {
 constexpr CacheKind cone_kind{
     {'r', 'e', 'l', 'c', 'o', 'n', 'e', 's'}, 1, "the cones of these heights", "cones"};
 constexpr CacheKind bisection_kind{
-    {'r', 'e', 'l', 's', 'p', 'l', 'i', 't'}, 2, "the error bounds of these heights", "bisection"};
+    {'r', 'e', 'l', 's', 'p', 'l', 'i', 't'}, 3, "the error bounds of these heights", "bisection"};
 
 struct CacheKey {
     CacheKind kind;

@@ -21,6 +21,9 @@
 // - Term 2 is at most X R/2 · T · H/2, with m in the middle of the corners' heights, which span R,
 //   and verticals that turn by T per sample: Σ w |corner - point| <= H/2, because its square is at
 //   most Σ w |corner - point|² = (H/2)² - |point - middle|².
+// Where the triangle spans cells of two lengths, the ground is a smooth map of places among equal
+// cells. Corners are nearer to each other there, so that the bounds above hold; and the points of
+// the triangle are shifted by less than what the shorter cell lacks, times the map's derivative.
 //
 // In a cell with twist t, half a square of size s <= 1 has the error X |t| s²/4 (the parabola along
 // its diagonal), and a quarter of that after one more split. Heights in the square span at most
@@ -65,42 +68,6 @@ glm::ivec2 cell_at(Steps place) {
     static_assert(std::has_single_bit(static_cast<unsigned>(steps_per_sample)));
     constexpr int shift = std::countr_zero(static_cast<unsigned>(steps_per_sample));
     return {static_cast<int>(place.x >> shift), static_cast<int>(place.y >> shift)};
-}
-
-// Derivatives are differences on a lattice of 16×16 cells. The margins cover the points between.
-constexpr int lattice = 16;
-constexpr double first_margin = 1.0 + 0x1p-4;
-constexpr double second_margin = 2.0;
-
-struct Derivatives {
-    double first = 0.0;
-    double second = 0.0;
-    double turn = 0.0;
-
-    void add(const Derivatives& other) {
-        first = std::max(first, other.first);
-        second = std::max(second, other.second);
-        turn = std::max(turn, other.turn);
-    }
-};
-
-Derivatives derivatives_at(const Placement& placement, glm::dvec2 from, glm::dvec2 step,
-                           double height) {
-    const auto at = [&](double i, double j) {
-        return placement.world_from_sample({from.x + i * step.x, from.y + j * step.y, height});
-    };
-    const glm::dvec3 here = at(0, 0);
-    const glm::dvec3 east = at(1, 0);
-    const glm::dvec3 south = at(0, 1);
-    const glm::dvec3 up = placement.up(here);
-    Derivatives found;
-    found.first = glm::distance(here, east) / step.x + glm::distance(here, south) / step.y;
-    found.second = glm::length(here - 2.0 * east + at(2, 0)) / (step.x * step.x) +
-                   glm::length(here - 2.0 * south + at(0, 2)) / (step.y * step.y) +
-                   glm::length(here - east - south + at(1, 1)) / (step.x * step.y);
-    found.turn = glm::distance(up, placement.up(east)) / step.x +
-                 glm::distance(up, placement.up(south)) / step.y;
-    return found;
 }
 
 bool is_inside(GridView<const float> heights, glm::ivec2 sample) {
@@ -210,11 +177,9 @@ private:
                          [&](glm::ivec2 corner) { return is_inside(heights, corner); })) {
             return reaches_in(heights, triangle) ? must_split : 0.0;
         }
-        if (spans_cells_of_two_sizes(triangle)) {
-            return must_split;
-        }
         const double exaggeration = bisection_.placement_->exaggeration();
-        double error = exaggeration * triangle_error(heights, triangle);
+        double error = exaggeration * triangle_error(heights, triangle) +
+                       bisection_.bending_.stretch * shift_of(triangle);
         if (bisection_.bending_.curvature > 0.0) {
             const auto at = [&](std::size_t i) { return heights(triangle[i].x, triangle[i].y); };
             const auto [low, high] = std::minmax({at(0), at(1), at(2)});
@@ -226,12 +191,11 @@ private:
         return error;
     }
 
-    // Triangles are right-angled on cells of equal size only.
-    [[nodiscard]] bool spans_cells_of_two_sizes(const SampleTriangle& triangle) const {
-        const glm::ivec2 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
-        const glm::ivec2 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
-        const glm::ivec2 end = bisection_.shorter_from_;
-        return (low.x < end.x && high.x > end.x) || (low.y < end.y && high.y > end.y);
+    // Of the triangle's places from those of equal cells, cells.
+    [[nodiscard]] double shift_of(const SampleTriangle& triangle) const {
+        return bisection_.shorter_.shift_between(
+            glm::min(triangle[0], glm::min(triangle[1], triangle[2])),
+            glm::max(triangle[0], glm::max(triangle[1], triangle[2])));
     }
 
     // The up to four children on the heightfield.
@@ -257,11 +221,8 @@ private:
 Bisection::Bisection(const Heightfield& heightfield, const Placement& placement,
                      const ParallelOptions& parallel, CellsOnly)
     : heights_(heightfield.heights.view()), placement_(&placement),
-      end_(steps_of({heights_.cols() - 1, heights_.rows() - 1})),
-      shorter_from_(placement.lattice() != nullptr
-                        ? placement.lattice()->shorter_from()
-                        : glm::ivec2(heights_.cols() - 1, heights_.rows() - 1)),
-      bending_(bending_of(heightfield, placement)),
+      end_(steps_of({heights_.cols() - 1, heights_.rows() - 1})), shorter_(heightfield, placement),
+      bending_(bending_of(heightfield, placement, shorter_)),
       positions_(heightfield, placement, bending_.curvature, max_share_of_step * bending_.stretch),
       min_size_(min_size_for(heightfield)) {
     check(end_.x > 0 && end_.y > 0, "a bisection needs at least 2x2 samples");
@@ -301,40 +262,22 @@ bool Bisection::is_valid(std::uint32_t seed, const ParallelOptions& parallel) co
     return valid;
 }
 
-Bisection::Bending Bisection::bending_of(const Heightfield& heightfield,
-                                         const Placement& placement) {
-    if (placement.kind() == PlacementKind::plane) {
-        return {glm::length(heightfield.spacing), 0.0, 0.0};
-    }
-    // Shorter last cells bend less than the others.
-    const glm::ivec2 equal_cells =
-        placement.lattice() != nullptr
-            ? glm::max(placement.lattice()->shorter_from(), 1)
-            : glm::ivec2(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    const glm::dvec2 step = glm::dvec2(equal_cells) / static_cast<double>(lattice);
-    Derivatives bound;
-    for (int j = 0; j <= lattice - 2; ++j) {
-        for (int i = 0; i <= lattice - 2; ++i) {
-            for (const double height : {heightfield.range.low, heightfield.range.high}) {
-                bound.add(derivatives_at(placement, {i * step.x, j * step.y}, step, height));
-            }
-        }
-    }
-    return {first_margin * bound.first, second_margin * bound.second, first_margin * bound.turn};
-}
-
-// Floats from the eye hold 2^-24 of their length: of ground that is 2^20 samples high, finer
-// triangles would have lost their shape. On an ellipsoid, spheres have a part that does not shrink
-// with their square. The eye may be in the spheres of all squares that are as small, and to split
-// them all gains nothing.
+// Squares are cut until they are a centimetre or two wide, or a thousandth of a short cell. Floats
+// from the eye hold 2^-24 of their length: of ground that is 2^20 samples high, finer triangles
+// would have lost their shape.
 int Bisection::min_size_for(const Heightfield& heightfield) const {
     constexpr double max_height = 0x1p20; // samples
+    constexpr double narrow = 0x1p-6;     // metres
+    constexpr int max_parts = steps_per_sample / 2;
     const double height = placement_->exaggeration() *
                           (static_cast<double>(heightfield.range.high) - heightfield.range.low);
     const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
-    int parts = height > max_height * spacing ? 64 : 2048; // of a sample
-    while (parts > 32 && 2.0 * center_error() * parts > bending_.stretch) {
-        parts /= 2;
+    if (height > max_height * spacing) {
+        return steps_per_sample / 64;
+    }
+    int parts = 2048; // of a sample
+    while (parts < max_parts && spacing > parts * narrow) {
+        parts *= 2;
     }
     return steps_per_sample / parts;
 }
@@ -412,8 +355,11 @@ Split Bisection::split_in_cell(Steps place, int size, bool on_side) const {
         }
     }
     const double samples = static_cast<double>(size) / steps_per_sample;
-    return {0.25 * samples * samples * bend, position_in_cell(place),
-            longest * reach / steps_per_sample * sphere_growth + center_error()};
+    const double error = 0.25 * samples * samples * bend;
+    const double radius = longest * reach / steps_per_sample * sphere_growth;
+    return 2.0 * center_error() > bending_.stretch * samples
+               ? Split{error, world(place), radius}
+               : Split{error, position_in_cell(place), radius + center_error()};
 }
 
 double Bisection::height(Steps place) const {

@@ -16,6 +16,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/placement.h"
+#include "engine/terrain/mesh/bending.h"
 #include "engine/terrain/mesh/sample_positions.h"
 #include "engine/terrain/mesh/upper_bound.h"
 
@@ -121,12 +122,6 @@ public:
     [[nodiscard]] glm::dvec3 world(Steps place) const;
 
 private:
-    // Bounds of the placement's derivatives, see bisection.cpp.
-    struct Bending {
-        double stretch = 0.0;   // metres between places one sample apart in col and row
-        double curvature = 0.0; // metres/sample², second derivative in any direction
-        double turn = 0.0;      // radians/sample, of the vertical
-    };
     // Bounds for the splits inside a cell.
     struct CellBend {
         double middle = 0.0; // error before a split at the middle of a square of size s: × s²/4
@@ -145,7 +140,6 @@ private:
               const ParallelOptions& parallel, CellsOnly tag);
     static glm::ivec2 splits_in_middles(glm::ivec2 samples, std::size_t level);
     static glm::ivec2 splits_on_sides(glm::ivec2 samples, std::size_t level);
-    static Bending bending_of(const Heightfield& heightfield, const Placement& placement);
     [[nodiscard]] int min_size_for(const Heightfield& heightfield) const;
     [[nodiscard]] const StoredSplit& stored(glm::ivec2 sample, int size, bool on_side) const {
         const int shift = std::countr_zero(static_cast<unsigned>(size));
@@ -171,7 +165,7 @@ private:
     GridView<const float> heights_;
     const Placement* placement_;
     Steps end_{0};
-    glm::ivec2 shorter_from_; // sample where the last cells begin if they are shorter
+    ShorterCells shorter_;
     Bending bending_;
     SamplePositions positions_;
     int min_size_;            // steps

@@ -114,6 +114,11 @@ double depth_of(const ErrorView& view, const Split& split) {
     return glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
 }
 
+// Pixels by which floats round the places of a visible split's triangles.
+double rounding_of(const ErrorView& view, const Split& split, double depth) {
+    return depth <= view.near ? view.rounding_at_near * view.stretch * split.radius : 0.0;
+}
+
 // Whether the screen-space error of a visible split may exceed the bound. Precondition: its error
 // is finite.
 bool exceeds_bound(const ErrorView& view, const Split& split) {
@@ -122,6 +127,9 @@ bool exceeds_bound(const ErrorView& view, const Split& split) {
         return scaled > view.max_error;
     }
     const double depth = depth_of(view, split);
+    if (rounding_of(view, split, depth) > view.max_rounding) {
+        return true;
+    }
     // scaled * (lateral + reach) > max_error * depth², without a root.
     const double room = view.max_error * depth * depth - scaled * (view.stretch * split.radius);
     const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
@@ -144,15 +152,19 @@ double relative_error(const ErrorView& view, const Split& split) {
 // Bounds the screen-space error in the visible part of a split, pixels. Precondition: a finite
 // error.
 double visible_error(const ErrorView& view, const Split& split) {
-    if (!view.perspective || split.error == 0.0) {
+    if (!view.perspective) {
         return view.scale * split.error;
     }
+    const double rounding = rounding_of(view, split, depth_of(view, split));
     const double depth = std::max(depth_of(view, split), view.near);
     const double depth_of_true_place = depth - view.stretch * split.error;
     const double lateral = glm::length(view.lateral_axes * split.center + view.lateral_origin) +
                            view.stretch * split.radius;
+    if (split.error == 0.0) {
+        return rounding;
+    }
     return depth_of_true_place > 0.0
-               ? view.scale * split.error * lateral / (depth * depth_of_true_place)
+               ? rounding + view.scale * split.error * lateral / (depth * depth_of_true_place)
                : std::numeric_limits<double>::infinity();
 }
 

@@ -26,8 +26,12 @@ struct ErrorView {
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible
-    int min_size = 0;                  ///< of squares that are split, steps
-    glm::dmat3 lateral_axes{1.0};      ///< the lateral distance is |lateral_axes · p + origin|
+    /// Pixels by which places of a triangle that the near plane cuts are rounded, per metre of its
+    /// sphere's radius, and their bound: such triangles are split as far as it demands.
+    double rounding_at_near = 0.0;
+    double max_rounding = 0.0;
+    int min_size = 0;             ///< of squares that are split, steps
+    glm::dmat3 lateral_axes{1.0}; ///< the lateral distance is |lateral_axes · p + origin|
     glm::dvec3 lateral_origin{0.0};
     double stretch = 1.0; ///< metres of depth and lateral distance per metre of the scene frame
     /// Share of max_error, in (0, 1], where geomorphing begins. A vertex moves from the middle of

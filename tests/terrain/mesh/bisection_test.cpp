@@ -147,6 +147,22 @@ double displacement(const PlacedTerrain& terrain, const Triangle& triangle, glm:
 // Places of samples are kept as floats relative to their tile's origin: of up to 100 km here.
 constexpr double place_rounding = 1e5 * 0x1p-23;
 
+// The largest displacement of a triangulation whose error is the same everywhere.
+double farthest_displacement(const PlacedTerrain& terrain, double allowed, int points,
+                             test::Chance& chance) {
+    ErrorView view;
+    view.perspective = false;
+    view.max_error = allowed;
+    const auto triangles = all_triangles(terrain, view);
+    double farthest = 0.0;
+    for (int i = 0; i < points; ++i) {
+        const auto index =
+            static_cast<std::size_t>(chance.whole(0, static_cast<int>(triangles.size()) - 1));
+        farthest = std::max(farthest, displacement(terrain, triangles[index], weights(chance)));
+    }
+    return farthest;
+}
+
 TEST(Bisection, NoPointIsFartherFromTheSurfaceThanTheViewAllows) {
     RELJEF_RELEASE_ONLY("thousands of points by the same few lines");
     test::Chance chance(4);
@@ -155,21 +171,48 @@ TEST(Bisection, NoPointIsFartherFromTheSurfaceThanTheViewAllows) {
         const PlacedTerrain terrain(std::move(made));
         const double flat = terrain.name == "Earth" ? 1e-3 : 1e-6;
         for (const double most : {0.05, 0.3, 1.0, 4.0, 20.0, 1000.0}) {
-            ErrorView view;
-            view.perspective = false;
-            view.max_error = most;
-            const auto triangles = all_triangles(terrain, view);
-            double farthest = 0.0;
-            for (int i = 0; i < 4000; ++i, ++points) {
-                const auto index = static_cast<std::size_t>(
-                    chance.whole(0, static_cast<int>(triangles.size()) - 1));
-                farthest =
-                    std::max(farthest, displacement(terrain, triangles[index], weights(chance)));
-            }
-            ASSERT_LE(farthest, most + place_rounding + flat) << terrain.name << ' ' << most;
+            ASSERT_LE(farthest_displacement(terrain, most, 4000, chance),
+                      most + place_rounding + flat)
+                << terrain.name << ' ' << most;
+            points += 4000;
         }
     }
     EXPECT_GT(points, 100000);
+}
+
+// The rows of samples that close a globe at its poles are nearer to their neighbours than others.
+TEST(Bisection, NoPointIsFartherOffThanAllowedNextToTheShorterRowsAtThePoles) {
+    test::Chance chance(6);
+    for (const glm::dvec2 ends :
+         {glm::dvec2(0.5, 0.5), glm::dvec2(0.1, 0.9), glm::dvec2(1.0, 0.5), glm::dvec2(0.0, 0.5)}) {
+        for (const int cells : {15, 36, 61}) {
+            const PlacedTerrain globe({"globe", test::closed_globe(cells, ends.x, ends.y, 3)});
+            for (const double allowed : {1e4, 3e4, 1e5, 3e5, 1e6}) {
+                constexpr double rounding = 1e7 * 0x1p-23; // of floats relative to tiles, metres
+                EXPECT_LE(farthest_displacement(globe, allowed, 20'000, chance), allowed + rounding)
+                    << cells << ' ' << ends.x << ' ' << ends.y;
+            }
+        }
+    }
+}
+
+// The last cells of a tile are shorter where its terrain ends.
+TEST(Bisection, NoPointIsFartherOffThanAllowedOverTheShorterLastCellsOfATile) {
+    test::Chance chance(7);
+    const Heightfield level = test::plane_heightfield(rough_hills(160, 160, 6), {5.0, 7.0});
+    const Heightfield earth =
+        test::geographic_heightfield(rough_hills(160, 160, 6), 46.0, 7.0, 0.01);
+    for (const Heightfield& whole : {level, earth}) {
+        const TileLattice lattice{{8.0, 16.0}, {131.0, 159.0}, 4.0, {31, 36}};
+        Heightfield samples = test::plane_heightfield(rough_hills(32, 37, 7), 4.0 * whole.spacing);
+        const PlacedTerrain tile({"tile", std::move(samples)},
+                                 test::placed(whole).of_tile({1, {}, {}}, lattice));
+        for (const double allowed : {0.3, 3.0, 10.0, 30.0, 300.0, 3000.0}) {
+            EXPECT_LE(farthest_displacement(tile, allowed, 20'000, chance),
+                      allowed + place_rounding)
+                << whole.spacing.x;
+        }
+    }
 }
 
 bool is_seen(const ErrorView& view, glm::dvec3 place) {

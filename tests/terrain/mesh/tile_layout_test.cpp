@@ -39,12 +39,15 @@ TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
     }
 }
 
-// Empty where the box holds every placed sample of the tile, else what lies outside.
+// The tile's box holds its samples, and the middles between them.
 void expect_inside(const Heightfield& heightfield, const Placement& placement, const Tile& tile,
                    std::optional<double> flat_height) {
-    for (int row = tile.row; row <= tile.row + tile.rows; ++row) {
-        for (int col = tile.col; col <= tile.col + tile.cols; ++col) {
-            const double height = flat_height.value_or(heightfield.heights(col, row));
+    for (int j = 0; j <= 2 * tile.rows; ++j) {
+        for (int i = 0; i <= 2 * tile.cols; ++i) {
+            const double col = tile.col + 0.5 * i;
+            const double row = tile.row + 0.5 * j;
+            const double height =
+                flat_height.value_or(bilinear_height(heightfield.heights.view(), {col, row}));
             const glm::dvec3 place = placement.world_from_sample({col, row, height});
             for (int axis = 0; axis < 3; ++axis) {
                 ASSERT_GE(place[axis], tile.bounds.low[axis] - 1e-9)
@@ -112,6 +115,14 @@ TEST(TileLayout, BoundsHoldTheTopOfTheBulgeWhereverItLies) {
             expect_bounds_hold(
                 test::geographic_heightfield(Grid<float>(side, side, 50.0F), 50.0, 7.0, step), 1.0);
         }
+    }
+}
+
+// A tile may span the whole Earth, so that its ends and its middle meet.
+TEST(TileLayout, BoundsHoldAWholeGlobe) {
+    for (const int cells : {2, 7, 20, 61, 90, 127, 300}) {
+        expect_bounds_hold(test::closed_globe(cells, 0.5, 0.5, 3), 1.0);
+        expect_bounds_hold(test::closed_globe(cells, 0.0, 0.0, 4), 5.0);
     }
 }
 
