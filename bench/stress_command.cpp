@@ -107,6 +107,11 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
                     "streamed-bound (2000 and 100; with --quick 80 and 4); of terrains with a "
                     "place on the Earth, half of them on the ellipsoid, the others on a plane",
                     "N");
+    cli::add_parsed(command, "--skip", choice.options.skip,
+                    cli::number_in<int>("--skip", 0, 1'000'000'000),
+                    "leave out the first N views of error-bound and streamed-bound, which an "
+                    "earlier run with the same terrains, --poses and --seed checked (0)",
+                    "N");
     add_suite_options(command, choice.options.suite);
     add_json_option(command, choice.outputs);
     add_page_option(command, choice.outputs);
@@ -126,11 +131,14 @@ cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt) {
         "a limit; the exit status is 1 if one is over it. A figure that is known to be over its\n"
         "limit names the work that will fix it. --quick draws 96x72 pixels unless --size is given\n"
         "and leaves out streamed-bound, which writes 1.6 GB of temporary files.\n"
-        "Ctrl-C ends after the current frame; the rows so far are printed and written.\n"
+        "Ctrl-C ends after the current frame; the rows so far are printed and written. --skip "
+        "goes\n"
+        "on where the views of the error bound ended: after as many as these rows have frames.\n"
         "Examples:\n"
         "  reljef-bench stress --quick\n"
         "  reljef-bench stress --terrain N45E006.hgt --only near-ground --technique exact\n"
         "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000\n"
+        "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000 --skip 4000\n"
         "  reljef-bench stress --json stress.json --html stress");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_stress_command(*choice, *arguments, interrupt);

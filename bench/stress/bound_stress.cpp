@@ -180,17 +180,21 @@ int reach_of(double error) {
     return static_cast<int>(std::ceil(std::min(error, max_reach))) + 1;
 }
 
-Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene, int poses) {
+Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene, int poses,
+                                   ViewChances& chances) {
     session::Log silent;
     auto frames = make_frames(run, silent);
     if (!frames) {
         return frames.error();
     }
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    std::mt19937 random(run.options().seed);
     StatedErrors found;
     for (int i = 0; i < poses && !run.stopped(); ++i) {
-        *scene.camera->get<scene::Camera>() = view_near_the_ground(random, *terrain.surface);
+        auto random = chances.next();
+        if (!random) {
+            continue;
+        }
+        *scene.camera->get<scene::Camera>() = view_near_the_ground(*random, *terrain.surface);
         static_cast<void>(session::stand_above_ground(scene, *frames, run.stop()));
         const auto hits = frames->draw_hits(scene.scene, run.parallel());
         if (!hits) {
@@ -235,8 +239,8 @@ void add_streamed_rows(StressRun& run, const StressRow& of_ground, const StatedE
 }
 
 // Half of the poses, or all of a terrain without a place on the Earth.
-Result<bool> fly_on(StressRun& run, const StreamedGround& ground,
-                    terrain::PlacementKind placement) {
+Result<bool> fly_on(StressRun& run, const StreamedGround& ground, terrain::PlacementKind placement,
+                    ViewChances& chances) {
     auto scene = open_streamed(run, streamed_source(ground, placement));
     if (!scene) {
         return scene.error();
@@ -244,9 +248,12 @@ Result<bool> fly_on(StressRun& run, const StreamedGround& ground,
     const auto& surface = *scene->terrain->get<scene::TerrainNode>()->surface;
     const bool on_earth = surface.heightfield().georeference.has_value();
     const int poses = run.options().poses.value_or(run.cases(4, 100));
-    const auto found = stated_errors(run, *scene, on_earth ? (poses + 1) / 2 : poses);
+    const auto found = stated_errors(run, *scene, on_earth ? (poses + 1) / 2 : poses, chances);
     if (!found) {
         return found.error();
+    }
+    if (found->frames == 0) {
+        return on_earth;
     }
     add_streamed_rows(run,
                       {.stress = fmt::format("error bound, streamed at {} MB, {}", ground.megabytes,
@@ -257,15 +264,15 @@ Result<bool> fly_on(StressRun& run, const StreamedGround& ground,
     return on_earth;
 }
 
-Result<void> stress_streamed(StressRun& run, const StreamedGround& ground) {
+Result<void> stress_streamed(StressRun& run, const StreamedGround& ground, ViewChances& chances) {
     session::Log silent;
     const auto indexed = session::index_terrain(streamed_source(ground), silent, run.stop());
     if (!indexed) {
         return indexed.error();
     }
-    auto on_earth = fly_on(run, ground, terrain::PlacementKind::plane);
+    auto on_earth = fly_on(run, ground, terrain::PlacementKind::plane, chances);
     if (on_earth && *on_earth && !run.stopped()) {
-        on_earth = fly_on(run, ground, terrain::PlacementKind::ellipsoid);
+        on_earth = fly_on(run, ground, terrain::PlacementKind::ellipsoid, chances);
     }
     if (ground.is_temporary) {
         std::error_code ignored;
@@ -275,7 +282,7 @@ Result<void> stress_streamed(StressRun& run, const StreamedGround& ground) {
 }
 
 // The DEM files of the options that do not fit the memory.
-Result<void> stress_streamed_files(StressRun& run) {
+Result<void> stress_streamed_files(StressRun& run, ViewChances& chances) {
     for (const std::string& terrain : run.options().terrains) {
         const StreamedGround ground{terrain, terrain, streamed_megabytes, false};
         std::error_code ignored;
@@ -285,7 +292,8 @@ Result<void> stress_streamed_files(StressRun& run) {
         const auto scene = open_streamed(run, streamed_source(ground));
         const bool is_streamed =
             scene && scene->terrain->get<scene::TerrainNode>()->stream != nullptr;
-        if (auto done = is_streamed ? stress_streamed(run, ground) : Result<void>(); !done) {
+        if (auto done = is_streamed ? stress_streamed(run, ground, chances) : Result<void>();
+            !done) {
             return run.stopped() ? Result<void>() : done;
         }
     }
@@ -307,6 +315,7 @@ Result<void> stress_error_bound(StressRun& run) {
     options.error = stressed_bound;
     options.flight_errors = {};
     options.seed = run.options().seed;
+    options.skip = run.options().skip;
     const ErrorBoundResults results = run_error_bound(options, run.stop());
     for (const ErrorBoundRow& row : results.rows) {
         add_rows(run, row);
@@ -342,6 +351,7 @@ Result<void> stress_streamed_repeats(StressRun& run) {
 }
 
 Result<void> stress_streamed_bound(StressRun& run) {
+    ViewChances chances(run.options().seed, run.options().skip);
     const auto folder = make_scaling_folder({}, streamed_side);
     if (!folder) {
         return folder.error();
@@ -354,13 +364,13 @@ Result<void> stress_streamed_bound(StressRun& run) {
         if (!ground) {
             return run.stopped() ? Result<void>() : ground.error();
         }
-        if (auto done = stress_streamed(run, *ground); !done) {
+        if (auto done = stress_streamed(run, *ground, chances); !done) {
             return run.stopped() ? Result<void>() : done;
         }
         std::error_code ignored;
         fs::remove(ground->path, ignored);
     }
-    return stress_streamed_files(run);
+    return stress_streamed_files(run, chances);
 }
 
 } // namespace reljef::bench

@@ -125,6 +125,7 @@ FigureTable figure_table(const StressResults& results) {
                                    {"size", size_text(options.suite.size)},
                                    {"quick", options.suite.quick},
                                    {"seed", options.seed},
+                                   {"skip", options.skip},
                                    {"over", results.failures()}},
                       .columns = {{"/stress", "stress"},
                                   {"/terrain", "terrain"},

@@ -41,6 +41,7 @@ struct StressOptions {
     std::vector<std::string> stresses;        ///< of stress_names(); empty: all
     std::uint32_t seed = 1;                   ///< of random cases
     std::optional<int> poses;                 ///< of the error bound; absent: a usual number
+    int skip = 0;                             ///< of these, left out at the beginning
 };
 
 struct StressResults {

@@ -168,7 +168,7 @@ class ErrorBoundRun {
 public:
     ErrorBoundRun(ErrorBoundResults& results, std::stop_token stop)
         : results_(results), options_(results.options), stop_(std::move(stop)),
-          random_(options_.seed), line_("judging views", options_.suite.quiet) {}
+          chances_(options_.seed, options_.skip), line_("judging views", options_.suite.quiet) {}
 
     Result<void> run() {
         auto device = make_device(options_.suite);
@@ -212,11 +212,9 @@ private:
     Result<void> run_views(BenchmarkScene& scene, int poses, int near_poses,
                            session::SceneRenderer& driver) {
         set_error(scene, options_.error);
-        const scene::TerrainSurface& surface = bounded_surface(scene);
-        const auto anywhere = [&] { return random_view(random_, surface); };
-        const auto near_ground = [&] { return view_near_the_ground(random_, surface); };
-        auto done = run_random(scene, "random", poses, anywhere, driver);
-        return done ? run_random(scene, "near ground", near_poses, near_ground, driver) : done;
+        auto done = run_random(scene, "random", poses, random_view, driver);
+        return done ? run_random(scene, "near ground", near_poses, view_near_the_ground, driver)
+                    : done;
     }
 
     Result<void> run_flights(BenchmarkScene& scene, session::SceneRenderer& driver) {
@@ -255,15 +253,18 @@ private:
     }
 
     Result<void> run_random(BenchmarkScene& scene, std::string views, int poses,
-                            const std::function<scene::Camera()>& view,
+                            scene::Camera (*view)(std::mt19937&, const scene::TerrainSurface&),
                             session::SceneRenderer& driver) {
         ErrorBoundRow row = row_of(scene, std::move(views), options_.error);
         const FrameChecker checker = checker_of(scene);
         Result<void> done;
         for (int i = 0; i < poses && done && !stop_.stop_requested(); ++i) {
-            scene.set_camera(view());
-            const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step, random_step};
-            done = draw_and_check(scene, lattice, checker, driver, row);
+            if (auto random = chances_.next()) {
+                scene.set_camera(view(*random, bounded_surface(scene)));
+                const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step,
+                                           random_step};
+                done = draw_and_check(scene, lattice, checker, driver, row);
+            }
             report_frame();
         }
         return keep(std::move(row), done);
@@ -334,7 +335,7 @@ private:
     ErrorBoundResults& results_;
     const ErrorBoundOptions& options_;
     std::stop_token stop_;
-    std::mt19937 random_;
+    ViewChances chances_;
     cli::ProgressLine line_;
     double frames_ = 0.0;
 };

@@ -23,6 +23,7 @@ struct ErrorBoundOptions {
     double error = 1.0;                     ///< as --max-error, pixels
     std::vector<double> flight_errors{1.0}; ///< bounds of the flights, pixels
     std::uint32_t seed = 1;                 ///< of the random poses
+    std::int64_t skip = 0;                  ///< random poses left out at the beginning
 };
 
 /// "plane" or "ellipsoid".

@@ -49,6 +49,15 @@ double between(std::mt19937& random, double low, double high) {
            (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
 }
 
+std::optional<std::mt19937> ViewChances::next() {
+    const std::int64_t number = count_++;
+    if (number < skip_) {
+        return std::nullopt;
+    }
+    std::seed_seq seed{seed_, static_cast<std::uint32_t>(number)}; // the same on every machine
+    return std::mt19937(seed);
+}
+
 scene::Camera random_view(std::mt19937& random, const scene::TerrainSurface& surface) {
     const bool is_plane = surface.placement().kind() == terrain::PlacementKind::plane;
     const glm::dvec3 size = surface.bounds().size();

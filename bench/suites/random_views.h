@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <random>
 
 #include "engine/scene/graph/camera.h"
@@ -9,6 +11,22 @@ namespace reljef::bench {
 
 /// Evenly in [low, high]; the same on every machine, unlike the standard library's distributions.
 double between(std::mt19937& random, double low, double high);
+
+/// The random numbers of successive views. Those of a view depend on the seed and its number only,
+/// so that a long run can be continued.
+class ViewChances {
+public:
+    /// `skip`: the views that are left out at the beginning.
+    ViewChances(std::uint32_t seed, std::int64_t skip) : seed_(seed), skip_(skip) {}
+
+    /// Of the next view; empty: it is left out.
+    std::optional<std::mt19937> next();
+
+private:
+    std::uint32_t seed_;
+    std::int64_t skip_;
+    std::int64_t count_ = 0;
+};
 
 /// An eye above a terrain on a plane or on the ellipsoid, 1e-5 to 0.4 of its width above the
 /// ground: towards another place of the terrain, or in any direction, pitched -90 to 5 degrees.
