@@ -400,6 +400,7 @@ void FineImagery::write_fine() const {
 
 // But an error that is promised is kept.
 TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
+    RELJEF_RELEASE_ONLY("a whole terrain by the lines of the next tests");
     const auto render_with = [&](std::vector<std::string> more) {
         std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
                                            "--memory",  "64",

@@ -131,6 +131,7 @@ std::vector<VertexPlace> vertices_of(const std::vector<Triangle>& triangles) {
 }
 
 TEST(BisectionLevels, ASmallerErrorOnlyAddsVertices) {
+    RELJEF_RELEASE_ONLY("many covers by the lines of the next test");
     for (const unsigned seed : {1U, 2U, 3U}) {
         const PlacedTerrain terrain(
             {"", test::plane_heightfield(test::rough_hills(150, 140, seed), {3.0, 3.0}), 1.0});

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_bisection.h"
 
@@ -150,6 +151,7 @@ TEST(BisectionMorph, TheSurfaceFollowsTheViewWithoutAStep) {
 }
 
 TEST(BisectionMorph, AFlightMovesNothingFartherThanItsStepsAreLong) {
+    RELJEF_RELEASE_ONLY("many surfaces by the lines of the other tests");
     const PlacedTerrain terrain = hill_terrain(5);
     const auto places = places_of(terrain, 40, 6);
     const auto greatest_move = [&](double step) {

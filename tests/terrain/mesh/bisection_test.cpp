@@ -182,6 +182,7 @@ TEST(Bisection, NoPointIsFartherFromTheSurfaceThanTheViewAllows) {
 
 // The rows of samples that close a globe at its poles are nearer to their neighbours than others.
 TEST(Bisection, NoPointIsFartherOffThanAllowedNextToTheShorterRowsAtThePoles) {
+    RELJEF_RELEASE_ONLY("thousands of points by the same few lines");
     test::Chance chance(6);
     for (const glm::dvec2 ends :
          {glm::dvec2(0.5, 0.5), glm::dvec2(0.1, 0.9), glm::dvec2(1.0, 0.5), glm::dvec2(0.0, 0.5)}) {
@@ -198,6 +199,7 @@ TEST(Bisection, NoPointIsFartherOffThanAllowedNextToTheShorterRowsAtThePoles) {
 
 // The last cells of a tile are shorter where its terrain ends.
 TEST(Bisection, NoPointIsFartherOffThanAllowedOverTheShorterLastCellsOfATile) {
+    RELJEF_RELEASE_ONLY("thousands of points by the same few lines");
     test::Chance chance(7);
     const Heightfield level = test::plane_heightfield(rough_hills(160, 160, 6), {5.0, 7.0});
     const Heightfield earth =
@@ -260,6 +262,7 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanTheViewAllows) {
 }
 
 TEST(Bisection, StatesTheErrorOfTheSmallestSquares) {
+    RELJEF_RELEASE_ONLY("thousands of covers by the same few lines");
     test::Chance chance(7);
     int larger = 0;
     for (MadeTerrain& made : hard_terrains()) {

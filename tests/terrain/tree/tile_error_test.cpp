@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::terrain {
@@ -267,6 +268,7 @@ double median(std::vector<double> values) {
 }
 
 TEST(TileError, IsNeverBelowTheExactOneAndTightInTheMedian) {
+    RELJEF_RELEASE_ONLY("millions of samples by the lines of the next tests");
     test::Chance chance(20);
     std::vector<double> ratios;
     for (int n = 0; n < 24; ++n) {
