@@ -20,6 +20,11 @@ bool is_egm96(std::string_view vertical_datum) {
     return vertical_datum.find("EGM96") != std::string_view::npos;
 }
 
+glm::dvec2 radii_of_earth() {
+    const double equatorial = GeographicLib::Geocentric::WGS84().EquatorialRadius();
+    return {equatorial, equatorial * (1.0 - GeographicLib::Geocentric::WGS84().Flattening())};
+}
+
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
     std::vector<double> rotation(9); // row-major; columns: east, north, up
@@ -40,9 +45,12 @@ glm::dvec3 LocalFrame::local_direction(glm::dvec3 geocentric) const {
             glm::dot(axes_[2], geocentric)};
 }
 
+glm::dvec3 LocalFrame::geocentric_from_local(glm::dvec3 local) const {
+    return center_ + local.x * axes_[0] + local.y * axes_[1] + local.z * axes_[2];
+}
+
 Geodetic LocalFrame::geodetic_from_local(glm::dvec3 local) const {
-    return geodetic_from_geocentric(center_ + local.x * axes_[0] + local.y * axes_[1] +
-                                    local.z * axes_[2]);
+    return geodetic_from_geocentric(geocentric_from_local(local));
 }
 
 glm::dvec3 normal_from_geodetic(double latitude, double longitude) {

@@ -159,6 +159,8 @@ public:
     [[nodiscard]] Geodetic geodetic_from_local(glm::dvec3 local) const;
     /// Rotates a geocentric direction into the frame.
     [[nodiscard]] glm::dvec3 local_direction(glm::dvec3 geocentric) const;
+    /// Metres from the Earth's centre; z towards the north pole, x towards longitude 0.
+    [[nodiscard]] glm::dvec3 geocentric_from_local(glm::dvec3 local) const;
     [[nodiscard]] Geodetic origin() const { return origin_; }
 
 private:
@@ -166,6 +168,9 @@ private:
     glm::dvec3 center_{0.0};           // geocentric origin
     std::array<glm::dvec3, 3> axes_{}; // geocentric east, north, up
 };
+
+/// Of WGS 84: the equatorial and the polar radius, metres.
+glm::dvec2 radii_of_earth();
 
 /// Geocentric unit normal of the ellipsoid at a latitude and longitude in degrees.
 glm::dvec3 normal_from_geodetic(double latitude, double longitude);

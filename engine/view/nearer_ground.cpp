@@ -166,8 +166,9 @@ const DrawnGround::Part* DrawnGround::part_at(glm::dvec2 sample) const {
 }
 
 NearerGround::NearerGround(const scene::TileBuilder& builder,
-                           const std::optional<terrain::HorizonView>& view)
-    : builder_(builder), view_(view), ground_(builder) {}
+                           const std::optional<terrain::HorizonView>& view,
+                           const std::optional<terrain::EarthHorizon>& earth)
+    : builder_(builder), view_(view), earth_(earth), ground_(builder) {}
 
 void NearerGround::add_under_eye(std::shared_ptr<const scene::TerrainTile> tile) {
     if (view_ && tile != nullptr) {
@@ -181,6 +182,9 @@ void NearerGround::add_under_eye(std::shared_ptr<const scene::TerrainTile> tile)
 }
 
 bool NearerGround::hides(const Box& box, double along) {
+    if (earth_ && earth_->hides(box)) {
+        return true;
+    }
     if (!was_made_ && view_ && along > view_->near) {
         make_horizon();
     }

@@ -9,6 +9,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/scene/streamed_tile.h"
+#include "engine/terrain/field/earth_horizon.h"
 #include "engine/terrain/field/horizon.h"
 
 namespace reljef::view {
@@ -53,8 +54,8 @@ private:
 class NearerGround {
 public:
     /// Without a view nothing hides anything. Precondition with a view: as DrawnGround.
-    NearerGround(const scene::TileBuilder& builder,
-                 const std::optional<terrain::HorizonView>& view);
+    NearerGround(const scene::TileBuilder& builder, const std::optional<terrain::HorizonView>& view,
+                 const std::optional<terrain::EarthHorizon>& earth = std::nullopt);
     NearerGround(const NearerGround&) = delete;
 
     /// Adds a drawn tile. Precondition: as DrawnGround::add.
@@ -62,8 +63,8 @@ public:
     /// Adds the tile under the eye if it is outside the picture; null: it is not loaded.
     void add_under_eye(std::shared_ptr<const scene::TerrainTile> tile);
 
-    /// As terrain::Horizon::hides. `along`: metres from the eye to the box along the ground.
-    /// Precondition: all nearer tiles were added.
+    /// As terrain::Horizon::hides, or behind the curved Earth. `along`: metres from the eye to the
+    /// box along the ground. Precondition: all nearer tiles were added.
     [[nodiscard]] bool hides(const Box& box, double along);
 
 private:
@@ -72,6 +73,7 @@ private:
 
     const scene::TileBuilder& builder_;
     std::optional<terrain::HorizonView> view_;
+    std::optional<terrain::EarthHorizon> earth_;
     DrawnGround ground_;
     std::optional<double> under_eye_; // the highest ground there, metres
     bool was_made_ = false;

@@ -13,6 +13,7 @@
 #include "engine/core/check.h"
 #include "engine/core/nearest_first.h"
 #include "engine/core/stopwatch.h"
+#include "engine/terrain/field/earth_horizon.h"
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
@@ -268,16 +269,35 @@ std::optional<double> max_error_of(const DrawList& list, const scene::TerrainNod
     return 0.0;
 }
 
-std::optional<terrain::Horizon> horizon_of(const DrawList& list, const TileDraw& draw) {
+// What nearer ground of a terrain in memory hides: on a plane, or on the Earth.
+struct Occluders {
+    std::optional<terrain::Horizon> ground;
+    std::optional<terrain::EarthHorizon> earth;
+
+    [[nodiscard]] bool hide(const Box& box) {
+        return (ground && ground->hides(box)) || (earth && earth->hides(box));
+    }
+};
+
+Occluders occluders_of(const DrawList& list, const TileDraw& draw) {
     const auto error = max_error_of(list, *draw.terrain);
     if (draw.flat || draw.terrain->material.wireframe || !error) {
-        return std::nullopt;
+        return {};
     }
     const auto view = horizon_view(list.camera, list.size, list.world_from_local(draw), *error);
+    if (!view) {
+        return {};
+    }
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    return view ? terrain::Horizon::create(surface.heightfield(), surface.pyramid(),
-                                           surface.placement(), *view)
-                : std::nullopt;
+    const terrain::Heightfield& heightfield = surface.heightfield();
+    const terrain::Placement& placement = surface.placement();
+    const terrain::MinMax range = surface.pyramid().bounds(
+        {0, 0}, {heightfield.heights.cols() - 2, heightfield.heights.rows() - 2});
+    const double exaggeration = placement.exaggeration();
+    return {terrain::Horizon::create(heightfield, surface.pyramid(), placement, *view),
+            terrain::EarthHorizon::create(
+                placement, {heightfield.heights.cols(), heightfield.heights.rows()},
+                {exaggeration * range.low, exaggeration * range.high}, 1.0, *view)};
 }
 
 } // namespace
@@ -327,16 +347,16 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
 }
 
 void drop_occluded(DrawList& list) {
-    std::map<const scene::TerrainNode*, std::optional<terrain::Horizon>> horizons;
+    std::map<const scene::TerrainNode*, Occluders> occluders;
     const auto dropped = std::erase_if(list.tiles, [&](const TileDraw& draw) {
         if (!draw.tile->borrows) {
             return draw.is_hidden;
         }
-        const auto [entry, is_new] = horizons.try_emplace(draw.terrain);
+        const auto [entry, is_new] = occluders.try_emplace(draw.terrain);
         if (is_new) {
-            entry->second = horizon_of(list, draw);
+            entry->second = occluders_of(list, draw);
         }
-        return entry->second && entry->second->hides(draw.tile->bounds);
+        return entry->second.hide(draw.tile->bounds);
     });
     list.stats.skipped.tiles_occluded += static_cast<int>(dropped);
 }

@@ -79,11 +79,29 @@ StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& c
                             : size.y / camera.view_height;
     const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons &&
                           !terrain.material.wireframe;
-    if (is_solid && builder().overview().placement().kind() == terrain::PlacementKind::plane) {
-        const auto root = stream_.recall(stream_.tree().root());
-        const double errors =
-            root && root->is_proven ? errors_of_horizon : errors_of_unproven_horizon;
-        horizon_ = horizon_view(camera, size, world_from_local, errors * max_error_);
+    if (is_solid) {
+        find_horizon(size);
+    }
+}
+
+void StreamView::find_horizon(glm::ivec2 size) {
+    const auto root = stream_.recall(stream_.tree().root());
+    const double errors = root && root->is_proven ? errors_of_horizon : errors_of_unproven_horizon;
+    auto view = horizon_view(camera_, size, world_from_local_, errors * max_error_);
+    const scene::TerrainSurface& overview = builder().overview();
+    if (overview.placement().kind() == terrain::PlacementKind::plane) {
+        horizon_ = view;
+    } else if (view && root) {
+        const terrain::HeightRange range = range_below(*root, errors_hidden);
+        const double exaggeration = overview.placement().exaggeration();
+        const double cell =
+            builder().spacing(root->id.level) /
+            std::max(overview.heightfield().spacing.x, overview.heightfield().spacing.y);
+        earth_horizon_ = terrain::EarthHorizon::create(
+            overview.placement(),
+            {overview.heightfield().heights.cols(), overview.heightfield().heights.rows()},
+            {exaggeration * range.low - root->error, exaggeration * range.high + root->error}, cell,
+            *view);
     }
 }
 

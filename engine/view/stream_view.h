@@ -8,6 +8,7 @@
 
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/tile_stream.h"
+#include "engine/terrain/field/earth_horizon.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::view {
@@ -32,6 +33,10 @@ public:
     [[nodiscard]] const scene::TileBuilder& builder() const { return stream_.maker(); }
     /// Empty if nothing can be hidden.
     [[nodiscard]] const std::optional<terrain::HorizonView>& horizon() const { return horizon_; }
+    /// Empty if the Earth hides nothing.
+    [[nodiscard]] const std::optional<terrain::EarthHorizon>& earth_horizon() const {
+        return earth_horizon_;
+    }
 
     [[nodiscard]] std::optional<KnownTile> known(terrain::TreeTile id) const;
     /// Whether a box in local metres may be on the picture.
@@ -76,6 +81,7 @@ public:
     [[nodiscard]] double relative_error_of(const scene::TileSummary& tile, double of_parent) const;
 
 private:
+    void find_horizon(glm::ivec2 size);
     [[nodiscard]] Box child_bounds(const scene::TileSummary& parent, terrain::TreeTile child,
                                    double errors) const;
     [[nodiscard]] double error_in(const Box& box, double error) const;
@@ -112,6 +118,7 @@ private:
     bool is_perspective_ = true;
     double pixels_per_metre_ = 1.0; // in perspective: at a distance of one metre
     std::optional<terrain::HorizonView> horizon_;
+    std::optional<terrain::EarthHorizon> earth_horizon_;
 };
 
 } // namespace reljef::view

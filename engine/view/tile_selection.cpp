@@ -62,7 +62,8 @@ class TreeWalk {
 public:
     TreeWalk(const StreamView& view, const WalkLimits& limits, const TileSelectionOptions& options)
         : view_(view), limits_(limits), options_(options),
-          nearer_(view.builder(), limits.hides ? view.horizon() : std::nullopt) {}
+          nearer_(view.builder(), limits.hides ? view.horizon() : std::nullopt,
+                  limits.hides ? view.earth_horizon() : std::nullopt) {}
     TreeWalk(const TreeWalk&) = delete;
 
     /// Stops and returns false if the drawn tiles do not fit in memory.

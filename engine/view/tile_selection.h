@@ -40,7 +40,7 @@ struct TileSelectionOptions {
 /// are not loaded count with their summaries. Requests missing children and draws their parent
 /// meanwhile.
 ///
-/// Tiles behind nearer ground (terrain/horizon.h; polygons on a plane only) are neither drawn nor
+/// Tiles behind nearer ground (terrain/field; with polygons only) are neither drawn nor
 /// requested, but only while no tile is missing: tiles that stand in for finer ones hide nothing.
 /// The heights of unread tiles without a proof are estimated from the range and error of coarser
 /// ones, so a tower of a few samples may be missed behind nearer ground or at the picture's border.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -38,6 +39,20 @@ Camera low_view(test::Chance& chance, const scene::TerrainSurface& surface) {
     return camera;
 }
 
+// From 200 to 20,000 km above a globe, towards it.
+Camera view_of_globe(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const auto& heights = surface.heightfield().heights;
+    const auto anywhere = [&](double above) {
+        return surface.placement().world_from_sample({chance.between(0.0, heights.cols() - 1.0),
+                                                      chance.between(0.0, heights.rows() - 1.0),
+                                                      above});
+    };
+    Camera camera =
+        camera_at(anywhere(2e5 * std::pow(100.0, chance.between(0.0, 1.0))), 0.3 * anywhere(0.0));
+    camera.near = 1e3;
+    return camera;
+}
+
 bool same_bits(const HitBuffer& a, const HitBuffer& b) {
     return a.size() == b.size() &&
            std::memcmp(a.samples().data(), b.samples().data(), a.samples().size_bytes()) == 0;
@@ -47,8 +62,14 @@ class Occlusion : public DriverGlTest {
 protected:
     // Drawn with and without: the same bits, of colours and of hits. Returns the tiles left out.
     int compare(const std::string& technique, int views, unsigned seed) {
+        return compare(technique, views, seed, ridged(seed), low_view);
+    }
+
+    int compare(const std::string& technique, int views, unsigned seed,
+                terrain::Heightfield heightfield,
+                Camera (*any_view)(test::Chance&, const scene::TerrainSurface&)) {
         Scene scene;
-        Node& terrain = test::add_terrain(scene, ridged(seed));
+        Node& terrain = test::add_terrain(scene, std::move(heightfield));
         Node& camera = scene.add_camera();
         scene.add_light();
         scene.set_sky({});
@@ -60,7 +81,7 @@ protected:
         test::Chance chance(seed);
         int occluded = 0;
         for (int i = 0; i < views; ++i) {
-            *camera.get<Camera>() = low_view(chance, surface_of(terrain));
+            *camera.get<Camera>() = any_view(chance, surface_of(terrain));
             occluded += test::must(with.draw(scene)).skipped.tiles_occluded;
             EXPECT_EQ(test::must(without.draw(scene)).skipped.tiles_occluded, 0);
             EXPECT_EQ(with.read_color(), without.read_color()) << technique << ' ' << i;
@@ -76,6 +97,14 @@ TEST_F(Occlusion, ThePictureIsTheSameToTheBitWhereTilesAreLeftOut) {
     EXPECT_GT(compare("polygons:error=1", 20, 1), 10);
     EXPECT_GT(compare("polygons:error=4", 10, 2), 3);
     EXPECT_GT(compare("polygons", 6, 3), 3);
+}
+
+TEST_F(Occlusion, ThePictureOfAGlobeIsTheSameWithoutItsFarSide) {
+    EXPECT_GT(
+        compare("polygons:error=1", 8, 7, test::closed_globe(700, 0.5, 0.5, 7), view_of_globe), 50);
+    EXPECT_GT(
+        compare("polygons:error=8", 8, 8, test::closed_globe(500, 0.0, 0.5, 8), view_of_globe), 20);
+    EXPECT_GT(compare("polygons", 2, 9, test::closed_globe(500, 1.0, 1.0, 9), view_of_globe), 5);
 }
 
 TEST_F(Occlusion, NothingIsLeftOutWhereLevelsGoByDistanceOrNothingIsSolid) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -39,6 +40,7 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
         placement.geoid_ = heightfield.georeference->geoid;
         placement.frame_ =
             geo::LocalFrame({origin.x, origin.y, placement.zero_at({origin.x, origin.y})});
+        placement.zero_range_ = placement.find_zero_range();
     }
     return placement;
 }
@@ -57,6 +59,37 @@ double Placement::zero_at(glm::dvec2 latitude_longitude) const {
     const double latitude = std::clamp(latitude_longitude.x, -90.0, 90.0);
     const double above = geoid_->undulation(latitude, latitude_longitude.y);
     return std::isnan(above) ? 0.0 : above;
+}
+
+// Of a lattice over the terrain. Between its places the geoid differs by no more than they do.
+HeightRange Placement::find_zero_range() const {
+    if (!geoid_) {
+        return {};
+    }
+    constexpr int parts = 32;
+    Grid<double> zeros(parts + 1, parts + 1);
+    HeightRange range{std::numeric_limits<double>::infinity(),
+                      -std::numeric_limits<double>::infinity()};
+    double step = 0.0;
+    for (int row = 0; row <= parts; ++row) {
+        for (int col = 0; col <= parts; ++col) {
+            const glm::dvec2 part = glm::dvec2(col, row) / static_cast<double>(parts);
+            const double zero = zero_at(geodetic_->latitude_longitude(2.0 * center_ * part));
+            zeros(col, row) = zero;
+            range = {std::min(range.low, zero), std::max(range.high, zero)};
+            step = std::max({step, std::abs(zero - zeros.clamped(col - 1, row)),
+                             std::abs(zero - zeros.clamped(col, row - 1))});
+        }
+    }
+    return {range.low - step, range.high + step};
+}
+
+std::optional<glm::dvec2> Placement::latitudes_all_around() const {
+    if (!geodetic_ || !geodetic_->rows().wrap().around) {
+        return std::nullopt;
+    }
+    return glm::dvec2(geodetic_->latitude_longitude(2.0 * center_).x,
+                      geodetic_->latitude_longitude({0.0, 0.0}).x);
 }
 
 glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {

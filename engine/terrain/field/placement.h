@@ -49,6 +49,13 @@ public:
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
     [[nodiscard]] glm::dvec2 spacing() const { return spacing_; } ///< metres between samples
 
+    /// The scene frame's place on the Earth; null: a plane.
+    [[nodiscard]] const geo::LocalFrame* frame() const { return frame_ ? &*frame_ : nullptr; }
+    /// Bounds of the geoid's height above the ellipsoid over the terrain, metres; 0 without one.
+    [[nodiscard]] HeightRange zero_range() const { return zero_range_; }
+    /// South and north of a terrain that covers all longitudes, degrees; otherwise empty.
+    [[nodiscard]] std::optional<glm::dvec2> latitudes_all_around() const;
+
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const;
     /// The inverse; may lie outside the heightfield. Empty outside the map's domain.
     [[nodiscard]] std::optional<glm::dvec3> sample_from_world(glm::dvec3 world) const;
@@ -77,6 +84,7 @@ private:
     }
     /// Geoid height above the ellipsoid, metres; 0 without a geoid.
     [[nodiscard]] double zero_at(glm::dvec2 latitude_longitude) const;
+    [[nodiscard]] HeightRange find_zero_range() const;
 
     glm::dvec2 center_{0.0};  // col, row
     glm::dvec2 spacing_{1.0}; // metres
@@ -84,6 +92,7 @@ private:
     std::shared_ptr<const geo::GeodeticMap> geodetic_; // null: no georeference
     std::optional<geo::LocalFrame> frame_;             // ellipsoid only
     std::optional<geo::Geoid> geoid_;                  // ellipsoid only
+    HeightRange zero_range_;
     std::optional<TilePlace> tile_;
 };
 
