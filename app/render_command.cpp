@@ -38,22 +38,30 @@ constexpr int sheet_columns = 4;
 constexpr int sheet_picture_width = 320;
 constexpr int max_sheet_pictures = 24;
 
-Result<std::unique_ptr<session::FrameMaker>> make_frame_maker(const RenderChoice& choice,
-                                                              session::Log& log) {
-    using Maker = std::unique_ptr<session::FrameMaker>;
+// Draws frames, by rays on the CPU where it says so.
+struct Maker {
+    std::unique_ptr<session::FrameMaker> frames;
+    session::RayUse rays = session::RayUse::none;
+};
+
+Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
     if (choice.truth) {
-        return Maker(new session::TruthFrames(choice.view.size, choice.rays, log));
+        return Maker{std::make_unique<session::TruthFrames>(choice.view.size, choice.rays, log)};
     }
     auto device =
         session::Device::create({.context = choice.view.context,
+                                 .prefers_rays = true,
                                  .size = choice.view.size,
                                  .shader_dir = choice.view.shader_dir,
                                  .samples = choice.view.samples.value_or(render::automatic_samples),
                                  .threads = choice.terrain.threads,
                                  .simd = choice.view.simd});
-    return device ? Result<Maker>(Maker(new session::DeviceFrames(
-                        std::move(*device), log, {choice.stats, choice.terrain.memory_megabytes})))
-                  : device.error();
+    if (!device) {
+        return device.error();
+    }
+    const session::RayUse rays = device->rays();
+    const session::DeviceFramesOptions options{choice.stats, choice.terrain.memory_megabytes};
+    return Maker{std::make_unique<session::DeviceFrames>(std::move(*device), log, options), rays};
 }
 
 Result<void> add_output(Result<AtomicFile> prepared, std::vector<AtomicFile>& outputs) {
@@ -353,7 +361,8 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;
     terrain.index = choice.truth ? session::IndexUse::none : terrain.index;
-    session::SceneOptions view = session::drawn_by(choice.view.context, choice.view);
+    session::SceneOptions view = choice.view;
+    view.rays = maker->rays;
     view.prepares_maps = !choice.truth;
     const bool has_camera_of_file =
         description->eye && !choice.view.eye && !choice.view.geodetic && !choice.view.pose;
@@ -362,7 +371,8 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     if (!scene) {
         return scene.error();
     }
-    if (auto drawn = draw_outputs(choice, *scene, has_camera_of_file, **maker, log, interrupt);
+    if (auto drawn =
+            draw_outputs(choice, *scene, has_camera_of_file, *maker->frames, log, interrupt);
         !drawn) {
         return drawn;
     }

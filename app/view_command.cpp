@@ -43,9 +43,7 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
         return path.error();
     }
     if (opened.light != nullptr) {
-        if (auto added = renderer.add_light(*std::exchange(opened.light, nullptr)); !added) {
-            return added;
-        }
+        renderer.add_light(std::exchange(opened.light, nullptr));
     }
     if (!choice.terrain.quiet) {
         fmt::print("{}", Viewer::keys());
@@ -67,23 +65,53 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
                             .keeps_quality = choice.view.samples.has_value()});
 }
 
+// Without a GPU, rays draw what they can; OpenGL draws all else in the same window.
+session::RayUse rays_of(const ViewerChoice& choice, platform::Window& window) {
+    if (choice.view.context == session::BackendKind::cpu) {
+        return session::RayUse::only;
+    }
+    const bool is_chosen = choice.view.context.has_value();
+    return is_chosen || !window.context().is_software() ? session::RayUse::none
+                                                        : session::RayUse::preferred;
+}
+
+Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platform::Window& window,
+                                             session::RayUse rays) {
+    const int samples = choice.view.samples.value_or(render::automatic_samples);
+    const glm::ivec2 size = window.framebuffer_size();
+    session::SceneRendererOptions options;
+    options.opengl = {.size = size,
+                      .shader_dir = choice.view.shader_dir,
+                      .software = window.context().is_software(),
+                      .samples = samples};
+    if (rays != session::RayUse::none) {
+        const auto target = session::simd_target_of(choice.view.simd);
+        if (!target) {
+            return target.error();
+        }
+        options.rays = {.size = size,
+                        .threads = static_cast<unsigned>(choice.terrain.threads),
+                        .samples = samples,
+                        .target = *target};
+    }
+    return session::SceneRenderer::create(options);
+}
+
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     auto window = open_window(choice);
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
-    auto renderer = session::SceneRenderer::create(
-        {.driver = render::DriverOptions{
-             .size = (*window)->framebuffer_size(),
-             .shader_dir = choice.view.shader_dir,
-             .software = (*window)->context().is_software(),
-             .samples = choice.view.samples.value_or(render::automatic_samples)}});
+    const session::RayUse rays = rays_of(choice, **window);
+    auto renderer = make_renderer(choice, **window, rays);
     if (!renderer) {
         return renderer.error();
     }
     cli::ConsoleLog log(choice.terrain.quiet);
-    auto opened = open_in_window(**window, choice.terrain, choice.view,
-                                 renderer->max_texture_side(), log, interrupt.token());
+    session::SceneOptions options = choice.view;
+    options.rays = rays;
+    auto opened = open_in_window(**window, choice.terrain, options, renderer->max_texture_side(),
+                                 log, interrupt.token());
     if (!opened) {
         return opened.error();
     }
@@ -102,9 +130,11 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         const auto context = choice->view.context;
-        if (context && *context != session::BackendKind::glfw) {
+        const bool has_window = !context || *context == session::BackendKind::glfw ||
+                                *context == session::BackendKind::cpu;
+        if (!has_window) {
             throw CLI::ValidationError(fmt::format(
-                "--context: {} found, but view needs a window: auto or glfw was expected",
+                "--context: {} found, but view needs a window: auto, glfw or cpu was expected",
                 session::to_string(*context)));
         }
     });

@@ -397,10 +397,12 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
             : fmt::format(" ({} {:.0f} %)", preparing.label, 100.0 * preparing.fraction);
     const std::string resolution =
         timing.divisor > 1 ? fmt::format(", 1/{} of the resolution", timing.divisor) : "";
-    return fmt::format("reljef - {} - {}{}{} - {} ({:.1f} ms{}) - {} triangles - {}",
-                       surface.terrain().name, scene::to_string(material().technique), progress,
+    const std::string work = stats.rays > 0 ? fmt::format("{} rays", stats.rays)
+                                            : fmt::format("{} triangles", stats.triangles);
+    return fmt::format("reljef - {} - {}{}{} - {} ({:.1f} ms{}) - {} - {}", surface.terrain().name,
+                       scene::to_string(material().technique), progress,
                        error_text(stats, material().technique), rate, timing.last_ms, resolution,
-                       stats.triangles, place());
+                       work, place());
 }
 
 std::string Viewer::place() const {

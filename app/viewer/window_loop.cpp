@@ -146,7 +146,9 @@ private:
         if (auto drawn = draw_at(quality); !drawn) {
             return drawn;
         }
-        renderer_.show_in_window(size);
+        if (auto shown = renderer_.show_in_window(size); !shown) {
+            return shown;
+        }
         timing_.last_ms = watch.milliseconds();
         timing_.divisor = quality.divisor;
         quality_.add_frame(timing_.last_ms);
@@ -167,10 +169,8 @@ private:
         if (!options_.keeps_quality) {
             renderer_.set_samples(quality.samples);
         }
-        while (const auto light = viewer_.take_light()) {
-            if (auto added = renderer_.add_light(*light); !added) {
-                return added;
-            }
+        while (auto light = viewer_.take_light()) {
+            renderer_.add_light(std::move(light));
         }
         select();
         const auto stats = renderer_.draw_selected(true);
@@ -178,6 +178,9 @@ private:
             return stats.error();
         }
         stats_ = *stats;
+        if (const std::string note = renderer_.take_note(); !note.empty()) {
+            log_.note(note);
+        }
         return {};
     }
 

@@ -57,18 +57,13 @@ Setting labelled(const Candidate& candidate) {
     return setting;
 }
 
-bool may_be_rays(const scene::Technique& technique) {
-    return technique.options == scene::TechniqueOptions{} &&
-           (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
-}
-
 Suite with_rays(Suite suite) {
     for (Group& group : suite.groups) {
         std::vector<Candidate> candidates;
         for (Candidate& candidate : group.candidates) {
             Candidate by_rays{candidate.technique, {}, true};
             candidates.push_back(std::move(candidate));
-            if (group.scene.detail.empty() && may_be_rays(by_rays.technique)) {
+            if (group.scene.detail.empty() && session::rays_draw(by_rays.technique)) {
                 candidates.push_back(std::move(by_rays));
             }
         }

@@ -89,12 +89,11 @@ namespace reljef::cast {
 HWY_EXPORT(cast_all);
 HWY_EXPORT(paint_all);
 
-void cast_block(const BlockJob& job, BlockHits& hits) {
-    HWY_DYNAMIC_DISPATCH(cast_all)(job, hits);
-}
-
-void paint_block(const BlockJob& job, const BlockPaint& paint, BlockPixels& pixels) {
-    HWY_DYNAMIC_DISPATCH(paint_all)(job, paint, pixels);
+BlockKernel block_kernel(std::int64_t targets) {
+    hwy::ChosenTarget chosen;
+    chosen.Update(targets != 0 ? targets : hwy::SupportedTargets());
+    const std::size_t index = chosen.GetIndex();
+    return {HWY_DISPATCH_TABLE(cast_all)[index], HWY_DISPATCH_TABLE(paint_all)[index]};
 }
 
 std::int64_t compiled_targets() {

@@ -101,10 +101,15 @@ struct BlockPixels {
     alignas(64) std::array<std::uint32_t, BlockHits::count> rgba;
 };
 
-/// With the fastest instruction set, or the pinned one (simd_target.h).
-void cast_block(const BlockJob& job, BlockHits& hits);
-/// The same, and the colours instead of the hits.
-void paint_block(const BlockJob& job, const BlockPaint& paint, BlockPixels& pixels);
+/// The functions of an instruction set.
+struct BlockKernel {
+    void (*cast)(const BlockJob& job, BlockHits& hits) = nullptr;
+    /// The same, and the colours instead of the hits.
+    void (*paint)(const BlockJob& job, const BlockPaint& paint, BlockPixels& pixels) = nullptr;
+};
+
+/// Those of the fastest of Highway's targets (SimdTarget::bit); 0: of the machine's.
+BlockKernel block_kernel(std::int64_t targets);
 
 /// Highway's bits of the instruction sets in this program.
 std::int64_t compiled_targets();

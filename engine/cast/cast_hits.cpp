@@ -39,11 +39,12 @@ void copy_hits(const BlockHits& found, const BlockRays& rays, const PixelBlock& 
 Result<HitBuffer> cast_hits(const RayTile& tile, const PictureRays& rays,
                             const CastOptions& options) {
     HitBuffer hits(rays.size.x, rays.size.y);
+    const BlockKernel kernel = block_kernel(options.target.value_or(SimdTarget{}).bit);
     const auto cast = [&](const PixelBlock& block) {
         const auto job = block_job(tile, rays, block, options.beams);
         if (job) {
             BlockHits found;
-            cast_block(*job, found);
+            kernel.cast(*job, found);
             copy_hits(found, job->rays, block, rays.anchor, hits);
         }
     };

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
+#include "engine/cast/simd_target.h"
 #include "engine/core/hit.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
@@ -9,8 +12,9 @@
 namespace reljef::cast {
 
 struct CastOptions {
-    ParallelOptions parallel = {}; ///< no influence on the result
-    bool beams = true;             ///< to measure their effect; no influence on the result
+    ParallelOptions parallel = {};         ///< no influence on the result
+    bool beams = true;                     ///< to measure their effect; no influence on the result
+    std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
 };
 
 /// The first hit of each ray of a picture, exact for the bilinear surface: a crossing from above to

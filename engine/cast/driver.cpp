@@ -52,46 +52,6 @@ std::vector<SeenTerrain> terrains_of(const view::DrawList& list) {
     return seen;
 }
 
-bool has_error_bound(const scene::Technique& technique) {
-    const auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
-    return polygons != nullptr && polygons->error > 0.0;
-}
-
-// The options of a terrain that rays on the CPU do not know.
-std::string unknown_technique(const scene::Technique& technique) {
-    const bool is_known = technique.id() == scene::TechniqueId::exact || has_error_bound(technique);
-    return is_known && technique.options == scene::TechniqueOptions{}
-               ? std::string()
-               : fmt::format("technique {}", scene::to_string(technique));
-}
-
-// What the CPU cannot draw; empty if it draws the terrain.
-std::string obstacle_of(const scene::TerrainNode& terrain) {
-    if (auto technique = unknown_technique(terrain.material.technique); !technique.empty()) {
-        return technique;
-    }
-    if (terrain.stream != nullptr) {
-        return "a streamed terrain";
-    }
-    if (terrain.surface->placement().kind() != terrain::PlacementKind::plane) {
-        return "placement ellipsoid";
-    }
-    if (terrain.material.wireframe) {
-        return "a wireframe";
-    }
-    const double samples = static_cast<double>(terrain.surface->heightfield().heights.size());
-    if (samples > std::numeric_limits<std::int32_t>::max()) {
-        return "a terrain of more than 2^31 samples";
-    }
-    return terrain.detail != nullptr ? "a detail texture" : "";
-}
-
-Error unsupported(std::string_view found) {
-    return Error{fmt::format("rays on the CPU: {} found, exact or an error bound over one terrain "
-                             "on a plane in memory was expected; --context osmesa draws the others",
-                             found)};
-}
-
 Box samples_and_heights(const scene::TerrainSurface& surface) {
     const Grid<float>& heights = surface.heightfield().heights;
     const terrain::MinMax total = surface.pyramid().total();
@@ -160,17 +120,52 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
 
 } // namespace
 
-Result<void> check_support(const view::DrawList& list) {
+bool draws_technique(const scene::Technique& technique) {
+    return technique.options == scene::TechniqueOptions{} &&
+           (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
+}
+
+std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique) {
+    if (!draws_technique(technique)) {
+        return fmt::format("technique {}", scene::to_string(technique));
+    }
+    if (terrain.stream != nullptr) {
+        return "a streamed terrain";
+    }
+    if (terrain.surface->placement().kind() != terrain::PlacementKind::plane) {
+        return "placement ellipsoid";
+    }
+    if (terrain.material.wireframe) {
+        return "a wireframe";
+    }
+    const double samples = static_cast<double>(terrain.surface->heightfield().heights.size());
+    if (samples > std::numeric_limits<std::int32_t>::max()) {
+        return "a terrain of more than 2^31 samples";
+    }
+    return terrain.detail != nullptr ? "a detail texture" : "";
+}
+
+std::string obstacle_of(const view::DrawList& list) {
     if (!list.meshes.empty()) {
-        return unsupported("a mesh");
+        return "a mesh";
     }
     const std::vector<SeenTerrain> terrains = terrains_of(list);
     for (const SeenTerrain& terrain : terrains) {
-        if (const std::string found = obstacle_of(*terrain.node); !found.empty()) {
-            return unsupported(found);
+        if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique);
+            !found.empty()) {
+            return found;
         }
     }
-    return terrains.size() > 1 ? unsupported("more than one terrain") : Result<void>();
+    return terrains.size() > 1 ? "more than one terrain" : "";
+}
+
+Result<void> check_support(const view::DrawList& list) {
+    const std::string found = obstacle_of(list);
+    return found.empty() ? Result<void>()
+                         : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
+                                             "over one terrain on a plane in memory was expected; "
+                                             "--context osmesa draws the others",
+                                             found)};
 }
 
 Driver::Driver(const DriverOptions& options)
@@ -182,7 +177,7 @@ Result<Driver> Driver::create(const DriverOptions& options) {
                                  "expected; --context osmesa draws several",
                                  options.samples)};
     }
-    Driver driver({.size = {1, 1}, .threads = options.threads});
+    Driver driver({.size = {1, 1}, .threads = options.threads, .target = options.target});
     auto sized = driver.resize(options.size);
     return sized ? Result<Driver>(std::move(driver)) : sized.error();
 }
@@ -256,6 +251,7 @@ void Driver::paint(const view::DrawList& list, const std::optional<PlacedTerrain
         shared.longest_texels = longest_texels(list, view, shared.levels[0].texels_per_sample,
                                                terrain->node->surface->placement().spacing());
     }
+    const BlockKernel kernel = block_kernel(options_.target.value_or(SimdTarget{}).bit);
     const auto paint_one = [&](const PixelBlock& block) {
         BlockPaint own = shared;
         const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
@@ -263,7 +259,7 @@ void Driver::paint(const view::DrawList& list, const std::optional<PlacedTerrain
         BlockPixels pixels;
         const auto job = terrain ? block_job(*terrain->tile, terrain->rays, block, true)
                                  : std::optional<BlockJob>();
-        paint_block(job ? *job : empty_job(), own, pixels);
+        kernel.paint(job ? *job : empty_job(), own, pixels);
         write_block(pixels, block, picture_);
     };
     ParallelOptions parallel;
@@ -290,7 +286,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
                                              node->surface->placement(),
                                              samples_and_heights(*node->surface)),
                                 &levels};
-        if (has_error_bound(node->material.technique)) {
+        if (scene::error_bound(node->material.technique) > 0.0) {
             stats.kept_error = 0.0;
         }
     }
@@ -308,6 +304,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     for (const auto& [node, world_from_local] : terrains_of(list)) {
         CastOptions options;
         options.parallel.threads = options_.threads;
+        options.target = options_.target;
         auto hits =
             cast_hits(tile_of(*node, drawn.stats),
                       picture_rays(list.camera, list.size, world_from_local,
@@ -319,7 +316,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
         drawn.hits = std::move(*hits);
         drawn.stats.rays = drawn.hits.size();
         drawn.stats.tiles = 1;
-        if (has_error_bound(node->material.technique)) {
+        if (scene::error_bound(node->material.technique) > 0.0) {
             drawn.stats.kept_error = 0.0;
         }
     }

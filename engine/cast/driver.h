@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -10,6 +11,7 @@
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
+#include "engine/cast/simd_target.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
@@ -23,13 +25,22 @@ struct DriverOptions {
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels
     unsigned threads = 0;       ///< 0: one per hardware thread; no influence on the result
     int samples = 1;            ///< per pixel: 1, or automatic_samples
+    std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
 };
 
 /// The driver's choice: 1.
 inline constexpr int automatic_samples = 0;
 
-/// Fails unless the CPU draws each terrain and mesh of a list: at most one terrain, on a plane and
-/// in memory, with `exact` or an error bound, which exact rays keep.
+/// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
+/// without options.
+bool draws_technique(const scene::Technique& technique);
+
+/// What rays on the CPU cannot draw of a terrain with a technique; empty if they draw it.
+std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique);
+
+/// The same of a list, which has at most one terrain and no meshes.
+std::string obstacle_of(const view::DrawList& list);
+/// Fails if there is an obstacle.
 Result<void> check_support(const view::DrawList& list);
 
 /// Draws selected frames by rays on the CPU (cast_hits.h); light, air and sky are those of

@@ -39,12 +39,4 @@ Result<SimdTarget> simd_target(std::string_view name) {
     return usage_error(fmt::format("--simd {}: this machine has {}", name, fmt::join(names, ", ")));
 }
 
-void pin_simd_target(const SimdTarget& target) {
-    hwy::SetSupportedTargetsForTest(target.bit);
-}
-
-void unpin_simd_target() {
-    hwy::SetSupportedTargetsForTest(0);
-}
-
 } // namespace reljef::cast

@@ -9,7 +9,8 @@
 
 namespace reljef::cast {
 
-/// An instruction set that the rays are compiled for.
+/// An instruction set that the rays are compiled for. The same binary and target give the same
+/// bits.
 struct SimdTarget {
     std::string_view name; ///< as on the command line
     std::int64_t bit = 0;  ///< Highway's
@@ -22,11 +23,5 @@ std::vector<SimdTarget> simd_targets();
 
 /// Fails unless this machine supports the target, and names those that it does.
 Result<SimdTarget> simd_target(std::string_view name);
-
-/// From now on, all rays of the process are cast with this target: the same binary and target give
-/// the same bits. Not while rays are cast.
-void pin_simd_target(const SimdTarget& target);
-/// Back to the fastest.
-void unpin_simd_target();
 
 } // namespace reljef::cast

@@ -176,13 +176,15 @@ void Framebuffer::clear_depth(float depth) const {
     glClearNamedFramebufferfv(id(), GL_DEPTH, 0, &depth);
 }
 
-void Framebuffer::blit_to_window(glm::ivec2 window_size) const {
+void Framebuffer::blit_to_window(glm::ivec2 window_size, FirstRow first) const {
     // Mesa updates a window's size when the window is bound.
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     // Without conversion both sides are plain bytes, whatever the window's encoding.
     glDisable(GL_FRAMEBUFFER_SRGB);
-    glBlitNamedFramebuffer(id(), 0, 0, 0, size_.x, size_.y, 0, 0, window_size.x, window_size.y,
-                           GL_COLOR_BUFFER_BIT, window_size == size_ ? GL_NEAREST : GL_LINEAR);
+    const int bottom = first == FirstRow::bottom ? 0 : size_.y;
+    glBlitNamedFramebuffer(id(), 0, 0, bottom, size_.x, size_.y - bottom, 0, 0, window_size.x,
+                           window_size.y, GL_COLOR_BUFFER_BIT,
+                           window_size == size_ ? GL_NEAREST : GL_LINEAR);
 }
 
 void Framebuffer::resolve_to(const Framebuffer& target) const {

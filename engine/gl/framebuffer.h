@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/core/color.h"
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
 #include "engine/gl/unique_id.h"
@@ -22,6 +23,9 @@ struct FramebufferOptions {
 
 /// The possible samples per pixel with these formats, ascending; 1 is always possible.
 std::vector<int> sample_counts(const FramebufferOptions& options);
+
+/// Where the first row of a picture's texels is shown.
+enum class FirstRow { bottom, top };
 
 /// A colour target and an optional 32-bit float depth. The colour is a texture whose row 0 is the
 /// bottom of the picture. With several samples per pixel there is no texture: use resolve_to().
@@ -40,7 +44,9 @@ public:
     /// 0 is the far end of a reversed depth. Precondition: it has a depth; depth writing is on.
     void clear_depth(float depth = 0.0F) const;
     /// Copies the encoded bytes onto the window's back buffer; scales when the sizes differ.
-    void blit_to_window(glm::ivec2 window_size) const;
+    void blit_to_window(glm::ivec2 window_size, FirstRow first = FirstRow::bottom) const;
+    /// Replaces the colours. Preconditions: rgba8 or rgba8_srgb, one sample, equal sizes.
+    void upload(const Grid<Rgba8>& texels) { color_.upload(0, texels); }
 
     /// Copies the colour to `target`: the mean of a pixel's samples, in linear light for
     /// rgba8_srgb. Precondition: equal sizes and formats; the target has one sample.

@@ -135,9 +135,23 @@ Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOpt
     });
 }
 
+namespace {
+
+// On a device that is not known to be a CPU rasterizer; it may turn out to be one.
+MadeContext make_egl_context(const ContextOptions& options) {
+    return make_with(release_current(),
+                     [&] { return create_egl_context(options, EglDevices::hardware); });
+}
+
+} // namespace
+
+Result<std::unique_ptr<Context>> make_gpu_context(const ContextOptions& options) {
+    auto egl = make_egl_context(options);
+    return egl && (*egl)->is_software() ? Error{"no hardware GPU was found"} : std::move(egl);
+}
+
 Result<std::unique_ptr<Context>> make_headless_context(const ContextOptions& options) {
-    auto egl = make_with(release_current(),
-                         [&] { return create_egl_context(options, EglDevices::hardware); });
+    auto egl = make_egl_context(options);
     if (egl && !(*egl)->is_software()) {
         return egl;
     }

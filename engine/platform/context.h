@@ -72,6 +72,9 @@ RendererInfo info_of(const Context& context);
 /// install.
 Result<std::unique_ptr<Context>> make_context(ContextKind kind, const ContextOptions& options = {});
 
+/// An EGL context on a hardware GPU. Fails without one.
+Result<std::unique_ptr<Context>> make_gpu_context(const ContextOptions& options = {});
+
 /// A context without a window: EGL on a hardware GPU if there is one, else OSMesa.
 Result<std::unique_ptr<Context>> make_headless_context(const ContextOptions& options = {});
 

@@ -60,7 +60,7 @@ public:
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     /// Of the last frame, or hits.
     [[nodiscard]] const view::FrameStats& frame_stats() const { return stats_; }
-    [[nodiscard]] const platform::RendererInfo& info() const { return device_.info(); }
+    [[nodiscard]] platform::RendererInfo info() const { return device_.info(); }
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:

@@ -12,28 +12,35 @@
 namespace reljef::session {
 namespace {
 
-constexpr std::array<std::string_view, 4> backend_names{"osmesa", "egl", "glfw", "cpu"};
+constexpr std::array all_backends{BackendKind::osmesa, BackendKind::egl, BackendKind::glfw,
+                                  BackendKind::cpu};
 
 } // namespace
 
+std::optional<platform::ContextKind> context_of(BackendKind kind) {
+    switch (kind) {
+    case BackendKind::osmesa:
+        return platform::ContextKind::osmesa;
+    case BackendKind::egl:
+        return platform::ContextKind::egl;
+    case BackendKind::glfw:
+        return platform::ContextKind::glfw;
+    case BackendKind::cpu:
+        break;
+    }
+    return std::nullopt;
+}
+
 std::string_view to_string(BackendKind kind) {
-    return backend_names[static_cast<std::size_t>(kind)];
+    const auto context = context_of(kind);
+    return context ? platform::to_string(*context) : "cpu";
 }
 
 std::optional<BackendKind> backend_from_string(std::string_view text) {
-    const auto* const found = std::find(backend_names.begin(), backend_names.end(), text);
-    return found == backend_names.end()
-               ? std::nullopt
-               : std::optional(static_cast<BackendKind>(found - backend_names.begin()));
-}
-
-SceneOptions drawn_by(std::optional<BackendKind> backend, SceneOptions options) {
-    const bool is_bounded = options.max_error.value_or(default_max_error) > 0.0;
-    if (backend == BackendKind::cpu && !options.technique && is_bounded) {
-        options.technique = scene::Technique{scene::Exact{}};
-        options.max_error.reset();
-    }
-    return options;
+    const auto* const found =
+        std::find_if(all_backends.begin(), all_backends.end(),
+                     [&](BackendKind kind) { return to_string(kind) == text; });
+    return found == all_backends.end() ? std::nullopt : std::optional(*found);
 }
 
 scene::Technique technique_of(const SceneOptions& options) {

@@ -12,6 +12,7 @@
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
 #include "engine/io/tile_set.h"
+#include "engine/platform/context.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/scene/technique/technique.h"
@@ -28,6 +29,11 @@ enum class BackendKind { osmesa, egl, glfw, cpu };
 /// As on the command line.
 std::string_view to_string(BackendKind kind);
 std::optional<BackendKind> backend_from_string(std::string_view text);
+/// Empty: rays need no context.
+std::optional<platform::ContextKind> context_of(BackendKind kind);
+
+/// Whether rays on the CPU draw: never, what they can draw, or all.
+enum class RayUse { none, preferred, only };
 
 struct SourceOptions {
     /// A built-in name, a scene file (.toml), a DEM file or its address, a folder of them, or web
@@ -89,6 +95,9 @@ struct SceneOptions {
     std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
     std::optional<glm::dvec2> sun;   ///< azimuth, altitude, degrees; absent: the scene file's
     bool prepares_maps = true;       ///< open_scene() makes the technique's maps (prepared_maps.h)
+    /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
+    /// RayUse::only, georeferenced terrain is on a plane, too.
+    RayUse rays = RayUse::none;
 };
 
 /// The technique with its error bound. Precondition: check().
@@ -104,9 +113,5 @@ Result<void> check(const SceneOptions& options);
 /// Streams the source only if the options allow it. A terrain that fits in memory is not streamed
 /// with an error bound: in memory, its errors are proven without an index.
 SourceOptions streamed_for(SourceOptions source, const SceneOptions& options);
-
-/// As `backend` draws them (absent: chosen by the machine): exact rays of the CPU keep the error
-/// bound that stands for all unnamed techniques.
-SceneOptions drawn_by(std::optional<BackendKind> backend, SceneOptions options);
 
 } // namespace reljef::session

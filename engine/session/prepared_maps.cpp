@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/cast/driver.h"
 #include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
 
@@ -105,8 +106,10 @@ MissingMaps missing_maps(const TerrainScene& scene,
         const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
         missing.cones =
             has_cells && shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
-        missing.bisection =
-            scene::error_bound(shown) > 0.0 && node.stream == nullptr && node.bisection == nullptr;
+        const bool has_triangles =
+            scene.rays == RayUse::none || !cast::obstacle_of(node, shown).empty();
+        missing.bisection = scene::error_bound(shown) > 0.0 && has_triangles &&
+                            node.stream == nullptr && node.bisection == nullptr;
         missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;
         return missing;
     }

@@ -1,5 +1,6 @@
 #include "engine/session/scene_renderer.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 #include <utility>
@@ -8,83 +9,149 @@
 #include "engine/core/check.h"
 
 namespace reljef::session {
-namespace {
 
-// Precondition: OpenGL draws.
-platform::ContextKind context_kind(BackendKind kind) {
-    const auto found = platform::context_kind_from_string(to_string(kind));
-    reljef::check(found.has_value(), "a context of OpenGL was expected");
-    return *found;
-}
-
-// Of all rays of the process; empty: the fastest target.
-Result<void> pin_simd(const std::string& name) {
+Result<std::optional<cast::SimdTarget>> simd_target_of(const std::string& name) {
+    using Target = std::optional<cast::SimdTarget>;
     if (name.empty()) {
-        return {};
+        return Target();
     }
     const auto target = cast::simd_target(name);
-    if (!target) {
-        return target.error();
+    return target ? Result<Target>(*target) : target.error();
+}
+
+bool rays_draw(const scene::Technique& technique) {
+    return cast::draws_technique(technique);
+}
+
+SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
+    : opengl_options_(options.opengl), make_context_(options.make_context),
+      size_(options.rays ? options.rays->size : options.opengl->size),
+      shows_rays_(options.rays.has_value()), selector_(options.select, options.selects_always) {}
+
+Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
+    reljef::check(options.opengl || options.rays, "a driver was expected");
+    SceneRenderer renderer(options);
+    if (options.rays) {
+        auto rays = cast::Driver::create(*options.rays);
+        if (!rays) {
+            return rays.error();
+        }
+        renderer.rays_ = std::move(*rays);
+    } else if (auto made = renderer.prepare_opengl(); !made) {
+        return made.error();
     }
-    cast::pin_simd_target(*target);
+    return renderer;
+}
+
+Result<void> SceneRenderer::prepare_opengl() {
+    if (opengl_) {
+        return {};
+    }
+    if (make_context_) {
+        if (auto made = make_context_(); !made) {
+            return made;
+        }
+    }
+    opengl_options_->size = size_;
+    auto driver = render::Driver::create(*opengl_options_);
+    if (!driver) {
+        return driver.error();
+    }
+    opengl_ = std::move(*driver);
     return {};
 }
 
-} // namespace
+Result<bool> SceneRenderer::choose_rays() {
+    const view::DrawList& list = selector_.selected().list;
+    const std::string obstacle = rays_ ? cast::obstacle_of(list) : "no rays";
+    const bool by_rays = obstacle.empty() || !opengl_options_;
+    if (!by_rays) {
+        if (auto prepared = prepare_opengl(); !prepared) {
+            return prepared.error();
+        }
+    }
+    if (drawn_ > 0 && shows_rays_ != by_rays) {
+        note_ = by_rays ? "exact rays on the CPU draw again"
+                        : obstacle + ": drawn by OpenGL, not by rays on the CPU";
+    }
+    shows_rays_ = by_rays;
+    if (auto passed = pass_lights(by_rays); !passed) {
+        return passed.error();
+    }
+    return by_rays;
+}
 
-Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
-    const auto with = [&](auto driver) {
-        return driver ? Result<SceneRenderer>(SceneRenderer(std::move(*driver), options))
-                      : Result<SceneRenderer>(driver.error());
-    };
-    const auto* const rays = std::get_if<cast::DriverOptions>(&options.driver);
-    return rays != nullptr
-               ? with(cast::Driver::create(*rays))
-               : with(render::Driver::create(std::get<render::DriverOptions>(options.driver)));
+Result<void> SceneRenderer::pass_lights(bool to_rays) {
+    for (const auto& light : std::exchange(lights_, {})) {
+        auto added = to_rays ? rays_->add_light(*light) : opengl_->add_light(*light);
+        if (!added) {
+            return added;
+        }
+    }
+    return {};
 }
 
 Result<view::DrawnHits> SceneRenderer::draw_selected_hits() {
-    return std::visit([&](auto& driver) { return driver.draw_hits(selector_.selected()); },
-                      driver_);
+    const auto by_rays = choose_rays();
+    if (!by_rays) {
+        return by_rays.error();
+    }
+    return *by_rays ? rays_->draw_hits(selector_.selected())
+                    : opengl_->draw_hits(selector_.selected());
 }
 
 Image SceneRenderer::read_color() const {
-    return std::visit([](const auto& driver) -> Image { return driver.read_color(); }, driver_);
+    return shows_rays_ ? rays_->read_color() : opengl_->read_color();
 }
 
-void SceneRenderer::show_in_window(glm::ivec2 window_size) const {
-    const auto* const opengl = std::get_if<render::Driver>(&driver_);
-    reljef::check(opengl != nullptr, "a window shows what OpenGL draws");
-    opengl->show_in_window(window_size);
+Result<void> SceneRenderer::show_in_window(glm::ivec2 window_size) {
+    if (shows_rays_) {
+        return window_picture_.show(rays_->read_color(), window_size);
+    }
+    opengl_->show_in_window(window_size);
+    return {};
 }
 
-Result<void> SceneRenderer::add_light(const view::PreparedLight& light) {
-    return std::visit([&](auto& driver) { return driver.add_light(light); }, driver_);
+void SceneRenderer::add_light(std::shared_ptr<const view::PreparedLight> light) {
+    lights_.push_back(std::move(light));
 }
 
 int SceneRenderer::max_texture_side() const {
-    return std::visit([](const auto& driver) { return driver.max_texture_side(); }, driver_);
+    const int of_rays = rays_ ? cast::Driver::max_texture_side() : opengl_->max_texture_side();
+    return opengl_ ? std::min(of_rays, opengl_->max_texture_side()) : of_rays;
 }
 
 Result<void> SceneRenderer::resize(glm::ivec2 size) {
-    return std::visit([&](auto& driver) { return driver.resize(size); }, driver_);
+    if (rays_) {
+        if (auto resized = rays_->resize(size); !resized) {
+            return resized;
+        }
+    }
+    if (opengl_) {
+        if (auto resized = opengl_->resize(size); !resized) {
+            return resized;
+        }
+    }
+    size_ = size;
+    return {};
 }
 
 void SceneRenderer::set_samples(int samples) {
-    if (auto* const opengl = std::get_if<render::Driver>(&driver_)) {
-        opengl->set_samples(samples);
+    if (opengl_options_) {
+        opengl_options_->samples = samples;
+    }
+    if (opengl_) {
+        opengl_->set_samples(samples);
     }
 }
 
-glm::ivec2 SceneRenderer::size() const {
-    return std::visit([](const auto& driver) { return driver.size(); }, driver_);
-}
-
 Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
+    const auto by_rays = choose_rays();
+    if (!by_rays) {
+        return by_rays.error();
+    }
     const view::FrameView& frame = selector_.selected();
-    auto* const opengl = std::get_if<render::Driver>(&driver_);
-    auto stats =
-        opengl != nullptr ? opengl->draw(frame, wait) : std::get<cast::Driver>(driver_).draw(frame);
+    auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
     if (stats) {
         const bool was_drawn = std::exchange(drawn_, selector_.count()) == selector_.count();
         stats->skipped.selections_unchanged = was_drawn ? 1 : 0;
@@ -110,53 +177,93 @@ void limit_software_threads(int threads) {
     }
 }
 
-Result<Device> Device::create_with_rays(const DeviceOptions& options) {
-    if (auto pinned = pin_simd(options.simd); !pinned) {
-        return pinned.error();
+namespace {
+
+render::DriverOptions opengl_options(const DeviceOptions& options, bool is_software) {
+    return {.size = options.size,
+            .shader_dir = options.shader_dir,
+            .software = is_software,
+            .samples = options.samples};
+}
+
+platform::ContextOptions hidden(const DeviceOptions& options) {
+    return {.size = options.size, .visible = false};
+}
+
+} // namespace
+
+Result<Device> Device::create_with_rays(const DeviceOptions& options, RayUse use) {
+    const auto target = simd_target_of(options.simd);
+    if (!target) {
+        return target.error();
     }
-    auto renderer = SceneRenderer::create(
-        {.driver = cast::DriverOptions{.size = options.size,
-                                       .threads = static_cast<unsigned>(options.threads),
-                                       .samples = options.samples},
-         .selects_always = options.selects_always});
+    Device device;
+    device.ray_use_ = use;
+    device.rays_version_ =
+        options.simd.empty() ? std::string(cast::simd_targets().front().name) : options.simd;
+    SceneRendererOptions drivers{
+        .rays = cast::DriverOptions{.size = options.size,
+                                    .threads = static_cast<unsigned>(options.threads),
+                                    .samples = options.samples,
+                                    .target = *target},
+        .selects_always = options.selects_always};
+    if (use == RayUse::preferred) {
+        device.context_ = std::make_shared<Context>();
+        drivers.opengl = opengl_options(options, true);
+        drivers.make_context = [slot = device.context_, made = hidden(options)]() -> Result<void> {
+            auto context = platform::make_headless_context(made);
+            if (!context) {
+                return context.error();
+            }
+            *slot = std::move(*context);
+            return {};
+        };
+    }
+    auto renderer = SceneRenderer::create(drivers);
+    if (!renderer) {
+        return renderer.error();
+    }
+    device.renderer_ = std::make_unique<SceneRenderer>(std::move(*renderer));
+    return device;
+}
+
+Result<Device> Device::create_with_context(const DeviceOptions& options, Context context) {
+    auto renderer =
+        SceneRenderer::create({.opengl = opengl_options(options, context->is_software()),
+                               .selects_always = options.selects_always});
     if (!renderer) {
         return renderer.error();
     }
     Device device;
-    device.info_ = {.renderer = "exact rays on the CPU",
-                    .version = options.simd.empty() ? std::string(cast::simd_targets().front().name)
-                                                    : options.simd,
-                    .context = std::string(to_string(BackendKind::cpu)),
-                    .is_software = true};
+    device.context_ = std::make_shared<Context>(std::move(context));
     device.renderer_ = std::make_unique<SceneRenderer>(std::move(*renderer));
     return device;
 }
 
 Result<Device> Device::create(const DeviceOptions& options) {
     if (options.context == BackendKind::cpu) {
-        return create_with_rays(options);
+        return create_with_rays(options, RayUse::only);
     }
     limit_software_threads(options.threads);
-    const platform::ContextOptions hidden{.size = options.size, .visible = false};
-    auto context = options.context ? platform::make_context(context_kind(*options.context), hidden)
-                                   : platform::make_headless_context(hidden);
-    if (!context) {
-        return context.error();
+    if (!options.context && options.prefers_rays) {
+        auto gpu = platform::make_gpu_context(hidden(options));
+        return gpu ? create_with_context(options, std::move(*gpu))
+                   : create_with_rays(options, RayUse::preferred);
     }
-    auto renderer = SceneRenderer::create(
-        {.driver = render::DriverOptions{.size = options.size,
-                                         .shader_dir = options.shader_dir,
-                                         .software = (*context)->is_software(),
-                                         .samples = options.samples},
-         .selects_always = options.selects_always});
-    if (!renderer) {
-        return renderer.error();
+    auto context = options.context
+                       ? platform::make_context(*context_of(*options.context), hidden(options))
+                       : platform::make_headless_context(hidden(options));
+    return context ? create_with_context(options, std::move(*context)) : context.error();
+}
+
+platform::RendererInfo Device::info() const {
+    if (!renderer_->shows_rays()) {
+        return platform::info_of(**context_);
     }
-    Device device;
-    device.info_ = platform::info_of(**context);
-    device.context_ = std::move(*context);
-    device.renderer_ = std::make_unique<SceneRenderer>(std::move(*renderer));
-    return device;
+    return {.renderer = "exact rays on the CPU",
+            .version = rays_version_,
+            .context = std::string(to_string(BackendKind::cpu)),
+            .is_software = true};
 }
 
 } // namespace reljef::session

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -15,15 +16,26 @@
 #include "engine/core/result.h"
 #include "engine/platform/context.h"
 #include "engine/render/driver.h"
+#include "engine/render/window_picture.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/session/options.h"
 #include "engine/view/select.h"
 
 namespace reljef::session {
 
+/// The instruction set of rays by its name; an empty name: the fastest. Fails as
+/// cast::simd_target().
+Result<std::optional<cast::SimdTarget>> simd_target_of(const std::string& name);
+
+/// Whether rays on the CPU draw a technique, see cast::draws_technique().
+bool rays_draw(const scene::Technique& technique);
+
 struct SceneRendererOptions {
-    /// Of OpenGL, or of rays on the CPU.
-    std::variant<render::DriverOptions, cast::DriverOptions> driver;
+    std::optional<render::DriverOptions> opengl = {}; ///< absent: rays only
+    /// Absent: OpenGL only. With both, rays draw the frames that they can draw.
+    std::optional<cast::DriverOptions> rays = {};
+    /// With both: makes the context before OpenGL's first frame; empty: there is one.
+    std::function<Result<void>()> make_context = {};
     view::SelectOptions select = {};
     bool selects_always = false; ///< see view::FrameSelector
 };
@@ -32,7 +44,8 @@ struct SceneRendererOptions {
 /// view::FrameSelector). Destroy while its OpenGL context is current.
 class SceneRenderer {
 public:
-    /// Fails if the driver cannot draw the size.
+    /// Fails if a driver cannot draw the size. Beside rays, OpenGL's driver is made for the first
+    /// frame that it draws.
     static Result<SceneRenderer> create(const SceneRendererOptions& options = {});
 
     /// Selects what the scene's camera sees. Valid until the next call.
@@ -54,22 +67,38 @@ public:
     [[nodiscard]] view::FrameSelector& selector() { return selector_; }
     /// The last frame drawn. Waits for it.
     [[nodiscard]] Image read_color() const;
-    /// Copies the last frame to the window's back buffer. Precondition: OpenGL draws.
-    void show_in_window(glm::ivec2 window_size) const;
+    /// Copies the last frame to the window's back buffer. Precondition: the window's context is
+    /// current.
+    Result<void> show_in_window(glm::ivec2 window_size);
     /// Takes the prepared light of a terrain, so that the next frame need not compute it.
-    Result<void> add_light(const view::PreparedLight& light);
+    void add_light(std::shared_ptr<const view::PreparedLight> light);
     [[nodiscard]] int max_texture_side() const;
     Result<void> resize(glm::ivec2 size);
     /// For later frames, see render::DriverOptions::samples. Without influence on rays of the CPU.
     void set_samples(int samples);
-    [[nodiscard]] glm::ivec2 size() const;
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+
+    /// Whether rays drew the last frame; before the first, whether they draw at all.
+    [[nodiscard]] bool shows_rays() const { return shows_rays_; }
+    /// A sentence if other means drew the last frame than the one before, once; else empty.
+    std::string take_note() { return std::exchange(note_, {}); }
 
 private:
-    using Driver = std::variant<render::Driver, cast::Driver>;
-    SceneRenderer(Driver driver, const SceneRendererOptions& options)
-        : driver_(std::move(driver)), selector_(options.select, options.selects_always) {}
+    SceneRenderer(const SceneRendererOptions& options);
+    /// Whether rays draw the selected frame; fails if nothing does.
+    Result<bool> choose_rays();
+    Result<void> prepare_opengl();
+    Result<void> pass_lights(bool to_rays);
 
-    Driver driver_;
+    std::optional<render::DriverOptions> opengl_options_; // of the driver to be made
+    std::function<Result<void>()> make_context_;
+    std::optional<render::Driver> opengl_;
+    std::optional<cast::Driver> rays_;
+    render::WindowPicture window_picture_; // of rays
+    glm::ivec2 size_;
+    std::vector<std::shared_ptr<const view::PreparedLight>> lights_; // for the next frame
+    bool shows_rays_;
+    std::string note_;
     view::FrameSelector selector_;
     int drawn_ = 0; // the selection that was drawn last, counted from 1
 };
@@ -77,6 +106,8 @@ private:
 struct DeviceOptions {
     /// Absent: EGL if it finds a hardware GPU, otherwise OSMesa.
     std::optional<BackendKind> context = {};
+    /// Without a named context and a hardware GPU: rays draw what they can, OSMesa all else.
+    bool prefers_rays = false;
     glm::ivec2 size{1024, 768};            ///< of the picture, pixels
     std::filesystem::path shader_dir = {}; ///< its files override the built-in shaders
     int samples = 1;                       ///< per pixel, see render::DriverOptions
@@ -94,16 +125,21 @@ public:
     /// Fails without such a context, and as SceneRenderer::create.
     static Result<Device> create(const DeviceOptions& options = {});
 
-    [[nodiscard]] const platform::RendererInfo& info() const { return info_; }
+    /// What drew the last frame.
+    [[nodiscard]] platform::RendererInfo info() const;
+    [[nodiscard]] RayUse rays() const { return ray_use_; }
     [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
 
 private:
+    using Context = std::unique_ptr<platform::Context>;
     Device() = default;
 
-    static Result<Device> create_with_rays(const DeviceOptions& options);
+    static Result<Device> create_with_rays(const DeviceOptions& options, RayUse use);
+    static Result<Device> create_with_context(const DeviceOptions& options, Context context);
 
-    platform::RendererInfo info_;
-    std::unique_ptr<platform::Context> context_; // outlives the renderer's GL objects; null: no GL
+    RayUse ray_use_ = RayUse::none;
+    std::string rays_version_;
+    std::shared_ptr<Context> context_; // outlives the renderer's GL objects; null: no GL
     std::unique_ptr<SceneRenderer> renderer_;
 };
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/cast/driver.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/flight_keys.h"
@@ -41,10 +42,26 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    if (!options.placement && view.technique && scene::needs_plane(view.technique->id())) {
+    const bool needs_plane = view.technique && scene::needs_plane(view.technique->id());
+    if (!options.placement && (needs_plane || view.rays == RayUse::only)) {
         options.placement = terrain::PlacementKind::plane; // the only one it draws
     }
     return options;
+}
+
+// Where all other contexts draw the ellipsoid.
+std::optional<std::string> plane_note(const scene::TerrainSurface& surface,
+                                      const SourceOptions& choice, const SceneOptions& view,
+                                      const io::SceneDescription& description) {
+    const bool is_chosen = choice.placement || description.placement;
+    const bool needs_plane = view.technique && scene::needs_plane(view.technique->id());
+    if (view.rays != RayUse::only || is_chosen || needs_plane ||
+        !surface.heightfield().georeference) {
+        return std::nullopt;
+    }
+    return fmt::format("{}: drawn on a plane, because rays on the CPU draw nothing else; other "
+                       "contexts draw it on the ellipsoid",
+                       surface.terrain().name);
 }
 
 Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
@@ -130,19 +147,29 @@ Error refused_technique(const Error& reason, const SceneOptions& view) {
     return view.technique ? usage_error(reason.message) : reason;
 }
 
+// That of rays if no technique is named and they draw the terrain.
+std::optional<scene::Technique> default_technique(const scene::TerrainNode& terrain,
+                                                  const SceneOptions& view) {
+    const scene::Technique exact{scene::Exact{}};
+    const bool is_named = view.technique || view.max_error;
+    const bool is_exact = view.rays != RayUse::none && !is_named && terrain.stream == nullptr &&
+                          cast::obstacle_of(terrain, exact).empty();
+    return is_exact ? std::optional(exact) : std::nullopt;
+}
+
 Result<void> choose_technique(TerrainScene& scene, const SceneOptions& view) {
     if (view.mixed) {
         return usage_error(
             "--technique: mixed found, the gallery was expected: a terrain is drawn with one "
             "technique");
     }
-    const scene::Technique technique = technique_of(view);
+    auto& node = *scene.terrain->get<scene::TerrainNode>();
+    node.material.wireframe = view.wireframe;
+    const scene::Technique technique = default_technique(node, view).value_or(technique_of(view));
     if (auto good = scene.check(technique); !good) {
         return refused_technique(good.error(), view);
     }
-    auto& material = scene.terrain->get<scene::TerrainNode>()->material;
-    material.technique = technique;
-    material.wireframe = view.wireframe;
+    node.material.technique = technique;
     return {};
 }
 
@@ -190,6 +217,15 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
     result.bounds = result.terrain->world_bounds();
+    result.rays = view.rays;
+    if (const auto note = plane_note(*shown.surface, terrain, view, source.description)) {
+        log.note(*note);
+    }
+    auto detail = open_detail(source.description, terrain, view, log, stop);
+    if (!detail) {
+        return detail.error();
+    }
+    shown.detail = std::move(*detail);
     if (result.is_gallery) {
         auto models = add_gallery(result.scene, source.description, terrain, view, log, stop);
         if (!models) {
@@ -205,12 +241,6 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     } else if (auto done = choose_technique(result, view); !done) {
         return done.error();
     }
-
-    auto detail = open_detail(source.description, terrain, view, log, stop);
-    if (!detail) {
-        return detail.error();
-    }
-    shown.detail = std::move(*detail);
 
     scene::Light sun;
     sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;
@@ -284,8 +314,7 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     if (!view.prepares_maps) {
         return scene;
     }
-    const auto maps =
-        prepare_maps(missing_maps(*scene, technique_of(view)), terrain.threads, log, stop);
+    const auto maps = prepare_maps(missing_maps(*scene), terrain.threads, log, stop);
     if (!maps) {
         return maps.error();
     }

@@ -23,6 +23,7 @@ struct TerrainScene {
     Box bounds;                       ///< of the terrain, scene metres
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
+    RayUse rays = RayUse::none;
     /// Of a streamed terrain, without its overview; else null.
     std::shared_ptr<const TerrainSource> source;
 

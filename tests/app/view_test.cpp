@@ -47,7 +47,8 @@ TEST(ViewCommand, ClosesAfterTheFramesAskedForEvenWhereNothingMoves) {
 // What a script does with a window, in a folder of its own. `steps` may use "$viewer" (the
 // process),
 // "$window", `titled TEXT` (waits until the title has it) and `pressed KEY`.
-test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string& steps) {
+test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string& steps,
+                          const std::string& shown = "--technique texture") {
     const std::string script =
         "until_true() { for _ in $(seq 300); do \"$@\" && return; sleep 0.1; done; echo \"never: "
         "$*\"; "
@@ -57,8 +58,9 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
         "titled() { until_true has_title \"$1\"; }\n"
         "pressed() { xdotool key --window $window $1; }\n"
         "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
-        "env --default-signal=INT '" RELJEF_BINARY
-        "' view natural --technique texture --size 320x240 & viewer=$!\n"
+        "env --default-signal=INT '" RELJEF_BINARY "' view natural " +
+        shown +
+        " --size 320x240 & viewer=$!\n"
         "find_window() { window=$(xdotool search --all --onlyvisible --pid $viewer --name '^reljef "
         "- "
         "natural' "
@@ -96,6 +98,31 @@ TEST(ViewCommand, KeysOfARealWindowSwitchSaveResizeAndEnd) {
     EXPECT_EQ(glm::ivec2(flight->cols(), flight->rows()), glm::ivec2(320, 240));
     EXPECT_EQ(glm::ivec2(map->cols(), map->rows()), glm::ivec2(300, 200));
     EXPECT_THAT(folder.names(), testing::ElementsAre("reljef-0001.png", "reljef-0002.png"));
+}
+
+TEST(ViewCommand, OpenGlDrawsInTheSameWindowWhatRaysCannot) {
+    if (!can_drive()) {
+        GTEST_SKIP() << "no display or no xdotool";
+    }
+    const test::TemporaryFolder folder;
+    const auto result = drive(folder,
+                              "titled 'exact - still'; titled '76800 rays'\n"
+                              "pressed c; until_true test -e reljef-0001.png\n"
+                              "pressed 1; titled texture; titled triangles\n"
+                              "pressed 2; titled 'polygons:error=1 - still'; titled '76800 rays'\n"
+                              "pressed f; titled triangles; pressed f; titled rays\n"
+                              "pressed p; titled fps; pressed p; titled still\n"
+                              "xdotool windowsize --sync $window 300 200; titled '60000 rays'\n"
+                              "pressed c; until_true test -e reljef-0002.png\n"
+                              "pressed Escape",
+                              "--context cpu");
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.err, HasSubstr("technique texture: drawn by OpenGL"));
+    EXPECT_THAT(result.err, HasSubstr("rays on the CPU draw again"));
+    EXPECT_THAT(result.err, HasSubstr("a wireframe: drawn by OpenGL"));
+    const auto resized = io::read_image(folder.path() / "reljef-0002.png");
+    ASSERT_TRUE(resized) << result.out << result.err;
+    EXPECT_EQ(glm::ivec2(resized->cols(), resized->rows()), glm::ivec2(300, 200));
 }
 
 TEST(ViewCommand, CtrlCClosesTheWindow) {

@@ -254,13 +254,11 @@ TEST(CastHits, OfAllInstructionSetsAgree) {
         stage.look(any_camera(stage, chance));
         const HitBuffer truth = stage.truth(picture);
         for (const SimdTarget& target : targets) {
-            pin_simd_target(target);
             Difference difference;
-            compare(stage, stage.cast(picture), truth, difference);
+            compare(stage, stage.cast(picture, {.target = target}), truth, difference);
             EXPECT_EQ(difference.wrong, 0) << made.name << ' ' << target.name;
             EXPECT_LE(difference.farthest, 0.001) << made.name << ' ' << target.name;
         }
-        unpin_simd_target();
     }
 }
 

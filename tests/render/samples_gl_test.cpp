@@ -137,7 +137,7 @@ class SamplesGlTest : public DriverGlTest {
 protected:
     static session::SceneRenderer driver_of(int samples, glm::ivec2 picture = size) {
         return test::must(session::SceneRenderer::create(
-            {.driver =
+            {.opengl =
                  render::DriverOptions{.size = picture, .shader_dir = {}, .samples = samples}}));
     }
     static Image drawn(const Scene& scene, int samples, glm::ivec2 picture = size) {
@@ -217,7 +217,7 @@ constexpr int fine_times = 8;
 void expect_closer_with_samples(const Scene& scene, const std::string& what) {
     const auto drawn = [&](int samples, glm::ivec2 picture) {
         session::SceneRenderer made = test::must(session::SceneRenderer::create(
-            {.driver =
+            {.opengl =
                  render::DriverOptions{.size = picture, .shader_dir = {}, .samples = samples}}));
         test::must(made.draw(scene));
         return made.read_color();

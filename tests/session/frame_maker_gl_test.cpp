@@ -63,7 +63,7 @@ TEST(SceneRendererGl, DrawsWithTheLightThatWasPrepared) {
         view::PreparedLight light = view::prepare_light(*request);
         std::fill(light.lit.samples().begin(), light.lit.samples().end(), Rgba8{255, 0, 0, 255});
         std::fill(light.sun.samples().begin(), light.sun.samples().end(), Rgba8{0, 0, 0, 255});
-        ASSERT_TRUE(renderer.add_light(light));
+        renderer.add_light(std::make_shared<const view::PreparedLight>(light));
         ASSERT_TRUE(renderer.draw(scene.scene, true));
         const Image image = renderer.read_color();
         const Rgba8 middle = image(image.cols() / 2, image.rows() / 2);

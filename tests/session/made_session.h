@@ -33,7 +33,7 @@ inline Result<scene::CameraPath> open_path(const session::TerrainScene& scene,
 inline Result<session::SceneRenderer> make_renderer(glm::ivec2 size,
                                                     const view::SelectOptions& select = {}) {
     return session::SceneRenderer::create(
-        {.driver = render::DriverOptions{.size = size, .shader_dir = {}, .software = true},
+        {.opengl = render::DriverOptions{.size = size, .shader_dir = {}, .software = true},
          .select = select});
 }
 

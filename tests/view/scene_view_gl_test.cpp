@@ -146,7 +146,7 @@ TEST_F(StillView, IsDecidedOnceAndDrawnTheSame) {
 TEST_F(StillView, IsDecidedAnewWhereThatIsMeasured) {
     World world;
     session::SceneRenderer made = test::must(session::SceneRenderer::create(
-        {.driver = render::DriverOptions{.size = size, .shader_dir = {}},
+        {.opengl = render::DriverOptions{.size = size, .shader_dir = {}},
          .select = {},
          .selects_always = true}));
     for (int frame = 0; frame < 2; ++frame) {

@@ -66,8 +66,44 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
     test::expect_refusal(with({"gallery"}), 1, {"a mesh found", "--context osmesa"});
     test::expect_refusal(with({"urban", "--samples", "4"}), 1, {"4 samples", "1 was expected"});
     test::expect_refusal(with({"urban", "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
-    test::expect_refusal(test::reljef({"view", "urban", "--context", "cpu"}), 2,
-                         {"--context: cpu found", "glfw"});
+}
+
+// Where the machine has no GPU, as here.
+TEST_F(CpuContext, IsTheDefaultForWhatItDraws) {
+    RELJEF_RELEASE_ONLY("the room session has tests of its own");
+    const std::string rays = "renderer: exact rays on the CPU";
+    const auto unnamed = render({"urban"});
+    ASSERT_EQ(unnamed.exit_code, 0) << unnamed.err;
+    if (unnamed.out.find(rays) == std::string::npos) {
+        GTEST_SKIP() << "a GPU draws";
+    }
+    const auto texture = render({"urban", "--technique", "texture"});
+    EXPECT_EQ(texture.exit_code, 0) << texture.err;
+    EXPECT_EQ(texture.out.find(rays), std::string::npos) << texture.out;
+    const auto wireframe = render({"urban", "--wireframe"});
+    EXPECT_EQ(wireframe.exit_code, 0) << wireframe.err;
+    EXPECT_EQ(wireframe.out.find(rays), std::string::npos) << wireframe.out;
+}
+
+TEST_F(CpuContext, SaysThatGeoreferencedTerrainIsOnAPlane) {
+    const test::TemporaryFolder folder;
+    folder.write("hill.prj", "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\","
+                             "6378137.0,298.257223563]],PRIMEM[\"Greenwich\",0.0],"
+                             "UNIT[\"Degree\",0.0174532925199433]]");
+    const auto hill = folder
+                          .write("hill.asc", "ncols 3\nnrows 3\nxllcenter 7\nyllcenter 46\n"
+                                             "cellsize 0.001\n0 0 0 0 50 0 0 0 0\n")
+                          .string();
+    const auto drawn = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"render", hill, "--size", "64x48", "-o", file("a.png")});
+        const auto result = test::reljef(options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err.find("drawn on a plane") != std::string::npos;
+    };
+    EXPECT_TRUE(drawn({"--context", "cpu"}));
+    EXPECT_FALSE(drawn({"--context", "cpu", "--placement", "plane"}));
+    EXPECT_FALSE(drawn({"--context", "cpu", "--technique", "exact"}));
+    EXPECT_FALSE(drawn({}));
 }
 
 } // namespace

@@ -1,0 +1,124 @@
+#include "engine/session/scene_renderer.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "engine/session/prepared_maps.h"
+#include "tests/app/made_hill.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/session/made_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::session {
+namespace {
+
+constexpr glm::ivec2 shown_size{160, 120};
+
+class SceneRendererWithRays : public test::GlTest {
+protected:
+    static SceneRenderer make_renderer() {
+        return test::must(SceneRenderer::create(
+            {.opengl = opengl_options(), .rays = cast::DriverOptions{.size = shown_size}}));
+    }
+    static render::DriverOptions opengl_options() {
+        render::DriverOptions options;
+        options.size = shown_size;
+        return options;
+    }
+    static void use(TerrainScene& scene, const scene::Technique& technique) {
+        scene.terrain->get<scene::TerrainNode>()->material.technique = technique;
+    }
+};
+
+TEST_F(SceneRendererWithRays, DrawsByRaysWhatTheyCanDrawAndSaysSoWhenThatChanges) {
+    TerrainScene scene = app::hill_scene();
+    SceneRenderer renderer = make_renderer();
+    EXPECT_TRUE(renderer.shows_rays());
+    use(scene, {scene::Exact{}});
+    EXPECT_GT(test::must(renderer.draw(scene.scene)).rays, 0U);
+    EXPECT_EQ(renderer.take_note(), "");
+    const Image rays = renderer.read_color();
+
+    use(scene, {scene::Texture{}});
+    EXPECT_EQ(test::must(renderer.draw(scene.scene)).rays, 0U);
+    EXPECT_FALSE(renderer.shows_rays());
+    EXPECT_NE(renderer.take_note().find("technique texture: drawn by OpenGL"), std::string::npos);
+    EXPECT_EQ(renderer.take_note(), "");
+    EXPECT_NE(renderer.read_color(), rays);
+
+    ASSERT_TRUE(renderer.resize(shown_size / 2));
+    use(scene, {scene::Exact{}});
+    EXPECT_GT(test::must(renderer.draw(scene.scene)).rays, 0U);
+    EXPECT_NE(renderer.take_note().find("again"), std::string::npos);
+    EXPECT_EQ(renderer.read_color().cols(), shown_size.x / 2);
+}
+
+TEST_F(SceneRendererWithRays, TakesLightForWhateverDrawsNext) {
+    TerrainScene scene = app::hill_scene();
+    for (const scene::Technique& technique :
+         {scene::Technique{scene::Exact{}}, scene::Technique{scene::Texture{}}}) {
+        use(scene, technique);
+        SceneRenderer renderer = make_renderer();
+        auto light = view::prepare_light(*light_request(scene, *scene.light->get<scene::Light>(),
+                                                        technique, renderer.max_texture_side()));
+        std::fill(light.lit.samples().begin(), light.lit.samples().end(), Rgba8{255, 0, 0, 255});
+        renderer.add_light(std::make_shared<const view::PreparedLight>(std::move(light)));
+        test::must(renderer.draw(scene.scene));
+        const Rgba8 middle = renderer.read_color()(shown_size.x / 2, shown_size.y / 2);
+        EXPECT_GT(middle.r, 2 * middle.g) << scene::to_string(technique);
+    }
+}
+
+TEST(SceneRendererOptions, WithRaysAloneNothingElseDraws) {
+    TerrainScene scene = app::hill_scene();
+    scene.terrain->get<scene::TerrainNode>()->material.technique = {scene::Texture{}};
+    SceneRenderer renderer =
+        test::must(SceneRenderer::create({.rays = cast::DriverOptions{.size = shown_size}}));
+    EXPECT_FALSE(renderer.draw(scene.scene));
+}
+
+TEST(SceneSetup, RaysDrawWhatIsNotNamedAsExact) {
+    const test::TemporaryFolder folder;
+    SourceOptions choice;
+    choice.terrain = folder
+                         .write("hill.asc", "ncols 3\nnrows 3\nxllcenter 0\nyllcenter 0\n"
+                                            "cellsize 1\n0 0 0 0 1 0 0 0 0\n")
+                         .string();
+    const auto technique_with = [&](const SceneOptions& view) {
+        return test::make_scene(std::move(*test::open_terrain(choice)), choice, view)
+            .value()
+            .terrain->get<scene::TerrainNode>()
+            ->material.technique;
+    };
+    SceneOptions view;
+    EXPECT_EQ(technique_with(view).id(), scene::TechniqueId::polygons);
+    for (const RayUse use : {RayUse::preferred, RayUse::only}) {
+        view = {};
+        view.rays = use;
+        EXPECT_EQ(technique_with(view).id(), scene::TechniqueId::exact);
+        view.max_error = 2.0;
+        EXPECT_EQ(technique_with(view).id(), scene::TechniqueId::polygons);
+        view.max_error.reset();
+        view.wireframe = true;
+        EXPECT_EQ(technique_with(view).id(), scene::TechniqueId::polygons);
+        view.wireframe = false;
+        view.technique = scene::Technique{scene::Texture{}};
+        EXPECT_EQ(technique_with(view).id(), scene::TechniqueId::texture);
+    }
+}
+
+TEST(BackendKind, HasTheNamesOfContexts) {
+    for (const BackendKind kind :
+         {BackendKind::osmesa, BackendKind::egl, BackendKind::glfw, BackendKind::cpu}) {
+        EXPECT_EQ(backend_from_string(to_string(kind)), kind);
+    }
+    EXPECT_EQ(to_string(BackendKind::cpu), "cpu");
+    EXPECT_FALSE(backend_from_string("gpu"));
+}
+
+} // namespace
+} // namespace reljef::session
