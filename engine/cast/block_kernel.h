@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -14,6 +15,7 @@ namespace reljef::cast {
 
 /// Side of the blocks of pixels that a thread casts at a time.
 inline constexpr int block_side = 32;
+inline constexpr std::size_t block_pixels = static_cast<std::size_t>(block_side) * block_side;
 
 /// Pixels that share a beam: those of the widest packet of rays.
 inline constexpr int beam_cols = 8;
@@ -53,21 +55,14 @@ struct BlockRays {
 
 /// The hits of a block, row after row. A pixel without a hit has t = infinity.
 struct BlockHits {
-    static constexpr std::size_t count = static_cast<std::size_t>(block_side) * block_side;
-    alignas(64) std::array<float, count> t;
-    alignas(64) std::array<std::int32_t, count> col; ///< cell
-    alignas(64) std::array<std::int32_t, count> row;
-    alignas(64) std::array<float, count> col_part; ///< in the cell, [0, 1]
-    alignas(64) std::array<float, count> row_part;
-    alignas(64) std::array<float, count> height; ///< metres above the base height
-};
+    alignas(64) std::array<std::int32_t, block_pixels> job; ///< whose tile is hit
 
-struct BlockJob {
-    TileSamples tile;
-    BlockRays rays;
-    /// The t at which the rays may begin; infinity: they hit nothing.
-    float start = 0.0F;
-    bool has_beams = true; ///< finds later starts for the rays of each beam
+    alignas(64) std::array<float, block_pixels> t;
+    alignas(64) std::array<std::int32_t, block_pixels> col; ///< cell
+    alignas(64) std::array<std::int32_t, block_pixels> row;
+    alignas(64) std::array<float, block_pixels> col_part; ///< in the cell, [0, 1]
+    alignas(64) std::array<float, block_pixels> row_part;
+    alignas(64) std::array<float, block_pixels> height; ///< metres above the base height
 };
 
 /// A level of a map of colours: texels of three times 10 bits, the square roots of linear light.
@@ -80,12 +75,43 @@ struct PaintLevel {
 };
 inline constexpr std::size_t max_paint_levels = 20;
 
-/// What hits and misses look like.
-struct BlockPaint {
+/// What a tile looks like.
+struct TilePaint {
     std::array<PaintLevel, max_paint_levels> levels{};
     int level_count = 0;
     /// Texels of level 0 along a pixel, at most: x, plus y per metre of distance.
     glm::vec2 longest_texels{0.0F};
+};
+
+/// The sides of a tile: bits of BlockJob::walls.
+inline constexpr unsigned west_wall = 1;
+inline constexpr unsigned east_wall = 2;
+inline constexpr unsigned north_wall = 4;
+inline constexpr unsigned south_wall = 8;
+
+/// The rays of a block at a tile.
+struct BlockJob {
+    TileSamples tile;
+    BlockRays rays;
+    const TilePaint* paint = nullptr; ///< not needed for hits
+    /// Sides at which other tiles begin. A ray that was above the tile before hits a wall where it
+    /// comes in below the surface: neighbours may have other heights at their common border.
+    unsigned walls = 0;
+    /// The t at which the rays may begin; infinity: they hit nothing.
+    float start = 0.0F;
+    bool has_beams = true;   ///< finds later starts for the rays of each beam
+    bool has_starts = false; ///< they are found
+    alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
+};
+
+/// The tiles that the rays of a block may hit, front to back.
+struct BlockJobs {
+    std::span<BlockJob> tiles;
+    bool has_walls = false;
+};
+
+/// What all of a block looks like.
+struct BlockPaint {
     BlockRays::Vectors view; ///< world directions of the rays, metres per t
     float anchor = 0.0F;     ///< depth at t = 0, metres
     float extinction = 0.0F; ///< of the air, 1/metre; 0 without air, and on maps
@@ -98,14 +124,28 @@ struct BlockPaint {
 
 /// Colours of a block as bytes r, g, b, a, row after row.
 struct BlockPixels {
-    alignas(64) std::array<std::uint32_t, BlockHits::count> rgba;
+    alignas(64) std::array<std::uint32_t, block_pixels> rgba;
+    alignas(64) std::array<float, block_pixels> t; ///< infinity: sky
+};
+
+inline constexpr int max_samples = 16;
+
+/// Pixels of a block with several rays each.
+struct SampledPixels {
+    std::array<std::uint16_t, block_pixels> pixels;
+    int count = 0;
+    std::array<glm::vec2, max_samples> places{}; ///< from the middle of a pixel, pixels
+    int samples = 1;
 };
 
 /// The functions of an instruction set.
 struct BlockKernel {
-    void (*cast)(const BlockJob& job, BlockHits& hits) = nullptr;
+    void (*cast)(const BlockJobs& jobs, BlockHits& hits) = nullptr;
     /// The same, and the colours instead of the hits.
-    void (*paint)(const BlockJob& job, const BlockPaint& paint, BlockPixels& pixels) = nullptr;
+    void (*paint)(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) = nullptr;
+    /// Paints these pixels again: the mean of their samples, in linear light.
+    void (*sample)(const BlockJobs& jobs, const BlockPaint& paint, const SampledPixels& sampled,
+                   BlockPixels& pixels) = nullptr;
 };
 
 /// Those of the fastest of Highway's targets (SimdTarget::bit); 0: of the machine's.

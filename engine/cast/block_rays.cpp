@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace reljef::cast {
 namespace {
@@ -68,42 +70,70 @@ TileSamples samples_of(const RayTile& tile) {
             .cells = tile.cells()};
 }
 
-} // namespace
+bool overlap(const PixelBlock& a, const PixelBlock& b) {
+    return glm::all(glm::lessThan(a.first, b.first + b.size)) &&
+           glm::all(glm::lessThan(b.first, a.first + a.size));
+}
 
-std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
-                                  const PixelBlock& block, bool beams) {
+// The t before which no ray of a block hits a tile; empty if none does.
+std::optional<double> start_of(const PlacedTile& tile, const PixelBlock& block, bool beams) {
+    const PictureRays& rays = tile.rays;
     const bool is_finite = are_finite(rays.origin) && are_finite(rays.direction);
-    if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
+    if (!is_finite || tile.tile->cells().x < 1 || tile.tile->cells().y < 1) {
         return std::nullopt;
     }
     const PixelBlock whole{block.first, glm::ivec2(block_side)};
     const double start =
-        beams ? clear_until(tile, rays, whole, rays.range.begin) : rays.range.begin;
-    if (!(start < no_hit)) {
-        return std::nullopt;
-    }
-    BlockJob job;
-    job.start = static_cast<float>(start - rays.anchor);
-    job.has_beams = beams;
-    job.tile = samples_of(tile);
-    job.rays = rays_of(tile, rays, block);
-    return job;
+        beams ? clear_until(*tile.tile, rays, whole, rays.range.begin) : rays.range.begin;
+    return start < no_hit ? std::optional(start) : std::nullopt;
 }
 
-BlockJob empty_job() {
-    BlockJob job;
-    job.start = std::numeric_limits<float>::infinity();
-    return job;
+} // namespace
+
+std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
+                                 std::vector<std::size_t>* indices) {
+    std::vector<BlockJob> jobs;
+    for (std::size_t i = 0; i < placed.tiles.size(); ++i) {
+        const PlacedTile& tile = placed.tiles[i];
+        const auto start = overlap(tile.seen, block) ? start_of(tile, block, beams) : std::nullopt;
+        if (!start) {
+            continue;
+        }
+        BlockJob& job = jobs.emplace_back();
+        job.start = static_cast<float>(*start - tile.rays.anchor);
+        job.has_beams = beams;
+        job.tile = samples_of(*tile.tile);
+        job.rays = rays_of(*tile.tile, tile.rays, block);
+        job.paint = &tile.paint;
+        job.walls = tile.walls;
+        if (indices != nullptr) {
+            indices->push_back(i);
+        }
+    }
+    return jobs;
+}
+
+namespace {
+
+glm::ivec2 blocks_of(glm::ivec2 size) {
+    return (size + block_side - 1) / block_side;
+}
+
+} // namespace
+
+int block_count(glm::ivec2 size) {
+    return blocks_of(size).x * blocks_of(size).y;
 }
 
 bool for_each_block(glm::ivec2 size, const ParallelOptions& parallel,
-                    const std::function<void(const PixelBlock& block)>& body) {
-    const glm::ivec2 blocks = (size + block_side - 1) / block_side;
+                    const std::function<void(const PixelBlock& block, std::size_t index)>& body) {
+    const int cols = blocks_of(size).x;
     return parallel_for(
-        blocks.x * blocks.y,
+        block_count(size),
         [&](int index) {
-            const glm::ivec2 first = block_side * glm::ivec2(index % blocks.x, index / blocks.x);
-            body({first, glm::min(size - first, glm::ivec2(block_side))});
+            const glm::ivec2 first = block_side * glm::ivec2(index % cols, index / cols);
+            body({first, glm::min(size - first, glm::ivec2(block_side))},
+                 static_cast<std::size_t>(index));
         },
         parallel);
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -13,16 +13,35 @@
 
 namespace reljef::cast {
 
-/// The work of a block of pixels; empty: no ray of it hits the tile. `beams`: rays begin where
-/// their beams may hit.
-std::optional<BlockJob> block_job(const RayTile& tile, const PictureRays& rays,
-                                  const PixelBlock& block, bool beams);
+/// A tile to cast rays at.
+struct PlacedTile {
+    const RayTile* tile = nullptr;
+    PictureRays rays; ///< in samples of the tile
+    TilePaint paint = {};
+    unsigned walls = 0; ///< BlockJob::walls
+    /// Sample of the terrain = first + step · sample of the tile.
+    glm::dvec2 first{0.0};
+    glm::dvec2 step{1.0};
+    PixelBlock seen; ///< no other pixel shows it
+};
 
-/// The work of a block whose rays hit nothing.
-BlockJob empty_job();
+/// The tiles of a picture, front to back. All rays have the same anchor.
+struct PlacedTiles {
+    std::vector<PlacedTile> tiles;
+    bool has_walls = false;
+};
 
-/// Calls `body` for all blocks of a picture, from several threads. False if it was stopped early.
+/// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays
+/// begin where their beams may hit. BlockHits::job counts them; `indices`: their tiles.
+std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
+                                 std::vector<std::size_t>* indices = nullptr);
+
+/// The blocks of a picture.
+int block_count(glm::ivec2 size);
+
+/// Calls `body` for all blocks of a picture and their indices, from several threads. False if it
+/// was stopped early.
 bool for_each_block(glm::ivec2 size, const ParallelOptions& parallel,
-                    const std::function<void(const PixelBlock& block)>& body);
+                    const std::function<void(const PixelBlock& block, std::size_t index)>& body);
 
 } // namespace reljef::cast

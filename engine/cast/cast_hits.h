@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "engine/cast/block_rays.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/cast/simd_target.h"
@@ -21,6 +22,10 @@ struct CastOptions {
 /// below. A ray that enters beneath the surface at the border continues to a front face. A ray that
 /// is not finite has no hit. Fails when stopped. Precondition: `rays` was made for the tile.
 Result<HitBuffer> cast_hits(const RayTile& tile, const PictureRays& rays,
+                            const CastOptions& options = {});
+
+/// The same for the tiles of a terrain: hits have its samples.
+Result<HitBuffer> cast_hits(const PlacedTiles& placed, glm::ivec2 size,
                             const CastOptions& options = {});
 
 } // namespace reljef::cast

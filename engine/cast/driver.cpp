@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,20 +12,13 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
 #include "engine/core/stopwatch.h"
+#include "engine/scene/tile_stream.h"
 
 namespace reljef::cast {
-
-// A terrain of a frame.
-struct Driver::PlacedTerrain {
-    const scene::TerrainNode* node = nullptr;
-    glm::dmat4 world_from_local{1.0};
-    const RayTile* tile = nullptr;
-    PictureRays rays;
-    const LitLevels* levels = nullptr;
-};
 
 namespace {
 
@@ -61,6 +55,26 @@ Box samples_and_heights(const scene::TerrainSurface& surface) {
     return bounds;
 }
 
+// In samples of the overview: all of it, with the heights of the tiles.
+Box bounds_of_tiles(const view::DrawList& list) {
+    const view::TileDraw& any = list.tiles.front();
+    Box bounds = samples_and_heights(*any.terrain->surface);
+    for (const view::TileDraw& draw : list.tiles) {
+        bounds.low.z = std::min(bounds.low.z, double{draw.tile->range.low});
+        bounds.high.z = std::max(bounds.high.z, double{draw.tile->range.high});
+    }
+    return bounds;
+}
+
+// No pixel of a proven tile is farther off than the tile itself, and rounding.
+double kept_error(const view::DrawList& list) {
+    double largest = 0.0;
+    for (const view::TileDraw& draw : list.tiles) {
+        largest = std::max(largest, draw.tile->borrows || !draw.is_proven() ? 0.0 : draw.error);
+    }
+    return largest + rounding_error(list.camera, list.size);
+}
+
 bool is_perspective(const view::DrawList& list) {
     return list.camera.projection == scene::ProjectionKind::perspective;
 }
@@ -93,18 +107,6 @@ BlockPaint backdrop_of(const view::DrawList& list) {
     return paint;
 }
 
-// An anisotropy of at most 8: over a silhouette a pixel's neighbours show other places.
-glm::vec2 longest_texels(const view::DrawList& list, const PictureRays::Vectors& view,
-                         glm::vec2 texels_per_sample, glm::dvec2 spacing) {
-    if (!is_perspective(list)) {
-        return {1e6F, 0.0F};
-    }
-    const glm::dvec2 per_metre = glm::dvec2(texels_per_sample) / spacing;
-    constexpr double anisotropy = 8.0;
-    return {0.0F, static_cast<float>(anisotropy * glm::length(view.right) *
-                                     std::max(per_metre.x, per_metre.y))};
-}
-
 // The bytes of a pixel are those of Rgba8.
 static_assert(std::endian::native == std::endian::little);
 
@@ -120,6 +122,12 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
 
 } // namespace
 
+double rounding_error(const scene::Camera& camera, glm::ivec2 size) {
+    constexpr double of_distance = 0x1p-20; // block_rays.cpp
+    const double pixel = view::metres_a_pixel(camera, size).y;
+    return pixel > 0.0 ? of_distance / pixel : of_distance;
+}
+
 bool draws_technique(const scene::Technique& technique) {
     return technique.options == scene::TechniqueOptions{} &&
            (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
@@ -129,8 +137,8 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (!draws_technique(technique)) {
         return fmt::format("technique {}", scene::to_string(technique));
     }
-    if (terrain.stream != nullptr) {
-        return "a streamed terrain";
+    if (terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0) {
+        return "a streamed globe";
     }
     if (terrain.surface->placement().kind() != terrain::PlacementKind::plane) {
         return "placement ellipsoid";
@@ -163,21 +171,18 @@ Result<void> check_support(const view::DrawList& list) {
     const std::string found = obstacle_of(list);
     return found.empty() ? Result<void>()
                          : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
-                                             "over one terrain on a plane in memory was expected; "
+                                             "over one terrain on a plane was expected; "
                                              "--context osmesa draws the others",
                                              found)};
 }
 
-Driver::Driver(const DriverOptions& options)
-    : options_(options), picture_(options.size.x, options.size.y) {}
+Driver::Driver(const DriverOptions& options) : options_(options) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
-    if (options.samples != 1 && options.samples != automatic_samples) {
-        return Error{fmt::format("picture with {} samples a pixel: rays on the CPU found, 1 was "
-                                 "expected; --context osmesa draws several",
-                                 options.samples)};
+    if (auto possible = check_samples(options.samples); !possible) {
+        return possible.error();
     }
-    Driver driver({.size = {1, 1}, .threads = options.threads, .target = options.target});
+    Driver driver(options);
     auto sized = driver.resize(options.size);
     return sized ? Result<Driver>(std::move(driver)) : sized.error();
 }
@@ -188,7 +193,8 @@ Result<void> Driver::resize(glm::ivec2 size) {
         return Error{fmt::format("picture of {}x{} pixels: from 1x1 to {}x{} were expected", size.x,
                                  size.y, max_side, max_side)};
     }
-    picture_ = Image(size.x, size.y);
+    first_.picture = Image(size.x, size.y);
+    first_.nearness = Grid<float>(size.x, size.y);
     return {};
 }
 
@@ -231,8 +237,12 @@ const LitLevels& Driver::levels_of(const scene::TerrainNode& terrain,
 
 Result<void> Driver::add_light(const view::PreparedLight& prepared) {
     const view::LightRequest& request = prepared.request;
-    if (request.stream != nullptr || request.in_parts) {
+    if (request.in_parts) {
         return {}; // not drawn by rays
+    }
+    if (request.stream != nullptr) {
+        streamed_.add_light(prepared);
+        return {};
     }
     const Grid<float>& heights = request.surface->heightfield().heights;
     surface_of(request.surface).light = {
@@ -241,32 +251,137 @@ Result<void> Driver::add_light(const view::PreparedLight& prepared) {
     return {};
 }
 
-void Driver::paint(const view::DrawList& list, const std::optional<PlacedTerrain>& terrain,
-                   view::FrameStats& stats) {
-    BlockPaint shared = backdrop_of(list);
-    const PictureRays::Vectors view = view_of(list);
-    if (terrain) {
-        terrain->levels->add_to(shared);
-        shared.anchor = static_cast<float>(terrain->rays.anchor);
-        shared.longest_texels = longest_texels(list, view, shared.levels[0].texels_per_sample,
-                                               terrain->node->surface->placement().spacing());
+// Precondition: check_support().
+PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats) {
+    const std::vector<SeenTerrain> seen = terrains_of(list);
+    if (seen.empty()) {
+        return {};
     }
-    const BlockKernel kernel = block_kernel(options_.target.value_or(SimdTarget{}).bit);
-    const auto paint_one = [&](const PixelBlock& block) {
-        BlockPaint own = shared;
-        const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
-        own.view = {glm::vec3(view.at(middle)), glm::vec3(view.right), glm::vec3(view.down)};
+    const auto& [node, world_from_local] = seen.front();
+    const bool is_streamed = !list.tiles.empty() && !list.tiles.front().tile->borrows;
+    const PictureRays rays =
+        picture_rays(list.camera, list.size, world_from_local, node->surface->placement(),
+                     is_streamed ? bounds_of_tiles(list) : samples_and_heights(*node->surface));
+    if (scene::error_bound(node->material.technique) > 0.0) {
+        stats.kept_error = kept_error(list);
+    }
+    if (is_streamed) {
+        return streamed_.place(list, rays, {options_.threads, paints}, stats);
+    }
+    PlacedTiles placed;
+    PlacedTile& tile = placed.tiles.emplace_back();
+    tile.tile = &tile_of(*node, stats);
+    tile.rays = rays;
+    tile.seen = {{0, 0}, list.size};
+    if (paints) {
+        tile.paint = levels_of(*node, view::light_on(list, world_from_local), stats).paint();
+        tile.paint.longest_texels =
+            longest_texels(list, tile.paint, node->surface->placement().spacing());
+    }
+    return placed;
+}
+
+namespace {
+
+// Draws the blocks of a picture.
+class Painter {
+public:
+    Painter(const view::DrawList& list, const PlacedTiles& placed, const DriverOptions& options,
+            FirstSamples& first)
+        : placed_(placed), kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)),
+          shared_(backdrop_of(list)), view_(view_of(list)), first_(first),
+          jobs_(static_cast<std::size_t>(block_count(list.size))) {
+        shared_.anchor =
+            placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
+        const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
+        samples_.samples = static_cast<int>(places.size());
+        std::transform(places.begin(), places.end(), samples_.places.begin(),
+                       [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
+    }
+
+    void paint(const PixelBlock& block, std::size_t index) {
+        std::vector<BlockJob> jobs = block_jobs(placed_, block, true);
         BlockPixels pixels;
-        const auto job = terrain ? block_job(*terrain->tile, terrain->rays, block, true)
-                                 : std::optional<BlockJob>();
-        kernel.paint(job ? *job : empty_job(), own, pixels);
-        write_block(pixels, block, picture_);
-    };
+        kernel_.paint({jobs, placed_.has_walls}, paint_of(block), pixels);
+        write_block(pixels, block, first_.picture);
+        if (samples_.samples > 1) {
+            write_nearness(pixels, block);
+            jobs_[index] = std::move(jobs);
+        }
+    }
+
+    // Where surfaces end. `picture`: the result.
+    void sample(const PixelBlock& block, std::size_t index, Image& picture) {
+        SampledPixels sampled;
+        sampled.samples = samples_.samples;
+        sampled.places = samples_.places;
+        choose_sampled(first_, block, sampled);
+        if (sampled.count == 0) {
+            return;
+        }
+        BlockPixels pixels;
+        kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block), sampled, pixels);
+        for (int i = 0; i < sampled.count; ++i) {
+            const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
+            std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
+                                                    block.first.y + pixel / block_side)),
+                        &pixels.rgba[static_cast<std::size_t>(pixel)], sizeof(Rgba8));
+        }
+    }
+
+    [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
+
+private:
+    [[nodiscard]] BlockPaint paint_of(const PixelBlock& block) const {
+        BlockPaint paint = shared_;
+        const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
+        paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
+        return paint;
+    }
+
+    void write_nearness(const BlockPixels& pixels, const PixelBlock& block) {
+        for (int row = 0; row < block.size.y; ++row) {
+            const float* const from = pixels.t.data() + static_cast<std::size_t>(row) * block_side;
+            float* const to = &first_.nearness(block.first.x, block.first.y + row);
+            for (int col = 0; col < block.size.x; ++col) {
+                const float depth = shared_.anchor + from[col];
+                constexpr float sky = -1e30F;
+                to[col] = first_.is_perspective ? 1.0F / depth : std::max(-depth, sky);
+            }
+        }
+    }
+
+    const PlacedTiles& placed_;
+    BlockKernel kernel_;
+    BlockPaint shared_;
+    PictureRays::Vectors view_;
+    FirstSamples& first_;
+    std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
+    SampledPixels samples_;
+};
+
+} // namespace
+
+void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
+    // Of a pixel's width: a step of this depth shows another surface.
+    constexpr double step_in_pixels = 8.0;
+    const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
+    first_.is_perspective = is_perspective(list);
+    first_.disagreement =
+        static_cast<float>(step_in_pixels) * (first_.is_perspective ? pixel.y : pixel.x);
+    Painter painter(list, placed, options_, first_);
     ParallelOptions parallel;
     parallel.threads = options_.threads;
-    for_each_block(list.size, parallel, paint_one);
-    stats.rays = terrain ? picture_.size() : 0;
-    stats.tiles = terrain ? 1 : 0;
+    for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
+        painter.paint(block, index);
+    });
+    if (painter.has_samples()) {
+        Image picture = first_.picture;
+        for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
+            painter.sample(block, index, picture);
+        });
+        first_.picture = std::move(picture);
+    }
 }
 
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
@@ -276,21 +391,10 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
         return possible.error();
     }
     view::FrameStats stats = list.stats;
-    const std::vector<SeenTerrain> seen = terrains_of(list);
-    std::optional<PlacedTerrain> terrain;
-    for (const auto& [node, world_from_local] : seen) {
-        const RayTile& tile = tile_of(*node, stats);
-        const LitLevels& levels = levels_of(*node, view::light_on(list, world_from_local), stats);
-        terrain = PlacedTerrain{node, world_from_local, &tile,
-                                picture_rays(list.camera, list.size, world_from_local,
-                                             node->surface->placement(),
-                                             samples_and_heights(*node->surface)),
-                                &levels};
-        if (scene::error_bound(node->material.technique) > 0.0) {
-            stats.kept_error = 0.0;
-        }
-    }
-    paint(list, terrain, stats);
+    const PlacedTiles placed = placed_tiles(list, true, stats);
+    paint(list, placed);
+    stats.rays = placed.tiles.empty() ? 0 : first_.picture.size();
+    stats.tiles = static_cast<int>(placed.tiles.size());
     stats.cpu_ms = watch.milliseconds();
     return stats;
 }
@@ -301,25 +405,17 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
         return possible.error();
     }
     view::DrawnHits drawn{HitBuffer(list.size.x, list.size.y), list.stats};
-    for (const auto& [node, world_from_local] : terrains_of(list)) {
-        CastOptions options;
-        options.parallel.threads = options_.threads;
-        options.target = options_.target;
-        auto hits =
-            cast_hits(tile_of(*node, drawn.stats),
-                      picture_rays(list.camera, list.size, world_from_local,
-                                   node->surface->placement(), samples_and_heights(*node->surface)),
-                      options);
-        if (!hits) {
-            return hits.error();
-        }
-        drawn.hits = std::move(*hits);
-        drawn.stats.rays = drawn.hits.size();
-        drawn.stats.tiles = 1;
-        if (scene::error_bound(node->material.technique) > 0.0) {
-            drawn.stats.kept_error = 0.0;
-        }
+    const PlacedTiles placed = placed_tiles(list, false, drawn.stats);
+    CastOptions options;
+    options.parallel.threads = options_.threads;
+    options.target = options_.target;
+    auto hits = cast_hits(placed, list.size, options);
+    if (!hits) {
+        return hits.error();
     }
+    drawn.hits = std::move(*hits);
+    drawn.stats.rays = placed.tiles.empty() ? 0 : drawn.hits.size();
+    drawn.stats.tiles = static_cast<int>(placed.tiles.size());
     return drawn;
 }
 

@@ -10,8 +10,10 @@
 
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/picture_rays.h"
+#include "engine/cast/picture_samples.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/cast/simd_target.h"
+#include "engine/cast/tile_contents.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
@@ -24,12 +26,15 @@ namespace reljef::cast {
 struct DriverOptions {
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels
     unsigned threads = 0;       ///< 0: one per hardware thread; no influence on the result
-    int samples = 1;            ///< per pixel: 1, or automatic_samples
+    /// Per pixel, see check_samples(). Each sample has its own ray where surfaces end or bend
+    /// sharply; all other pixels have one. Hits are those of the pixels' middles.
+    int samples = 1;
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
 };
 
-/// The driver's choice: 1.
-inline constexpr int automatic_samples = 0;
+/// How far rounding of floats moves a hit at most, pixels: what exact rays keep of an error bound
+/// (docs/cast.md).
+double rounding_error(const scene::Camera& camera, glm::ivec2 size);
 
 /// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
 /// without options.
@@ -47,7 +52,7 @@ Result<void> check_support(const view::DrawList& list);
 /// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
 class Driver {
 public:
-    /// Fails on a size that is out of range, and with several samples per pixel.
+    /// Fails on a size that is out of range, and as check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
     /// Draws a frame of size(), and has finished when it returns. Fails as check_support().
@@ -55,13 +60,15 @@ public:
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
 
     /// The last frame.
-    [[nodiscard]] const Image& read_color() const { return picture_; }
+    [[nodiscard]] const Image& read_color() const { return first_.picture; }
 
     /// Takes the light of a terrain that was computed before.
     Result<void> add_light(const view::PreparedLight& prepared);
 
     Result<void> resize(glm::ivec2 size);
-    [[nodiscard]] glm::ivec2 size() const { return {picture_.cols(), picture_.rows()}; }
+    [[nodiscard]] glm::ivec2 size() const { return {first_.picture.cols(), first_.picture.rows()}; }
+    /// See DriverOptions::samples. Precondition: check_samples().
+    void set_samples(int samples) { options_.samples = samples; }
 
     /// Of the maps that light a terrain, texels.
     [[nodiscard]] static int max_texture_side() { return 1 << 14; }
@@ -76,7 +83,6 @@ private:
         std::shared_ptr<const RayTile> tile;
         Light light; // of the last frame
     };
-    struct PlacedTerrain;
 
     explicit Driver(const DriverOptions& options);
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
@@ -84,12 +90,13 @@ private:
     const LitLevels& levels_of(const scene::TerrainNode& terrain,
                                const std::optional<scene::TerrainLight>& light,
                                view::FrameStats& stats);
-    void paint(const view::DrawList& list, const std::optional<PlacedTerrain>& terrain,
-               view::FrameStats& stats);
+    PlacedTiles placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats);
+    void paint(const view::DrawList& list, const PlacedTiles& placed);
 
     DriverOptions options_;
-    Image picture_;
+    FirstSamples first_; // its picture becomes that of all samples
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    TileContents streamed_;
 };
 
 } // namespace reljef::cast

@@ -70,12 +70,27 @@ LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
     }
 }
 
-void LitLevels::add_to(BlockPaint& paint) const {
+TilePaint LitLevels::paint(glm::vec2 first_sample) const {
+    TilePaint paint;
     paint.level_count = static_cast<int>(levels_.size());
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-        paint.levels[i] = levels_[i].paint;
-        paint.levels[i].texels = texels_.data() + levels_[i].first;
+        PaintLevel& level = paint.levels[i];
+        level = levels_[i].paint;
+        level.texels = texels_.data() + levels_[i].first;
+        level.first += first_sample * level.texels_per_sample;
     }
+    return paint;
+}
+
+// An anisotropy of at most 8: over a silhouette a pixel's neighbours show other places.
+glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm::dvec2 spacing) {
+    if (list.camera.projection != scene::ProjectionKind::perspective) {
+        return {1e6F, 0.0F};
+    }
+    const glm::dvec2 per_metre = glm::dvec2(paint.levels[0].texels_per_sample) / spacing;
+    constexpr double anisotropy = 8.0;
+    const double pixel = view::metres_a_pixel(list.camera, list.size).y;
+    return {0.0F, static_cast<float>(anisotropy * pixel * std::max(per_metre.x, per_metre.y))};
 }
 
 } // namespace reljef::cast

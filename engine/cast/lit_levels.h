@@ -8,6 +8,7 @@
 
 #include "engine/cast/block_kernel.h"
 #include "engine/core/color.h"
+#include "engine/view/draw_list.h"
 
 namespace reljef::cast {
 
@@ -18,8 +19,8 @@ public:
     /// `samples`: of the terrain, along each axis. Preconditions: neither is empty.
     LitLevels(const Image& lit, glm::ivec2 samples);
 
-    /// Sets the levels of a paint. Valid as long as these levels.
-    void add_to(BlockPaint& paint) const;
+    /// The levels over a part of the terrain that begins at a sample. Valid as long as these.
+    [[nodiscard]] TilePaint paint(glm::vec2 first_sample = glm::vec2(0.0F)) const;
 
     [[nodiscard]] std::size_t bytes() const { return texels_.size() * sizeof(std::uint32_t); }
 
@@ -32,5 +33,8 @@ private:
     std::vector<std::uint32_t> texels_;
     std::vector<Level> levels_;
 };
+
+/// TilePaint::longest_texels of a paint. `spacing`: of the samples, metres.
+glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm::dvec2 spacing);
 
 } // namespace reljef::cast

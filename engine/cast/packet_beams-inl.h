@@ -183,14 +183,18 @@ HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float sta
 }
 
 // Of all beams of a block.
-HWY_INLINE void find_starts(const BlockJob& job, BeamStarts& starts) {
+HWY_INLINE void find_starts(BlockJob& job) {
+    if (job.has_starts) {
+        return;
+    }
+    job.has_starts = true;
     if (!job.has_beams || !(job.start < std::numeric_limits<float>::infinity())) {
-        starts.t.fill(job.start);
+        job.starts.fill(job.start);
         return;
     }
     for (int first = 0; first < beam_count; first += lane_count) {
         const Floats t = clear_until(job, beams_of(job.rays, first), job.start);
-        hn::StoreU(t, floats, starts.t.data() + first);
+        hn::StoreU(t, floats, job.starts.data() + first);
     }
 }
 

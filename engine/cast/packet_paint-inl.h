@@ -144,7 +144,7 @@ HWY_INLINE Slopes slopes_of(const PacketHits& hits) {
 
 // Squared texels by which the hit moves from a pixel to its neighbour in the plane that touches the
 // surface. `origin`, `direction`: the changes of the ray.
-HWY_INLINE Floats texels_moved(const BlockPaint& paint, const Rays& rays, const PacketHits& hits,
+HWY_INLINE Floats texels_moved(const TilePaint& paint, const Rays& rays, const PacketHits& hits,
                                const Slopes& slopes, Floats per_facing, glm::vec3 origin,
                                glm::vec3 direction) {
     const auto moved = [&](int axis) HWY_ATTR {
@@ -161,8 +161,9 @@ HWY_INLINE Floats texels_moved(const BlockPaint& paint, const Rays& rays, const 
 }
 
 // The mip level of a packet's hits, limited to an anisotropy of 8 by `longest_texels`.
-HWY_INLINE Floats level_of(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
-                           const PacketHits& hits, Floats metres) {
+HWY_INLINE Floats level_of(const BlockJob& job, const Rays& rays, const PacketHits& hits,
+                           Floats metres) {
+    const TilePaint& paint = *job.paint;
     const Slopes slopes = slopes_of(hits);
     const Floats facing = hn::Sub(rays.rise, hn::MulAdd(slopes.col, rays.col.direction,
                                                         hn::Mul(slopes.row, rays.row.direction)));
@@ -216,7 +217,7 @@ HWY_INLINE void add_level(const PaintLevel& level, Floats col, Floats row, Float
 }
 
 // The colours of the map: bilinear in the two levels nearest to each lane's.
-HWY_INLINE Color map_color(const BlockPaint& paint, const PacketHits& hits, Floats level) {
+HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
     const Floats col = hn::Add(hn::ConvertTo(floats, hits.col), hits.col_part);
     const Floats row = hn::Add(hn::ConvertTo(floats, hits.row), hits.row_part);
     const Floats highest = all(static_cast<float>(paint.level_count));
@@ -236,13 +237,47 @@ HWY_INLINE Color map_color(const BlockPaint& paint, const PacketHits& hits, Floa
 HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
                               const ViewRays& view, const PacketHits& hits) {
     const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
-    const Color lit = map_color(paint, hits, level_of(job, paint, rays, hits, metres));
+    const Color lit = map_color(*job.paint, hits, level_of(job, rays, hits, metres));
     if (paint.extinction <= 0.0F) {
         return lit;
     }
     constexpr float log2_e = 1.4426950F;
     const Floats left = exp2_of(hn::Mul(metres, all(-log2_e * paint.extinction)));
     return mixed(all(paint.horizon), lit, left);
+}
+
+// What a packet shows.
+struct Look {
+    Color color;
+    Floats t; // infinity: sky
+};
+
+// `start_of(job)`: where the rays may begin.
+template <bool has_walls, class StartOf>
+HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
+                        const StartOf& start_of) {
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    const ViewRays view = view_rays(paint, pixels);
+    Look look{all(glm::vec3(0.0F)), never};
+    Met met = Met::nothing();
+    for (const BlockJob& job : jobs.tiles) {
+        const Floats start = start_of(job);
+        if (hn::AllFalse(floats, hn::Lt(start, never))) {
+            continue;
+        }
+        const Rays rays = rays_of(job, pixels);
+        const PacketHits hits = hits_of<has_walls>(rays, job, start, met);
+        if (!hn::AllFalse(floats, hits.found)) {
+            const Color color = ground_color(job, paint, rays, view, hits);
+            look = {chosen(hits.found, color, look.color),
+                    hn::IfThenElse(hits.found, hits.t, look.t)};
+        }
+        if (hn::AllTrue(floats, met.found)) {
+            return look;
+        }
+    }
+    look.color = chosen(met.found, look.color, sky_color(paint, view));
+    return look;
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

@@ -35,14 +35,10 @@ HWY_INLINE Floats all(float value) {
     return hn::Set(floats, value);
 }
 
-// The starts of a block's beams.
-struct BeamStarts {
-    alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> t;
-
-    [[nodiscard]] HWY_INLINE float at(int col, int row) const {
-        return t[static_cast<std::size_t>(row / beam_rows * beams_a_row + col / beam_cols)];
-    }
-};
+// The beam of a pixel.
+HWY_INLINE std::size_t beam_at(int col, int row) {
+    return static_cast<std::size_t>(row / beam_rows * beams_a_row + col / beam_cols);
+}
 
 HWY_INLINE Ints all(std::int32_t value) {
     return hn::Set(ints, value);
@@ -121,32 +117,55 @@ HWY_INLINE PixelOffsets offsets_of(int col, int row) {
     return {from_middle(right, col), from_middle(down, row)};
 }
 
-// Up to the border of the tile, or to the height beyond which nothing is hit.
-HWY_INLINE Floats end_of(const Rays& rays, const BlockRays& block) {
+// Where the ray leaves the tile.
+HWY_INLINE Floats leaving_of(const Rays& rays, const BlockRays& block) {
     const auto leaving = [](const Axis& axis) HWY_ATTR {
         const Floats first = hn::Neg(axis.base);
         const Floats last = hn::Add(first, all(static_cast<float>(axis.last + 1)));
         return hn::Max(axis.time_at(first), axis.time_at(last));
     };
+    return hn::Min(hn::Min(leaving(rays.col), leaving(rays.row)), all(block.end));
+}
+
+// Up to the border of the tile, or to the height beyond which nothing is hit.
+HWY_INLINE Floats end_of(const Rays& rays, const BlockRays& block) {
     const Lanes rises = hn::Gt(rays.rise, hn::Zero(floats));
     const Floats height = hn::IfThenElse(rises, all(block.highest), all(block.lowest));
     const Floats past = hn::Div(hn::Sub(height, rays.height), moving(rays.rise));
-    return hn::Min(hn::Min(leaving(rays.col), leaving(rays.row)), hn::Min(past, all(block.end)));
+    return hn::Min(leaving_of(rays, block), past);
 }
 
-// The part before the tile is left out.
-HWY_INLINE Floats start_of(const Rays& rays, float start) {
+// Where the ray comes over the tile.
+struct Entry {
+    Floats col; // t at which it crosses the first line
+    Floats row;
+
+    [[nodiscard]] HWY_INLINE Floats t() const { return hn::Max(col, row); }
+};
+
+HWY_INLINE Entry entry_of(const Rays& rays) {
     const auto entering = [](const Axis& axis) HWY_ATTR {
         const Floats first = hn::Neg(axis.base);
         const Floats last = hn::Add(first, all(static_cast<float>(axis.last + 1)));
         return hn::Min(axis.time_at(first), axis.time_at(last));
     };
-    return hn::Max(hn::Max(entering(rays.col), entering(rays.row)),
-                   hn::Max(rays.begin, all(start)));
+    return {entering(rays.col), entering(rays.row)};
 }
 
-HWY_INLINE Rays rays_of(const BlockJob& job, int col, int row) {
-    const PixelOffsets pixels = offsets_of(col, row);
+// The rays that come in from another tile.
+HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, unsigned walls) {
+    const auto has = [&](unsigned side) HWY_ATTR { return all((walls & side) != 0 ? 1.0F : 0.0F); };
+    const auto side_of = [&](const Axis& axis, unsigned low, unsigned high) HWY_ATTR {
+        const Lanes forward = hn::RebindMask(floats, hn::Eq(axis.ahead, all(1)));
+        return hn::IfThenElse(forward, has(low), has(high));
+    };
+    const Floats side =
+        hn::IfThenElse(hn::Ge(entry.col, entry.row), side_of(rays.col, west_wall, east_wall),
+                       side_of(rays.row, north_wall, south_wall));
+    return hn::And(hn::Gt(side, hn::Zero(floats)), hn::Gt(entry.t(), rays.begin));
+}
+
+HWY_INLINE Rays rays_of(const BlockJob& job, const PixelOffsets& pixels) {
     const BlockRays& block = job.rays;
     const auto axis = [&](int index) HWY_ATTR {
         return axis_of(pixels.of(block.origin, index), pixels.of(block.direction, index),

@@ -157,6 +157,11 @@ struct Walk {
     Ints level;
     Lanes active;  // not hit, not at the end
     Lanes arrived; // in a cell that it may hit
+    // Only among tiles with walls:
+    Entry entry;
+    Lanes walled; // comes in from another tile
+    Lanes below;  // was below the surface where it was last
+    Lanes wall;   // hit a wall
 };
 
 // The cell at the start: that of the place, corrected by the t of its lines.
@@ -184,6 +189,7 @@ HWY_INLINE Walk walk_from(const Rays& rays, const TileSamples& tile, Floats star
     walk.active = hn::Lt(start, rays.end);
     walk.arrived = no_lanes();
     walk.t = hn::IfThenElse(walk.active, start, rays.begin);
+    walk.wall = no_lanes();
     walk.level = all(level);
     walk.col = hn::ShiftRightSame(cell_at(rays.col, walk.t), level);
     walk.row = hn::ShiftRightSame(cell_at(rays.row, walk.t), level);
@@ -263,7 +269,7 @@ HWY_INLINE void descend(const Rays& rays, Lanes lanes, Walk& walk) {
 }
 
 // One step of all rays that have not arrived.
-HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
+template <bool has_walls> HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
     const Lanes run = hn::AndNot(walk.arrived, walk.active);
     const Exits exits = exits_of(rays, walk);
     const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
@@ -279,6 +285,9 @@ HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
     if (!hn::AllFalse(floats, down)) {
         descend(rays, down, walk);
     }
+    if constexpr (has_walls) {
+        walk.below = hn::AndNot(over, walk.below);
+    }
     if (!hn::AllFalse(floats, over)) {
         // Near the surface, the next larger block would only be descended into.
         const Floats drop = hn::Mul(hn::Sub(leave, walk.t), hn::Abs(rays.rise));
@@ -288,13 +297,31 @@ HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
     }
 }
 
+// The rays that come in below the surface and were above it before. Notes for those that miss on
+// which side they leave their cells.
+HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
+    const Floats zero = hn::Zero(floats);
+    const Lanes comes_in = hn::And(walk.walled, hn::Eq(piece.begin, walk.entry.t()));
+    const Lanes was_above = hn::AndNot(walk.below, walk.arrived);
+    const Lanes wall = hn::And(hn::And(comes_in, was_above), hn::Lt(piece.start, zero));
+    walk.wall = hn::Or(walk.wall, wall);
+    const Lanes missed = hn::AndNot(hn::Or(wall, crossing), walk.arrived);
+    walk.below =
+        hn::Or(hn::And(missed, hn::Lt(piece.finish, zero)), hn::AndNot(missed, walk.below));
+    return wall;
+}
+
 // Ends the rays that hit their cells and moves the others on.
+template <bool has_walls>
 HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
     const IntLanes there = hn::RebindMask(ints, walk.arrived);
     const Ints col = hn::IfThenElseZero(there, walk.col);
     const Ints row = hn::IfThenElseZero(there, walk.row);
     const Piece piece = piece_in(rays, corners_of(job, col, row), col, row);
-    const Lanes hit = hn::And(crosses(piece), walk.arrived);
+    Lanes hit = hn::And(crosses(piece), walk.arrived);
+    if constexpr (has_walls) {
+        hit = hn::Or(hit, hit_walls(piece, hit, walk));
+    }
     walk.active = hn::AndNot(hit, walk.active);
     const Lanes missed = hn::AndNot(hit, walk.arrived);
     walk.arrived = no_lanes();
@@ -306,14 +333,15 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
 
 // Walks all rays to their first hit. Cells are solved when three quarters of the lanes have arrived
 // at one.
+template <bool has_walls>
 HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
     Lanes hits = no_lanes();
     while (!hn::AllFalse(floats, walk.active)) {
-        step(rays, job, walk);
+        step<has_walls>(rays, job, walk);
         const std::size_t arrived = hn::CountTrue(floats, walk.arrived);
         const bool has_others = !hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
         if (4 * arrived >= 3 * lane_count || (arrived > 0 && !has_others)) {
-            hits = hn::Or(hits, solve(rays, job, walk));
+            hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
         }
     }
     return hits;
@@ -331,20 +359,53 @@ struct PacketHits {
     Corners corners;
 };
 
-HWY_INLINE PacketHits hits_of(const Rays& rays, const BlockJob& job, float start) {
-    Walk walk = walk_from(rays, job.tile, start_of(rays, start));
+// What the rays of a packet have met in nearer tiles.
+struct Met {
+    Lanes found;
+    Lanes below; // where they left the last tile
+
+    HWY_INLINE static Met nothing() { return {no_lanes(), no_lanes()}; }
+};
+
+// The hits of the rays that have found nothing yet. `start`: of t.
+template <bool has_walls>
+HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met& met) {
+    const Entry entry = entry_of(rays);
+    const Floats begin = hn::Max(hn::Max(entry.t(), rays.begin), start);
+    if constexpr (has_walls) {
+        // A ray that begins below all of the tile is past its surface, and may hit a wall.
+        const Floats height = hn::MulAdd(begin, rays.rise, rays.height);
+        rays.end = hn::IfThenElse(hn::Lt(height, all(job.rays.lowest)), leaving_of(rays, job.rays),
+                                  rays.end);
+    }
+    Walk walk = walk_from(rays, job.tile, begin);
+    if constexpr (has_walls) {
+        walk.active = hn::AndNot(met.found, walk.active);
+        walk.entry = entry;
+        walk.walled = walled_of(rays, entry, job.walls);
+        walk.below = met.below;
+    }
     PacketHits hits;
-    hits.found = find_hits(rays, job, walk);
+    hits.found = find_hits<has_walls>(rays, job, walk);
     const IntLanes found = hn::RebindMask(ints, hits.found);
     hits.col = hn::IfThenElseZero(found, walk.col);
     hits.row = hn::IfThenElseZero(found, walk.row);
     hits.corners = corners_of(job, hits.col, hits.row);
     const Piece piece = piece_in(rays, hits.corners, hits.col, hits.row);
-    const Floats u = crossing_of(piece);
+    Floats u = crossing_of(piece);
+    if constexpr (has_walls) {
+        u = hn::IfThenZeroElse(walk.wall, u);
+        met.below = walk.below;
+    }
     hits.t = hn::MulAdd(u, hn::Sub(piece.end, piece.begin), piece.begin);
     hits.col_part = hn::MulAdd(u, piece.col.way, piece.col.enter);
     hits.row_part = hn::MulAdd(u, piece.row.way, piece.row.enter);
     hits.height = height_in(hits.corners, hits.col_part, hits.row_part);
+    if constexpr (has_walls) {
+        const Floats on_ray = hn::MulAdd(hits.t, rays.rise, rays.height);
+        hits.height = hn::IfThenElse(walk.wall, on_ray, hits.height);
+    }
+    met.found = hn::Or(met.found, hits.found);
     return hits;
 }
 

@@ -143,6 +143,9 @@ void SceneRenderer::set_samples(int samples) {
     if (opengl_) {
         opengl_->set_samples(samples);
     }
+    if (rays_) {
+        rays_->set_samples(samples);
+    }
 }
 
 Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {

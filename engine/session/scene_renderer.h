@@ -74,7 +74,7 @@ public:
     void add_light(std::shared_ptr<const view::PreparedLight> light);
     [[nodiscard]] int max_texture_side() const;
     Result<void> resize(glm::ivec2 size);
-    /// For later frames, see render::DriverOptions::samples. Without influence on rays of the CPU.
+    /// For later frames, see render::DriverOptions::samples and cast::DriverOptions::samples.
     void set_samples(int samples);
     [[nodiscard]] glm::ivec2 size() const { return size_; }
 

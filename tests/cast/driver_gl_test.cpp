@@ -122,7 +122,10 @@ TEST(CastDriver, KeepsErrorBoundsWithoutError) {
     stage.use({bounded});
     Driver driver = test::must(Driver::create({.size = small_picture}));
     const auto stats = test::must(driver.draw(view::select(stage.scene, small_picture)));
-    EXPECT_EQ(stats.kept_error, 0.0);
+    const double rounding = rounding_error(stage.scene.camera(), small_picture);
+    EXPECT_EQ(stats.kept_error, rounding);
+    EXPECT_GT(rounding, 0.0);
+    EXPECT_LT(rounding, 0.01);
     EXPECT_EQ(driver.read_color(), exact);
 }
 
@@ -150,7 +153,7 @@ TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
     stage.use({scene::Texture{}});
     EXPECT_EQ(reason_against(stage.scene),
               "rays on the CPU: technique texture found, exact or an error bound over one terrain "
-              "on a plane in memory was expected; --context osmesa draws the others");
+              "on a plane was expected; --context osmesa draws the others");
     scene::Technique shadowed{scene::Exact{}};
     shadowed.options.shadow = scene::Shadow{};
     stage.use(shadowed);
@@ -163,7 +166,7 @@ TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
 TEST(CastDriver, RefusesSizesAndSamplesOutOfRange) {
     EXPECT_FALSE(Driver::create({.size = {0, 5}}));
     EXPECT_FALSE(Driver::create({.size = {5, 1 << 15}}));
-    EXPECT_FALSE(Driver::create({.size = {5, 5}, .samples = 4}));
+    EXPECT_FALSE(Driver::create({.size = {5, 5}, .samples = 3}));
     EXPECT_TRUE(Driver::create({.size = {5, 5}, .samples = automatic_samples}));
 }
 

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+
+#include <glm/vec2.hpp>
+
+#include "engine/cast/block_rays.h"
+#include "engine/core/color.h"
+#include "engine/core/grid.h"
+#include "engine/core/result.h"
+
+namespace reljef::cast {
+
+/// The driver's choice: 4.
+inline constexpr int automatic_samples = 0;
+
+/// Fails unless `samples` is 1, 2, 4, 8, 16 or automatic_samples.
+Result<void> check_samples(int samples);
+
+/// Places of a pixel's samples, from its middle, pixels. Precondition: check_samples().
+std::span<const glm::ivec2> sixteenths_of(int samples);
+
+/// A picture with one sample per pixel, and how near its hits are: linear in the pixel over a
+/// plane. In perspective the inverse depth, 0 for the sky; on a map the negative depth, and less
+/// than all else for the sky.
+struct FirstSamples {
+    Image picture;
+    Grid<float> nearness;
+    bool is_perspective = true;
+    /// By how much nearness may leave a plane until it is another surface: in perspective relative
+    /// to the nearest of three pixels, on a map absolute.
+    float disagreement = 0.0F;
+};
+
+/// The pixels of a block that need several samples: beside them the picture has another colour,
+/// because another surface begins or the surface bends sharply. Its `samples` remain.
+void choose_sampled(const FirstSamples& first, const PixelBlock& block, SampledPixels& sampled);
+
+} // namespace reljef::cast

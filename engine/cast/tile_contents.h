@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/cast/block_rays.h"
+#include "engine/cast/lit_levels.h"
+#include "engine/cast/ray_tile.h"
+#include "engine/view/draw_list.h"
+#include "engine/view/terrain_maps.h"
+
+namespace reljef::cast {
+
+/// What rays need of the streamed tiles of a terrain on a plane: made at first sight, kept while
+/// they are drawn.
+class TileContents {
+public:
+    struct Options {
+        unsigned threads = 0;
+        bool paints = true; ///< false: for hits only
+    };
+
+    /// The tiles of a list, placed; `rays`: in samples of the overview. Precondition: all tiles are
+    /// of one stream.
+    PlacedTiles place(const view::DrawList& list, const PictureRays& rays, const Options& options,
+                      view::FrameStats& stats);
+
+    /// Takes the light of a stream that was computed before.
+    void add_light(const view::PreparedLight& prepared);
+
+private:
+    struct Content {
+        std::weak_ptr<const scene::TerrainTile> owner;
+        std::array<std::optional<RayTile>, 4> pieces; // by the sides that their vertex is at
+        std::optional<LitLevels> levels;
+        std::optional<scene::TerrainLight> light; // of the levels
+        std::uint64_t drawn = 0;                  // the last frame
+    };
+    struct StreamLight {
+        std::weak_ptr<const scene::TileStream> owner;
+        scene::TerrainLight light;
+        std::shared_ptr<const scene::TerrainIrradiance> irradiance;
+    };
+
+    void forget_unused();
+    void make(const view::DrawList& list, const Options& options, view::FrameStats& stats);
+    const scene::TerrainIrradiance& irradiance_of(const scene::TerrainNode& terrain,
+                                                  const scene::TerrainLight& light);
+
+    std::map<const scene::TerrainTile*, Content> contents_;
+    StreamLight light_;
+    std::uint64_t frame_ = 0;
+};
+
+} // namespace reljef::cast

@@ -1,0 +1,338 @@
+#include "engine/cast/tile_contents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "engine/cast/cast_hits.h"
+#include "engine/cast/tile_pieces.h"
+#include "engine/scene/tile_stream.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/terrain/chance.h"
+#include "tests/terrain/made_heightfield.h"
+#include "tests/terrain/made_tiles.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr int raster_side = 300; // samples; the last tiles have fewer cells, and shorter ones
+constexpr int overview_reduction = 4;
+constexpr double sample_metres = 10.0;
+constexpr glm::ivec2 view_size{64, 48};
+// Floats of a ray are off by 2^-20 of 3 km, and slopes are up to 4.
+constexpr double height_tolerance = 0.02;
+
+double noise(glm::ivec2 place) {
+    const auto bits =
+        static_cast<unsigned>(place.x) * 2654435761U ^ static_cast<unsigned>(place.y) * 2246822519U;
+    return static_cast<double>((bits ^ (bits >> 13U)) * 3266489917U) / 4294967295.0 - 0.5;
+}
+
+double base_height(glm::dvec2 sample) {
+    return 60.0 * std::sin(0.05 * sample.x) * std::cos(0.037 * sample.y) +
+           20.0 * std::sin(0.31 * sample.x + 0.2 * sample.y);
+}
+
+// Levels differ by metres, at borders too.
+double height_of(terrain::TreeTile tile, glm::ivec2 sample) {
+    return base_height(glm::dvec2(sample)) + 12.0 * noise(sample) +
+           7.0 * tile.level * noise(sample + 1000 * tile.level);
+}
+
+scene::TileContent read_tile(terrain::TreeTile tile, const std::stop_token& /*stop*/) {
+    const terrain::TileTree tree(raster_side, raster_side);
+    scene::TileContent content;
+    content.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+        return height_of(tile, tree.sample(tile, vertex));
+    });
+    return content;
+}
+
+std::shared_ptr<const scene::TerrainSurface> made_overview() {
+    auto heightfield = test::plane_heightfield(
+        test::overview_heights(raster_side, overview_reduction, base_height));
+    heightfield.spacing = glm::dvec2(sample_metres * overview_reduction);
+    return std::make_shared<const scene::TerrainSurface>(
+        test::must(scene::TerrainSurface::create(std::make_shared<const terrain::Terrain>(
+            terrain::Terrain{"made", std::move(heightfield), {}, {}}))));
+}
+
+// A random selection of tiles, and a camera.
+class RandomCut {
+public:
+    explicit RandomCut(test::Chance& chance) : overview_(made_overview()) {
+        const terrain::TileTree tree(raster_side, raster_side);
+        node_.surface = overview_;
+        node_.stream = std::make_shared<scene::TileStream>(
+            scene::TileBuilder(overview_, tree, overview_reduction), read_tile);
+        scene::Polygons bounded;
+        bounded.error = 1.0;
+        node_.material.technique = scene::Technique{bounded};
+        list_.size = view_size;
+        list_.transforms = {glm::dmat4(1.0)};
+        add(tree.root(), chance);
+        std::shuffle(list_.tiles.begin(), list_.tiles.end(),
+                     std::mt19937(static_cast<unsigned>(chance.whole(0, 999))));
+    }
+
+    view::DrawList& list() { return list_; }
+    [[nodiscard]] const scene::TileBuilder& builder() const { return node_.stream->maker(); }
+    [[nodiscard]] glm::dvec3 world(glm::dvec3 sample) const {
+        return overview_->placement().world_from_sample(
+            glm::dvec3(builder().on_overview(glm::dvec2(sample)), sample.z));
+    }
+
+    // A sample of the terrain and a height on the ray of a pixel's middle.
+    [[nodiscard]] glm::dvec3 on_ray(glm::ivec2 pixel, double t) const {
+        const Ray ray = scene::view_ray(list_.camera, view_size, glm::dvec2(pixel) + 0.5);
+        const glm::dvec3 place =
+            *overview_->placement().sample_from_world(ray.origin + t * ray.direction);
+        return {builder().from_overview(glm::dvec2(place)), place.z};
+    }
+
+    // The heights of all tiles at a place, which may be on a border; empty beside the terrain.
+    [[nodiscard]] std::vector<double> heights_at(glm::dvec2 sample) const {
+        std::vector<double> heights;
+        constexpr double last = raster_side - 1.0;
+        if (sample.x < 0.0 || sample.y < 0.0 || sample.x > last || sample.y > last) {
+            return heights;
+        }
+        constexpr double near = 1e-4; // samples
+        for (const glm::dvec2 beside : {glm::dvec2(-near, -near), glm::dvec2(near, -near),
+                                        glm::dvec2(-near, near), glm::dvec2(near, near)}) {
+            const auto& tile = tile_at(glm::clamp(sample + beside, 0.0, last));
+            const glm::dvec2 vertex = builder().lattice(tile.id).from_terrain(sample);
+            heights.push_back(terrain::bilinear_height(tile.heightfield.heights.view(), vertex));
+        }
+        return heights;
+    }
+
+    [[nodiscard]] HitBuffer cast(unsigned threads = 0) {
+        view::FrameStats stats;
+        TileContents contents;
+        CastOptions options;
+        options.parallel.threads = threads;
+        return test::must(
+            cast_hits(contents.place(list_, rays(), {threads, true}, stats), view_size, options));
+    }
+
+    [[nodiscard]] PictureRays rays() const {
+        Box bounds;
+        bounds.add(glm::dvec3(0.0, 0.0, -200.0));
+        bounds.add(
+            glm::dvec3(raster_side / overview_reduction, raster_side / overview_reduction, 200.0));
+        return picture_rays(list_.camera, view_size, glm::dmat4(1.0), overview_->placement(),
+                            bounds);
+    }
+
+private:
+    void add(terrain::TreeTile id, test::Chance& chance) {
+        const terrain::TileTree& tree = builder().tree();
+        if (id.level > 0 && !chance.one_in(3)) {
+            for (const terrain::TreeTile child : tree.children(id)) {
+                add(child, chance);
+            }
+            return;
+        }
+        view::TileDraw draw;
+        draw.terrain = &node_;
+        draw.tile = std::make_shared<const scene::TerrainTile>(
+            builder().make(id, read_tile(id, {}).heights));
+        tiles_[id] = draw.tile;
+        list_.tiles.push_back(std::move(draw));
+    }
+
+    [[nodiscard]] const scene::TerrainTile& tile_at(glm::dvec2 sample) const {
+        for (int level = 0;; ++level) {
+            const auto found = tiles_.find(builder().tile_at(level, sample));
+            if (found != tiles_.end()) {
+                return *found->second;
+            }
+        }
+    }
+
+    std::shared_ptr<const scene::TerrainSurface> overview_;
+    scene::TerrainNode node_;
+    view::DrawList list_;
+    std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> tiles_;
+};
+
+scene::Camera camera_over(const RandomCut& cut, test::Chance& chance) {
+    const auto place = [&](double height) {
+        return cut.world({chance.between(20.0, 280.0), chance.between(20.0, 280.0), height});
+    };
+    scene::Camera camera;
+    camera.eye = place(chance.between(130.0, 900.0));
+    camera.target = place(chance.between(-300.0, 60.0));
+    camera.near = 0.1;
+    if (chance.one_in(4)) {
+        camera.projection = scene::ProjectionKind::orthographic;
+        camera.view_height = chance.between(300.0, 3000.0);
+        Box box;
+        box.add(cut.world({0.0, 0.0, -200.0}));
+        box.add(cut.world({raster_side, raster_side, 200.0}));
+        camera = scene::with_fitted_depth(camera, box);
+    }
+    return camera;
+}
+
+struct Faults {
+    int passes = 0; // rays that are below the surface before they hit
+    int off = 0;    // hits that are neither on a tile nor on a wall
+    int hits = 0;
+    int on_walls = 0;
+};
+
+// Whether a ray of a map comes in below the surface, from beside the terrain.
+bool comes_in_below(const RandomCut& cut, glm::ivec2 pixel) {
+    constexpr double step = 5.0; // metres
+    for (double t = -6000.0; t < 6000.0; t += step) {
+        const glm::dvec3 place = cut.on_ray(pixel, t);
+        const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
+        if (!heights.empty()) {
+            return place.z < *std::max_element(heights.begin(), heights.end()) + 40.0;
+        }
+    }
+    return false;
+}
+
+// Whether a ray is below all tiles somewhere before t.
+bool passes_below(const RandomCut& cut, glm::ivec2 pixel, double begin, double end) {
+    constexpr int steps = 120;
+    for (int i = 0; i < steps; ++i) {
+        const glm::dvec3 place = cut.on_ray(pixel, begin + (end - begin) * i / steps);
+        const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
+        if (!heights.empty() &&
+            place.z < *std::min_element(heights.begin(), heights.end()) - height_tolerance) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void check_hit(const RandomCut& cut, glm::ivec2 pixel, const Hit& hit, Faults& faults) {
+    const std::vector<double> heights = cut.heights_at(hit.place());
+    ++faults.hits;
+    const glm::dvec3 on_ray = cut.on_ray(pixel, hit.depth);
+    if (heights.empty() || std::abs(on_ray.z - hit.height) > 4.0 * height_tolerance ||
+        glm::distance(glm::dvec2(on_ray), hit.place()) > 0.01) {
+        ++faults.off;
+        return;
+    }
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    const bool is_on =
+        hit.height > *low - height_tolerance && hit.height < *high + height_tolerance;
+    faults.off += is_on ? 0 : 1;
+    faults.on_walls += *high - *low > 1.0 && hit.height < *high - 0.2 ? 1 : 0;
+}
+
+TEST(TileContents, NoRayPassesBetweenTilesOfAnyLevels) {
+    test::Chance chance(29);
+    Faults faults;
+    for (int round = 0; round < 10; ++round) {
+        RandomCut cut(chance);
+        for (int view = 0; view < 3; ++view) {
+            cut.list().camera = camera_over(cut, chance);
+            const bool is_map = cut.list().camera.projection == scene::ProjectionKind::orthographic;
+            const double begin = is_map ? cut.list().camera.orthographic_near : 0.1;
+            const HitBuffer hits = cut.cast();
+            for (int row = 0; row < view_size.y; ++row) {
+                for (int col = 0; col < view_size.x; ++col) {
+                    const Hit& hit = hits(col, row);
+                    if (is_map && comes_in_below(cut, {col, row})) {
+                        continue;
+                    }
+                    constexpr double beyond = 6000.0; // metres
+                    const double end = hit.is_sky() ? beyond : hit.depth * (1.0 - 1e-4);
+                    faults.passes += passes_below(cut, {col, row}, begin, end) ? 1 : 0;
+                    if (!hit.is_sky()) {
+                        check_hit(cut, {col, row}, hit, faults);
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_EQ(faults.passes, 0);
+    EXPECT_EQ(faults.off, 0);
+    EXPECT_GT(faults.hits, 40'000);
+    EXPECT_GT(faults.on_walls, 20);
+}
+
+TEST(TileContents, HitsHaveTheSameBitsOnAnyThreads) {
+    test::Chance chance(31);
+    RandomCut cut(chance);
+    cut.list().camera = camera_over(cut, chance);
+    const HitBuffer one = cut.cast(1);
+    const HitBuffer three = cut.cast(3);
+    EXPECT_EQ(std::memcmp(one.samples().data(), three.samples().data(),
+                          one.samples().size() * sizeof(Hit)),
+              0);
+}
+
+TEST(TilePieces, CoverATileWithCellsOfOneSize) {
+    const terrain::TileLattice lattice{{64.0, 0.0}, {99.0, 50.0}, 4.0, {9, 13}};
+    const auto pieces = pieces_of(lattice, {99.0, 80.0}, {0.0, 0.0});
+    ASSERT_EQ(pieces.size(), 4U);
+    int cells = 0;
+    for (const TilePiece& piece : pieces) {
+        cells += piece.cells.x * piece.cells.y;
+        const glm::dvec2 end = piece.first + piece.step * glm::dvec2(piece.cells);
+        EXPECT_EQ((piece.walls & east_wall) != 0, end.x < 99.0);
+        EXPECT_EQ((piece.walls & south_wall) != 0, end.y < 80.0);
+        EXPECT_EQ((piece.walls & north_wall) != 0, piece.first.y > 0.0);
+        EXPECT_NE(piece.walls & west_wall, 0U);
+    }
+    EXPECT_EQ(cells, 9 * 13);
+    EXPECT_EQ(pieces.back().first, glm::dvec2(96.0, 48.0));
+    EXPECT_EQ(pieces.back().step, glm::dvec2(3.0, 2.0));
+    EXPECT_EQ(pieces_of(lattice, {99.0, 80.0}, {200.0, 200.0}).front().first,
+              glm::dvec2(96.0, 48.0));
+}
+
+// Along rays from any place, each tile lies before the next.
+TEST(TilePieces, AreInTheOrderOfTheRays) {
+    test::Chance chance(37);
+    for (int round = 0; round < 20; ++round) {
+        RandomCut cut(chance);
+        const terrain::TileTree& tree = cut.builder().tree();
+        std::vector<terrain::TreeTile> ids;
+        for (const view::TileDraw& draw : cut.list().tiles) {
+            ids.push_back(draw.tile->id);
+        }
+        const glm::dvec2 eye(chance.between(-100.0, 400.0), chance.between(-100.0, 400.0));
+        std::map<terrain::TreeTile, std::size_t> rank;
+        for (const std::size_t index : front_to_back(tree, ids, eye)) {
+            rank.emplace(ids[index], rank.size());
+        }
+        ASSERT_EQ(rank.size(), ids.size());
+        for (int ray = 0; ray < 50; ++ray) {
+            const double angle = chance.between(0.0, 6.283);
+            const glm::dvec2 way(std::cos(angle), std::sin(angle));
+            std::size_t last = 0;
+            for (double along = 0.05; along < 600.0; along += 0.37) {
+                const glm::dvec2 place = eye + along * way;
+                if (std::min(place.x, place.y) <= 0.0 ||
+                    std::max(place.x, place.y) >= raster_side - 1.0) {
+                    continue;
+                }
+                int level = 0;
+                while (!rank.contains(cut.builder().tile_at(level, place))) {
+                    ++level;
+                }
+                const std::size_t here = rank.at(cut.builder().tile_at(level, place));
+                EXPECT_GE(here, last);
+                last = here;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace reljef::cast
