@@ -20,7 +20,8 @@ struct FrameQuality {
 };
 
 /// Chooses the quality of a view. A view at rest has full quality. A moving view with several slow
-/// frames in a row gets one sample per pixel, then a half and a third of the resolution.
+/// frames in a row gets one sample per pixel, then a half and a third of the resolution. A moving
+/// view that rays draw always has one sample.
 class MotionQuality {
 public:
     static constexpr double max_smooth_ms = 40.0; // slower frames are slow
@@ -30,21 +31,26 @@ public:
     void add_frame(double milliseconds) {
         slow_frames_ = milliseconds > max_smooth_ms ? slow_frames_ + 1 : 0;
     }
-    FrameQuality choose(bool is_moving) {
+    FrameQuality choose(bool is_moving, bool by_rays = false) {
         if (!is_moving) {
             step_ = 0;
         } else if (slow_frames_ >= max_slow_frames) {
             step_ = std::min(step_ + 1, max_divisor);
             slow_frames_ = 0;
         }
-        return step_ == 0 ? FrameQuality{} : FrameQuality{1, step_};
+        last_ = step_ > 0 ? FrameQuality{1, step_} : FrameQuality{};
+        if (is_moving && by_rays) {
+            last_.samples = 1;
+        }
+        return last_;
     }
     /// Whether the last frame had less than full quality.
-    [[nodiscard]] bool is_reduced() const { return step_ > 0; }
+    [[nodiscard]] bool is_reduced() const { return last_ != FrameQuality{}; }
 
 private:
     int slow_frames_ = 0; // in a row
     int step_ = 0;        // 0: full quality; else one sample, with this divisor
+    FrameQuality last_;
 };
 
 } // namespace reljef::app

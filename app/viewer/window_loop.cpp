@@ -142,7 +142,8 @@ private:
         }
         const Stopwatch watch;
         const FrameQuality quality =
-            options_.keeps_quality ? FrameQuality() : quality_.choose(viewer_.is_moving());
+            options_.keeps_quality ? FrameQuality()
+                                   : quality_.choose(viewer_.is_moving(), renderer_.shows_rays());
         if (auto drawn = draw_at(quality); !drawn) {
             return drawn;
         }

@@ -367,6 +367,7 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
     constexpr double step_in_pixels = 8.0;
     const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
     first_.is_perspective = is_perspective(list);
+    first_.samples_all = options_.samples_all;
     first_.disagreement =
         static_cast<float>(step_in_pixels) * (first_.is_perspective ? pixel.y : pixel.x);
     Painter painter(list, placed, options_, first_);

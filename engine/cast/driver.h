@@ -29,6 +29,7 @@ struct DriverOptions {
     /// Per pixel, see check_samples(). Each sample has its own ray where surfaces end or bend
     /// sharply; all other pixels have one. Hits are those of the pixels' middles.
     int samples = 1;
+    bool samples_all = false; ///< each sample of all pixels has its own ray, to measure the others
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
 };
 

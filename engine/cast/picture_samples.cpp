@@ -92,7 +92,7 @@ void choose_sampled(const FirstSamples& first, const PixelBlock& block, SampledP
     sampled.count = 0;
     for (int row = 0; row < block.size.y; ++row) {
         for (int col = 0; col < block.size.x; ++col) {
-            if (needs_samples(first, block.first + glm::ivec2(col, row))) {
+            if (first.samples_all || needs_samples(first, block.first + glm::ivec2(col, row))) {
                 sampled.pixels[static_cast<std::size_t>(sampled.count)] =
                     static_cast<std::uint16_t>(row * block_side + col);
                 ++sampled.count;

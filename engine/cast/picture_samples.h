@@ -30,6 +30,7 @@ struct FirstSamples {
     /// By how much nearness may leave a plane until it is another surface: in perspective relative
     /// to the nearest of three pixels, on a map absolute.
     float disagreement = 0.0F;
+    bool samples_all = false; ///< all pixels need several samples
 };
 
 /// The pixels of a block that need several samples: beside them the picture has another colour,

@@ -103,6 +103,44 @@ TEST(CastDriver, DrawsTheSameBitsOnAnyThreads) {
     EXPECT_EQ(drawn_by_rays(stage.scene, 1), drawn_by_rays(stage.scene, 3));
 }
 
+Image drawn_with(const scene::Scene& scene, const DriverOptions& options) {
+    Driver driver = test::must(Driver::create(options));
+    test::must(driver.draw(view::select(scene, options.size)));
+    return driver.read_color();
+}
+
+// Against as many samples everywhere: at most 2 levels off on 99 % of the pixels.
+TEST(CastDriver, SamplesWhereTheyChangeThePicture) {
+    LitStage stage;
+    for (const scene::Pose pose :
+         {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
+        stage.look_from(pose);
+        const Image one = drawn_by_rays(stage.scene);
+        for (const int samples : {2, 4, 8, 16}) {
+            DriverOptions options{.size = small_picture, .samples = samples};
+            const Image some = drawn_with(stage.scene, options);
+            options.threads = 3;
+            EXPECT_EQ(drawn_with(stage.scene, options), some) << "on any threads";
+            options.samples_all = true;
+            const Image all = drawn_with(stage.scene, options);
+            EXPECT_LE(share_of_others(some, all, 2), 0.01)
+                << scene::to_string(pose) << ' ' << samples;
+            EXPECT_LE(share_of_others(some, all, 2), 0.5 * share_of_others(one, all, 2))
+                << scene::to_string(pose) << ' ' << samples;
+        }
+    }
+}
+
+TEST(CastDriver, ChoosesFourSamples) {
+    LitStage stage;
+    stage.look_from(scene::Pose::low);
+    DriverOptions options{.size = small_picture, .samples = automatic_samples};
+    const Image chosen = drawn_with(stage.scene, options);
+    options.samples = 4;
+    EXPECT_EQ(chosen, drawn_with(stage.scene, options));
+    EXPECT_NE(chosen, drawn_by_rays(stage.scene));
+}
+
 TEST(CastDriver, FindsTheHitsOfTheTruth) {
     LitStage stage;
     stage.look_from(scene::Pose::overview);

@@ -43,6 +43,15 @@ TEST(MotionQuality, ThereIsALeastResolution) {
     EXPECT_EQ((FrameQuality{1, 3}.picture_size({1023, 2})), glm::ivec2(341, 1));
 }
 
+TEST(MotionQuality, RaysHaveOneSampleWhileTheViewMoves) {
+    MotionQuality tested;
+    EXPECT_EQ(tested.choose(false, true), FrameQuality());
+    EXPECT_FALSE(tested.is_reduced());
+    EXPECT_EQ(tested.choose(true, true), (FrameQuality{1, 1}));
+    EXPECT_TRUE(tested.is_reduced()) << "it is drawn again at rest";
+    EXPECT_EQ(tested.choose(false, true), FrameQuality());
+}
+
 TEST(MotionQuality, AStillViewIsDrawnInFullHoweverSlow) {
     MotionQuality tested;
     for (int i = 0; i < 5; ++i) {
