@@ -123,9 +123,12 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
 } // namespace
 
 double rounding_error(const scene::Camera& camera, glm::ivec2 size) {
-    constexpr double of_distance = 0x1p-20; // block_rays.cpp
-    const double pixel = view::metres_a_pixel(camera, size).y;
-    return pixel > 0.0 ? of_distance / pixel : of_distance;
+    // Floats have errors of 2^-24 of the distance, and a place on a ray adds a few of them.
+    constexpr double of_distance = 0x1p-20;
+    const glm::vec2 pixel = view::metres_a_pixel(camera, size);
+    return camera.projection == scene::ProjectionKind::perspective
+               ? of_distance / pixel.y
+               : of_distance * (camera.orthographic_far - camera.orthographic_near) / pixel.x;
 }
 
 bool draws_technique(const scene::Technique& technique) {
@@ -262,7 +265,8 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
     const PictureRays rays =
         picture_rays(list.camera, list.size, world_from_local, node->surface->placement(),
                      is_streamed ? bounds_of_tiles(list) : samples_and_heights(*node->surface));
-    if (scene::error_bound(node->material.technique) > 0.0) {
+    const bool stands_in = node->stream != nullptr && !is_streamed; // for tiles to be loaded
+    if (scene::error_bound(node->material.technique) > 0.0 && !stands_in) {
         stats.kept_error = kept_error(list);
     }
     if (is_streamed) {
@@ -364,7 +368,7 @@ private:
 
 void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
     // Of a pixel's width: a step of this depth shows another surface.
-    constexpr double step_in_pixels = 8.0;
+    constexpr double step_in_pixels = 2.0;
     const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
     first_.is_perspective = is_perspective(list);
     first_.samples_all = options_.samples_all;

@@ -7,6 +7,8 @@
 #define RELJEF_PACKET_PAINT_INL_H
 #endif
 
+#include <limits>
+
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -362,7 +362,7 @@ struct PacketHits {
 // What the rays of a packet have met in nearer tiles.
 struct Met {
     Lanes found;
-    Lanes below; // where they left the last tile
+    Lanes below; // the surface at the end of the last tile
 
     HWY_INLINE static Met nothing() { return {no_lanes(), no_lanes()}; }
 };

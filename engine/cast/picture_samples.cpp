@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -33,30 +34,55 @@ bool differ(Rgba8 a, Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > same_color;
 }
 
-// Whether three pixels in a row show one smooth surface.
-bool bends(const FirstSamples& first, float before, float here, float after) {
-    const float bend = std::abs(before - 2.0F * here + after);
-    const float nearest = std::max({before, here, after});
-    return bend > first.disagreement * (first.is_perspective ? nearest : 1.0F);
+// A number for each pixel of a row of a block.
+using Row = std::array<std::int32_t, block_side>;
+
+// Sets the pixels that are not on one smooth surface with their neighbours: loops over vector
+// lanes.
+template <bool is_perspective>
+void add_bends(const float* before, const float* here, const float* after, int count,
+               float disagreement, Row& bends) {
+    for (int i = 0; i < count; ++i) {
+        const float bend = std::abs(before[i] - 2.0F * here[i] + after[i]);
+        const float nearest = std::max(std::max(before[i], here[i]), after[i]);
+        const float allowed = is_perspective ? disagreement * nearest : disagreement;
+        bends[static_cast<std::size_t>(i)] |= bend > allowed ? 1 : 0;
+    }
 }
 
-bool needs_samples(const FirstSamples& first, glm::ivec2 pixel) {
-    const Image& picture = first.picture;
+// Of the pixels from `first` on, all of which have neighbours along `step`.
+void add_bends(const FirstSamples& samples, glm::ivec2 first, int count, glm::ivec2 step,
+               Row& bends) {
+    const auto at = [&](glm::ivec2 pixel) { return &samples.nearness(pixel.x, pixel.y); };
+    const auto add = samples.is_perspective ? add_bends<true> : add_bends<false>;
+    add(at(first - step), at(first), at(first + step), count, samples.disagreement, bends);
+}
+
+// One for each pixel of a row of a block that may show several surfaces.
+Row bends_of(const FirstSamples& samples, glm::ivec2 first, int count) {
+    const glm::ivec2 size(samples.picture.cols(), samples.picture.rows());
+    Row bends{};
+    if (first.y > 0 && first.y + 1 < size.y) {
+        add_bends(samples, first, count, {0, 1}, bends);
+    }
+    Row inside{};
+    const int skipped = first.x == 0 ? 1 : 0;
+    const int end = first.x + count == size.x ? count - 1 : count;
+    if (skipped < end) {
+        add_bends(samples, first + glm::ivec2(skipped, 0), end - skipped, {1, 0}, inside);
+    }
+    for (int i = skipped; i < end; ++i) {
+        bends[static_cast<std::size_t>(i)] |= inside[static_cast<std::size_t>(i - skipped)];
+    }
+    return bends;
+}
+
+bool differs_from_neighbours(const Image& picture, glm::ivec2 pixel) {
     const Rgba8 color = picture(pixel.x, pixel.y);
-    const float here = first.nearness(pixel.x, pixel.y);
-    const auto along = [&](glm::ivec2 step) {
-        const glm::ivec2 before = pixel - step;
-        const glm::ivec2 after = pixel + step;
-        if (before.x < 0 || before.y < 0 || after.x >= picture.cols() ||
-            after.y >= picture.rows()) {
-            return false;
-        }
-        const bool changes =
-            differ(color, picture(before.x, before.y)) || differ(color, picture(after.x, after.y));
-        return changes && bends(first, first.nearness(before.x, before.y), here,
-                                first.nearness(after.x, after.y));
-    };
-    return along({1, 0}) || along({0, 1});
+    return differ(color, picture.clamped(pixel.x - 1, pixel.y)) ||
+           differ(color, picture.clamped(pixel.x + 1, pixel.y)) ||
+           differ(color, picture.clamped(pixel.x, pixel.y - 1)) ||
+           differ(color, picture.clamped(pixel.x, pixel.y + 1));
 }
 
 } // namespace
@@ -91,8 +117,12 @@ std::span<const glm::ivec2> sixteenths_of(int samples) {
 void choose_sampled(const FirstSamples& first, const PixelBlock& block, SampledPixels& sampled) {
     sampled.count = 0;
     for (int row = 0; row < block.size.y; ++row) {
+        const glm::ivec2 begin = block.first + glm::ivec2(0, row);
+        const Row bends = bends_of(first, begin, block.size.x);
         for (int col = 0; col < block.size.x; ++col) {
-            if (first.samples_all || needs_samples(first, block.first + glm::ivec2(col, row))) {
+            const bool may_be = bends[static_cast<std::size_t>(col)] != 0 &&
+                                differs_from_neighbours(first.picture, begin + glm::ivec2(col, 0));
+            if (first.samples_all || may_be) {
                 sampled.pixels[static_cast<std::size_t>(sampled.count)] =
                     static_cast<std::uint16_t>(row * block_side + col);
                 ++sampled.count;

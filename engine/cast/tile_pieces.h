@@ -26,7 +26,7 @@ std::vector<TilePiece> pieces_of(const terrain::TileLattice& tile, glm::dvec2 la
                                  glm::dvec2 from);
 
 /// The indices of drawn tiles, in the order in which rays pass them. `from`: where all rays begin,
-/// samples of the tree; infinite where they are parallel.
+/// samples of the tree; infinite for parallel rays.
 std::vector<std::size_t> front_to_back(const terrain::TileTree& tree,
                                        std::span<const terrain::TreeTile> drawn, glm::dvec2 from);
 

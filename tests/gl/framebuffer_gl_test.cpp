@@ -65,6 +65,18 @@ TEST_F(FramebufferGlTest, clearing_reaches_every_pixel_and_encodes_srgb) {
     EXPECT_EQ(test::read_depth(floats), Grid<float>(33, 17, 0.75F));
 }
 
+TEST_F(FramebufferGlTest, uploaded_bytes_are_kept_with_the_first_row_at_the_bottom) {
+    Framebuffer framebuffer = must(Framebuffer::create({.size = {3, 2}, .depth = false}));
+    Image texels(3, 2);
+    for (int i = 0; i < 6; ++i) {
+        texels(i % 3, i / 3) = {static_cast<std::uint8_t>(40 * i), 7, 255, 255};
+    }
+    framebuffer.upload(texels);
+    const Image read = read_color(framebuffer);
+    EXPECT_EQ(read(0, 1), texels(0, 0));
+    EXPECT_EQ(read(2, 0), texels(2, 1));
+}
+
 TEST_F(FramebufferGlTest, drawing_encodes_srgb) {
     const Framebuffer framebuffer = must(Framebuffer::create({.size = {4, 4}}));
     const Program program = test::cover_program("void main() { color = vec4(vec3(0.5), 1.0); }");

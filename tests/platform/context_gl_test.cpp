@@ -230,6 +230,16 @@ TEST(HeadlessContextGlTest, is_osmesa_or_a_hardware_gpu) {
     use(0.5F);
 }
 
+TEST(GpuContextGlTest, is_on_no_cpu_rasterizer) {
+    const auto context = make_gpu_context();
+    if (context) {
+        EXPECT_FALSE((*context)->is_software());
+        EXPECT_EQ((*context)->kind(), ContextKind::egl);
+    } else {
+        EXPECT_THAT(context.error().message, ::testing::Not(HasSubstr("\n")));
+    }
+}
+
 TEST(ContextErrorTest, no_display_says_what_to_do) {
     EXPECT_THAT(message_elsewhere(ContextKind::glfw, "DISPLAY", std::nullopt),
                 AllOf(HasSubstr("context glfw: no display ("),

@@ -130,5 +130,21 @@ TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
     window().swap_buffers();
 }
 
+TEST_F(WindowGlTest, a_picture_of_the_cpu_is_upright) {
+    auto framebuffer = gl::Framebuffer::create({.size = {320, 200}, .depth = false});
+    ASSERT_TRUE(framebuffer) << framebuffer.error().message;
+    Image picture(320, 200);
+    std::fill(picture.row(0).begin(), picture.row(0).end(), Rgba8{255, 0, 0, 255});
+    framebuffer->upload(picture);
+    framebuffer->blit_to_window({320, 200}, gl::FirstRow::top);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    std::array<unsigned char, 4> pixel{};
+    glReadPixels(10, 199, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    EXPECT_EQ(pixel[0], 255);
+    glReadPixels(10, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+    EXPECT_EQ(pixel[0], 0);
+    window().swap_buffers();
+}
+
 } // namespace
 } // namespace reljef::platform

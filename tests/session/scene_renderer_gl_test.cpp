@@ -1,16 +1,20 @@
 #include "engine/session/scene_renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/session/prepared_maps.h"
+#include "engine/session/streaming.h"
 #include "tests/app/made_hill.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/session/made_session.h"
+#include "tests/session/made_waves.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::session {
@@ -71,6 +75,50 @@ TEST_F(SceneRendererWithRays, TakesLightForWhateverDrawsNext) {
         const Rgba8 middle = renderer.read_color()(shown_size.x / 2, shown_size.y / 2);
         EXPECT_GT(middle.r, 2 * middle.g) << scene::to_string(technique);
     }
+}
+
+// Of a stream in a small memory; the tiles are the same.
+TEST_F(SceneRendererWithRays, FindsTheHitsOfOpenGlOverStreamedTiles) {
+    const test::TemporaryFolder folder;
+    test::write_waves(folder.path() / "waves.tif", 1100, 700);
+    SourceOptions choice;
+    choice.terrain = (folder.path() / "waves.tif").string();
+    choice.placement = terrain::PlacementKind::plane;
+    choice.memory_megabytes = 8;
+    choice.streamed = true;
+    SceneOptions view;
+    view.pose = scene::Pose::low;
+    view.max_error = 0.5;
+    Log silent;
+    const TerrainScene scene = test::must(open_scene(choice, view, silent));
+    ASSERT_NE(scene.terrain->get<scene::TerrainNode>()->stream, nullptr);
+    SceneRenderer by_opengl = test::must(test::make_renderer(shown_size));
+    SceneRenderer by_rays =
+        test::must(SceneRenderer::create({.rays = cast::DriverOptions{.size = shown_size}}));
+    for (SceneRenderer* const renderer : {&by_opengl, &by_rays}) {
+        wait_for_tiles(scene.scene, shown_size, renderer->selector(), silent, {});
+    }
+    const HitBuffer opengl = test::must(by_opengl.draw_hits(scene.scene));
+    const HitBuffer rays = test::must(by_rays.draw_hits(scene.scene));
+    int ground = 0;
+    int others = 0; // sky, or more than a pixel apart
+    for (int row = 0; row < shown_size.y; ++row) {
+        for (int col = 0; col < shown_size.x; ++col) {
+            const Hit& a = opengl(col, row);
+            const Hit& b = rays(col, row);
+            ground += b.is_sky() ? 0 : 1;
+            const double far = 0.005 * std::max(a.depth, b.depth) + 1.0; // metres
+            others +=
+                a.is_sky() != b.is_sky() ||
+                        (!a.is_sky() && (10.0 * glm::distance(a.place(), b.place()) > 4.0 * far ||
+                                         std::abs(a.height - b.height) > far))
+                    ? 1
+                    : 0;
+        }
+    }
+    EXPECT_GT(ground, shown_size.x * shown_size.y / 4);
+    EXPECT_LE(others, ground / 50);
+    EXPECT_GT(test::must(by_rays.draw(scene.scene)).tiles, 10);
 }
 
 TEST(SceneRendererOptions, WithRaysAloneNothingElseDraws) {
