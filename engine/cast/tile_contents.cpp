@@ -107,15 +107,11 @@ const scene::TerrainIrradiance& TileContents::irradiance_of(const scene::Terrain
     return *light_.irradiance;
 }
 
-void TileContents::make(const view::DrawList& list, const Options& options,
-                        view::FrameStats& stats) {
-    struct Missing {
-        const view::TileDraw* draw = nullptr;
-        Content* content = nullptr;
-    };
+std::vector<TileContents::Missing>
+TileContents::find_missing(const view::DrawList& list,
+                           const std::optional<scene::TerrainLight>& light, bool paints,
+                           view::FrameStats& stats) {
     std::vector<Missing> missing;
-    const scene::TerrainNode& terrain = *list.tiles.front().terrain;
-    const auto light = view::light_on(list, list.world_from_local(list.tiles.front()));
     for (const view::TileDraw& draw : list.tiles) {
         Content& content = contents_[draw.tile.get()];
         if (content.owner.lock() != draw.tile) {
@@ -123,45 +119,61 @@ void TileContents::make(const view::DrawList& list, const Options& options,
             content.owner = draw.tile;
         }
         content.drawn = frame_;
-        const bool has_pieces = content.pieces.front().has_value();
-        const bool has_paint =
-            !options.paints || (content.levels.has_value() && content.light == light);
-        if (has_pieces && has_paint) {
+        const bool has_paint = !paints || (content.levels && content.light == light);
+        if (content.pieces.front() && has_paint) {
             ++stats.skipped.uploads_unchanged;
         } else {
-            missing.push_back({&draw, &content});
+            missing.push_back({draw.tile.get(), &content});
         }
+    }
+    return missing;
+}
+
+void TileContents::make_pieces(const scene::TileBuilder& builder, const Missing& missing) {
+    const GridView<const float> heights = missing.tile->heightfield.heights.view();
+    for (const TilePiece& piece :
+         pieces_of(builder.lattice(missing.tile->id), glm::dvec2(0.0), glm::dvec2(0.0))) {
+        missing.content->pieces[number_of(piece)].emplace(
+            heights.window(piece.vertex.x, piece.vertex.y, piece.cells.x + 1, piece.cells.y + 1));
+    }
+}
+
+std::size_t TileContents::bytes_of(const Content& content) {
+    std::size_t bytes = content.levels ? content.levels->bytes() : 0;
+    for (const std::optional<RayTile>& piece : content.pieces) {
+        bytes += piece ? piece->bytes() : 0;
+    }
+    return bytes;
+}
+
+void TileContents::make(const view::DrawList& list, const Options& options,
+                        view::FrameStats& stats) {
+    const scene::TerrainNode& terrain = *list.tiles.front().terrain;
+    const auto light = view::light_on(list, list.world_from_local(list.tiles.front()));
+    const std::vector<Missing> missing = find_missing(list, light, options.paints, stats);
+    if (missing.empty()) {
+        return;
     }
     const scene::TileBuilder& builder = terrain.stream->maker();
     const scene::TerrainIrradiance* const irradiance =
-        light && options.paints && !missing.empty() ? &irradiance_of(terrain, *light) : nullptr;
+        light && options.paints ? &irradiance_of(terrain, *light) : nullptr;
+    const auto make_one = [&](int index) {
+        const Missing& one = missing[static_cast<std::size_t>(index)];
+        make_pieces(builder, one);
+        if (options.paints) {
+            one.content->levels.emplace(irradiance != nullptr
+                                            ? scene::lit_tile(builder, *one.tile, *irradiance)
+                                            : one.tile->albedo,
+                                        one.tile->cells + 1);
+            one.content->light = light;
+        }
+    };
     ParallelOptions parallel;
     parallel.threads = options.threads;
-    parallel_for(
-        static_cast<int>(missing.size()),
-        [&](int index) {
-            const auto& [draw, content] = missing[static_cast<std::size_t>(index)];
-            const scene::TerrainTile& tile = *draw->tile;
-            for (const TilePiece& piece :
-                 pieces_of(builder.lattice(tile.id), glm::dvec2(0.0), glm::dvec2(0.0))) {
-                content->pieces[number_of(piece)].emplace(tile.heightfield.heights.view().window(
-                    piece.vertex.x, piece.vertex.y, piece.cells.x + 1, piece.cells.y + 1));
-            }
-            if (options.paints) {
-                content->levels.emplace(irradiance != nullptr
-                                            ? scene::lit_tile(builder, tile, *irradiance)
-                                            : tile.albedo,
-                                        tile.cells + 1);
-                content->light = light;
-            }
-        },
-        parallel);
+    parallel_for(static_cast<int>(missing.size()), make_one, parallel);
     stats.uploads += static_cast<int>(missing.size());
     for (const Missing& made : missing) {
-        for (const auto& piece : made.content->pieces) {
-            stats.upload_bytes += piece ? piece->bytes() : 0;
-        }
-        stats.upload_bytes += made.content->levels ? made.content->levels->bytes() : 0;
+        stats.upload_bytes += bytes_of(*made.content);
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -46,8 +47,19 @@ private:
         std::shared_ptr<const scene::TerrainIrradiance> irradiance;
     };
 
+    // A tile without all that it needs.
+    struct Missing {
+        const scene::TerrainTile* tile = nullptr;
+        Content* content = nullptr;
+    };
+
     void forget_unused();
+    std::vector<Missing> find_missing(const view::DrawList& list,
+                                      const std::optional<scene::TerrainLight>& light, bool paints,
+                                      view::FrameStats& stats);
     void make(const view::DrawList& list, const Options& options, view::FrameStats& stats);
+    static void make_pieces(const scene::TileBuilder& builder, const Missing& missing);
+    static std::size_t bytes_of(const Content& content);
     const scene::TerrainIrradiance& irradiance_of(const scene::TerrainNode& terrain,
                                                   const scene::TerrainLight& light);
 
