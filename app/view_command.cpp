@@ -93,6 +93,7 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
                         .threads = static_cast<unsigned>(choice.terrain.threads),
                         .samples = samples,
                         .target = *target};
+        options.expects_rays = rays == session::RayUse::only;
     }
     return session::SceneRenderer::create(options);
 }

@@ -26,7 +26,8 @@ bool rays_draw(const scene::Technique& technique) {
 SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
     : opengl_options_(options.opengl), make_context_(options.make_context),
       size_(options.rays ? options.rays->size : options.opengl->size),
-      shows_rays_(options.rays.has_value()), selector_(options.select, options.selects_always) {}
+      shows_rays_(options.rays.has_value()), expects_rays_(options.expects_rays),
+      selector_(options.select, options.selects_always) {}
 
 Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
     reljef::check(options.opengl || options.rays, "a driver was expected");
@@ -70,7 +71,7 @@ Result<bool> SceneRenderer::choose_rays() {
             return prepared.error();
         }
     }
-    if (drawn_ > 0 && shows_rays_ != by_rays) {
+    if ((drawn_ > 0 || expects_rays_) && shows_rays_ != by_rays) {
         note_ = by_rays ? "exact rays on the CPU draw again"
                         : obstacle + ": drawn by OpenGL, not by rays on the CPU";
     }

@@ -34,6 +34,7 @@ struct SceneRendererOptions {
     std::optional<render::DriverOptions> opengl = {}; ///< absent: rays only
     /// Absent: OpenGL only. With both, rays draw the frames that they can draw.
     std::optional<cast::DriverOptions> rays = {};
+    bool expects_rays = false; ///< take_note() also says why OpenGL draws the first frame
     /// With both: makes the context before OpenGL's first frame; empty: there is one.
     std::function<Result<void>()> make_context = {};
     view::SelectOptions select = {};
@@ -80,7 +81,8 @@ public:
 
     /// Whether rays drew the last frame; before the first, whether they draw at all.
     [[nodiscard]] bool shows_rays() const { return shows_rays_; }
-    /// A sentence if other means drew the last frame than the one before, once; else empty.
+    /// A sentence if other means drew the last frame than the one before, once; else empty. See
+    /// SceneRendererOptions::expects_rays for the first one.
     std::string take_note() { return std::exchange(note_, {}); }
 
 private:
@@ -98,6 +100,7 @@ private:
     glm::ivec2 size_;
     std::vector<std::shared_ptr<const view::PreparedLight>> lights_; // for the next frame
     bool shows_rays_;
+    bool expects_rays_;
     std::string note_;
     view::FrameSelector selector_;
     int drawn_ = 0; // the selection that was drawn last, counted from 1

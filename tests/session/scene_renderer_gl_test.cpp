@@ -61,6 +61,19 @@ TEST_F(SceneRendererWithRays, DrawsByRaysWhatTheyCanDrawAndSaysSoWhenThatChanges
     EXPECT_EQ(renderer.read_color().cols(), shown_size.x / 2);
 }
 
+TEST_F(SceneRendererWithRays, SaysWhyOpenGlDrawsTheFirstFrameIfRaysAreExpected) {
+    TerrainScene scene = app::hill_scene();
+    use(scene, {scene::Texture{}});
+    for (const bool expects_rays : {false, true}) {
+        SceneRenderer renderer =
+            test::must(SceneRenderer::create({.opengl = opengl_options(),
+                                              .rays = cast::DriverOptions{.size = shown_size},
+                                              .expects_rays = expects_rays}));
+        test::must(renderer.draw(scene.scene));
+        EXPECT_EQ(renderer.take_note().empty(), !expects_rays);
+    }
+}
+
 TEST_F(SceneRendererWithRays, TakesLightForWhateverDrawsNext) {
     TerrainScene scene = app::hill_scene();
     for (const scene::Technique& technique :
