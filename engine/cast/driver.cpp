@@ -350,7 +350,9 @@ private:
             for (int col = 0; col < block.size.x; ++col) {
                 const float depth = shared_.anchor + from[col];
                 constexpr float sky = -1e30F;
-                to[col] = first_.is_perspective ? 1.0F / depth : std::max(-depth, sky);
+                constexpr float nearest = std::numeric_limits<float>::min(); // rounding may give 0
+                to[col] =
+                    first_.is_perspective ? 1.0F / std::max(depth, nearest) : std::max(-depth, sky);
             }
         }
     }
