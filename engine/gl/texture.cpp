@@ -12,15 +12,6 @@ namespace reljef::gl {
 
 namespace {
 
-glm::ivec2 level_size(glm::ivec2 size, int level) {
-    return {std::max(size.x >> level, 1), std::max(size.y >> level, 1)};
-}
-
-/// 1 + floor(log2(longer side)). Precondition: size > 0.
-int full_chain_levels(glm::ivec2 size) {
-    return static_cast<int>(std::bit_width(static_cast<unsigned int>(std::max(size.x, size.y))));
-}
-
 GLint minification(Filter filter, int levels) {
     if (levels == 1) {
         return filter == Filter::nearest ? GL_NEAREST : GL_LINEAR;
@@ -30,7 +21,19 @@ GLint minification(Filter filter, int levels) {
                                         : GL_LINEAR_MIPMAP_LINEAR;
 }
 
-Result<void> check_size(glm::ivec2 size, int levels) {
+} // namespace
+
+glm::ivec2 level_size(glm::ivec2 size, int level) {
+    return {std::max(size.x >> level, 1), std::max(size.y >> level, 1)};
+}
+
+int full_chain_levels(glm::ivec2 size) {
+    return static_cast<int>(std::bit_width(static_cast<unsigned int>(std::max(size.x, size.y))));
+}
+
+Result<void> check_texture(const TextureOptions& options) {
+    const glm::ivec2 size = options.size;
+    const int levels = options.levels;
     GLint max = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &max);
     if (size.x < 1 || size.y < 1 || size.x > max || size.y > max) {
@@ -45,7 +48,14 @@ Result<void> check_size(glm::ivec2 size, int levels) {
     return {};
 }
 
-} // namespace
+void set_sampling(unsigned int texture, const TextureOptions& options, int levels) {
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, minification(options.filter, levels));
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER,
+                        options.filter == Filter::nearest ? GL_NEAREST : GL_LINEAR);
+    const GLint mode = options.wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, mode);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, mode);
+}
 
 FormatTraits traits(Format format) {
     switch (format) {
@@ -70,7 +80,7 @@ FormatTraits traits(Format format) {
 }
 
 Result<Texture2D> Texture2D::create(const TextureOptions& options) {
-    if (const auto sized = check_size(options.size, options.levels); !sized) {
+    if (const auto sized = check_texture(options); !sized) {
         return sized.error();
     }
     Texture2D texture;
@@ -87,7 +97,7 @@ Result<Texture2D> Texture2D::create(const TextureOptions& options) {
         return Error{fmt::format("GL texture of {} x {} {} texels: the driver has no memory for it",
                                  options.size.x, options.size.y, traits(options.format).name)};
     }
-    texture.set_sampling(options.filter, options.wrap);
+    set_sampling(name, options, texture.levels_);
     return texture;
 }
 
@@ -106,15 +116,6 @@ void Texture2D::generate_mipmaps() {
     if (levels_ > 1) {
         glGenerateTextureMipmap(id());
     }
-}
-
-void Texture2D::set_sampling(Filter filter, Wrap wrap) {
-    glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, minification(filter, levels_));
-    glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER,
-                        filter == Filter::nearest ? GL_NEAREST : GL_LINEAR);
-    const GLint mode = wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-    glTextureParameteri(id(), GL_TEXTURE_WRAP_S, mode);
-    glTextureParameteri(id(), GL_TEXTURE_WRAP_T, mode);
 }
 
 void Texture2D::bind(unsigned int unit) const {

@@ -47,6 +47,15 @@ struct TextureOptions {
     Wrap wrap = Wrap::clamp;
 };
 
+/// Size of a mip level.
+glm::ivec2 level_size(glm::ivec2 size, int level);
+/// 1 + floor(log2(longer side)). Precondition: size > 0.
+int full_chain_levels(glm::ivec2 size);
+/// Fails unless the sides are in 1..GL_MAX_TEXTURE_SIZE and the size has the levels.
+Result<void> check_texture(const TextureOptions& options);
+/// Sets filters and wrap mode of a texture with `levels` levels.
+void set_sampling(unsigned int texture, const TextureOptions& options, int levels);
+
 /// A 2D texture of fixed size and format. Row 0 of an upload is at v = 0.
 class Texture2D {
 public:
@@ -81,8 +90,6 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    void set_sampling(Filter filter, Wrap wrap);
-
     UniqueId<delete_texture> id_;
     glm::ivec2 size_{0, 0};
     int levels_ = 0;

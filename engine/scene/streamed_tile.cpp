@@ -410,6 +410,19 @@ glm::vec3 up_at(const TileBuilder& builder, const TerrainTile& tile, glm::ivec2 
                : glm::vec3(builder.overview().placement().up(tile.place(vertex)));
 }
 
+// `light`: at the vertices, linear.
+Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light) {
+    Image lit(tile.albedo.cols(), tile.albedo.rows());
+    parallel_for(lit.rows(), [&](int row) {
+        for (int col = 0; col < lit.cols(); ++col) {
+            lit(col, row) =
+                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
+                                  bilinear(light, tile.vertex_of({col, row}), std::identity()));
+        }
+    });
+    return lit;
+}
+
 } // namespace
 
 Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
@@ -427,15 +440,22 @@ Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                 irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}), visibility);
         }
     }
-    Image lit(tile.albedo.cols(), tile.albedo.rows());
-    parallel_for(lit.rows(), [&](int row) {
-        for (int col = 0; col < lit.cols(); ++col) {
-            lit(col, row) =
-                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
-                                  bilinear(light, tile.vertex_of({col, row}), std::identity()));
+    return reflected(tile, light);
+}
+
+LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
+                            const TerrainIrradiance& irradiance) {
+    Grid<glm::vec3> sky(tile.cells.x + 1, tile.cells.y + 1);
+    Grid<glm::vec3> sun(tile.cells.x + 1, tile.cells.y + 1);
+    for (int row = 0; row < sky.rows(); ++row) {
+        for (int col = 0; col < sky.cols(); ++col) {
+            const IrradianceParts parts =
+                irradiance.parts_at(tile.normals(col, row), up_at(builder, tile, {col, row}));
+            sky(col, row) = parts.sky;
+            sun(col, row) = parts.sun;
         }
-    });
-    return lit;
+    }
+    return {reflected(tile, sky), reflected(tile, sun)};
 }
 
 } // namespace reljef::scene

@@ -134,4 +134,12 @@ private:
 Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                const TerrainIrradiance& irradiance);
 
+/// The same in parts, for callers that compute shadows themselves.
+struct LitTileParts {
+    Image sky;
+    Image sun; ///< without shadows
+};
+LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
+                            const TerrainIrradiance& irradiance);
+
 } // namespace reljef::scene

@@ -56,11 +56,18 @@ struct CoarseTerrain {
     Coarseness coarseness;
 };
 
+/// Maximum of ReliefDraw::tiles.
+inline constexpr std::size_t max_relief_tiles = 2048;
+
 /// One terrain whose pixels search for the surface along their rays.
 struct ReliefDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
     double distance = 0.0;
+    /// Loaded tiles of a stream, the coarsest first: the root, those that the view needs, and those
+    /// above them. Where they overlap, the finest is the surface, so that rays find ground beside
+    /// the picture, too. Empty: the samples of the terrain's surface.
+    std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
 };
 
 struct MeshDraw {

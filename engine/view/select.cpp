@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -92,6 +93,38 @@ double bound_of(const std::optional<Coarseness>& coarseness) {
     return view != nullptr ? view->max_error : 0.0;
 }
 
+// The drawn tiles and loaded ones above them, the coarsest first.
+std::vector<std::shared_ptr<const scene::TerrainTile>>
+with_coarser(const scene::TileStream& stream, std::span<const TileSelection::Drawn> drawn) {
+    std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> coarser;
+    const terrain::TreeTile root = stream.tree().root();
+    coarser.emplace(root, stream.find(root));
+    for (const TileSelection::Drawn& tile : drawn) {
+        terrain::TreeTile above = tile.tile->id;
+        while (above.level < root.level) {
+            above = {above.level + 1, above.col / 2, above.row / 2};
+            if (!coarser.contains(above)) {
+                coarser.emplace(above, stream.find(above));
+            }
+        }
+    }
+    for (const TileSelection::Drawn& tile : drawn) {
+        coarser.erase(tile.tile->id);
+    }
+    std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
+    for (auto tile = coarser.rbegin(); tile != coarser.rend(); ++tile) {
+        if (tile->second != nullptr && tiles.size() + drawn.size() < max_relief_tiles) {
+            tiles.push_back(tile->second);
+        }
+    }
+    for (const TileSelection::Drawn& tile : drawn) {
+        tiles.push_back(tile.tile);
+    }
+    std::stable_sort(tiles.begin(), tiles.end(),
+                     [](const auto& a, const auto& b) { return b->id.level < a->id.level; });
+    return tiles;
+}
+
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
@@ -146,12 +179,33 @@ private:
 
     void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
-        if (frustum_.may_see(bounds)) {
-            list_.reliefs.push_back(
-                {&terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds))});
+        ReliefDraw draw{
+            &terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds)), {}};
+        bool is_seen = frustum_.may_see(bounds);
+        if (has_streamed_tiles(terrain)) {
+            const TileSelection choice = select_streamed(terrain, world_from_local);
+            if (choice.has_root) {
+                draw.tiles = with_coarser(*terrain.stream, choice.drawn);
+                is_seen = !choice.drawn.empty();
+            }
+        }
+        if (is_seen) {
+            list_.reliefs.push_back(std::move(draw));
         } else {
             ++list_.stats.skipped.nodes_outside_frustum;
         }
+    }
+
+    // Requests and counts the tiles of a stream.
+    TileSelection select_streamed(const scene::TerrainNode& terrain,
+                                  const glm::dmat4& world_from_local) {
+        TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
+                                            {.keeps_hidden = !options_.occlusion});
+        requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
+        list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
+        list_.stats.skipped.tiles_occluded += choice.hidden_unread;
+        list_.stats.tiles_missing += static_cast<int>(requests_.back().missing.size());
+        return choice;
     }
 
     // False if the overview is drawn: without a stream, and before its root is loaded.
@@ -159,9 +213,7 @@ private:
         if (!has_streamed_tiles(terrain)) {
             return false;
         }
-        TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
-                                            {.keeps_hidden = !options_.occlusion});
-        requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
+        TileSelection choice = select_streamed(terrain, world_from_local);
         TileDraw draw = draw_of(terrain);
         auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
         const double bound = bound_of(coarseness);
@@ -187,9 +239,6 @@ private:
                 list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
             }
         }
-        list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
-        list_.stats.skipped.tiles_occluded += choice.hidden_unread;
-        list_.stats.tiles_missing += static_cast<int>(requests_.back().missing.size());
         return choice.has_root;
     }
 

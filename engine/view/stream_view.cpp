@@ -11,6 +11,8 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/view/draw_list.h"
+
 namespace reljef::view {
 namespace {
 
@@ -52,6 +54,14 @@ double max_error_of(const scene::Technique& technique) {
     return error > 0.0 ? std::max(error, min_error) - rasterizer_error : default_error;
 }
 
+// Rays also need the tiles above the drawn ones: at most a third as many if all are in the view.
+std::size_t max_drawn_of(const scene::TerrainNode& terrain) {
+    constexpr std::size_t max_searched = max_relief_tiles / 4 * 3;
+    const std::size_t fit = terrain.stream->max_drawn();
+    return scene::searches_surface(terrain.material.technique.id()) ? std::min(fit, max_searched)
+                                                                    : fit;
+}
+
 // Heights of the finer tiles below a tile: of all samples, or expected.
 terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
     if (tile.is_proven) {
@@ -67,7 +77,7 @@ terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) 
 StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera,
                        glm::ivec2 size, const glm::dmat4& world_from_local)
     : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
-      max_error_(max_error_of(terrain.material.technique)),
+      max_drawn_(max_drawn_of(terrain)), max_error_(max_error_of(terrain.material.technique)),
       frustum_(scene::clip_from_world(camera, size)),
       wider_(wider_picture(camera, size, max_error_)),
       wider_frustum_(scene::clip_from_world(wider_.camera, wider_.size)),

@@ -31,6 +31,8 @@ public:
 
     [[nodiscard]] const scene::TileStream& stream() const { return stream_; }
     [[nodiscard]] const scene::TileBuilder& builder() const { return stream_.maker(); }
+    /// Maximum number of tiles in a view.
+    [[nodiscard]] std::size_t max_drawn() const { return max_drawn_; }
     /// Empty if nothing can be hidden.
     [[nodiscard]] const std::optional<terrain::HorizonView>& horizon() const { return horizon_; }
     /// Empty if the Earth hides nothing.
@@ -109,6 +111,7 @@ private:
     const scene::TileStream& stream_;
     const scene::Camera& camera_;
     const glm::dmat4& world_from_local_;
+    std::size_t max_drawn_;
     double max_error_; // pixels, without the rasterizer's error
     Frustum frustum_;
     WiderPicture wider_; // contains the true places of all pixels that keep the error bound

@@ -70,12 +70,12 @@ public:
     [[nodiscard]] bool walk(const scene::TerrainTile& root) {
         open_.push({view_.along(root.bounds), root.id, root.bounds,
                     std::numeric_limits<double>::infinity(), root.id});
-        while (!open_.empty() && leaves_ <= view_.stream().max_drawn()) {
+        while (!open_.empty() && leaves_ <= view_.max_drawn()) {
             const Candidate next = open_.top();
             open_.pop();
             visit(next);
         }
-        return leaves_ <= view_.stream().max_drawn();
+        return leaves_ <= view_.max_drawn();
     }
 
     [[nodiscard]] const std::vector<Candidate>& missing() const { return missing_; }
@@ -257,8 +257,7 @@ TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double 
                              const StreamView& view, const scene::TerrainTile& root,
                              const TileSelectionOptions& options) {
     WalkLimits limits;
-    limits.max_relative_error =
-        refine_within(view.stream().max_drawn(), view, root, nearer).relative_error;
+    limits.max_relative_error = refine_within(view.max_drawn(), view, root, nearer).relative_error;
     if (limits.max_relative_error >= coarse_error) {
         return coarse;
     }
@@ -305,7 +304,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
         if (!walk.walk(root)) {
             NearerGround nothing(view.builder(), std::nullopt);
             limits.max_relative_error =
-                refine_within(view.stream().max_drawn(), view, root, nothing).relative_error;
+                refine_within(view.max_drawn(), view, root, nothing).relative_error;
             limits.hides = limits.hides && root.is_proven;
             continue;
         }

@@ -1,9 +1,17 @@
 #include "frame/bindings.inc"
+#ifdef STREAMED
+#include "frame/relief_block.glsl"
+uniform vec2 height_texel; // 1 / vertices of a tile
+#include "relief/relief_streamed.glsl"
+#include "relief/relief_streamed_max.glsl"
+#endif
 
 // The height down to which the beam of a block of pixels meets nothing (Laine and Karras 2010, beam
 // optimization; here with a max mipmap).
+#ifndef STREAMED
 layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
 uniform ivec2 last_cell;
+#endif
 uniform int top_level;
 // Search space; matrix · (1, x, y), with x and y as gl_FragCoord.
 uniform mat3 origin_of_ray;
@@ -44,22 +52,46 @@ float largest(vec4 values) {
     return max(max(values.x, values.y), max(values.z, values.w));
 }
 
+#ifdef STREAMED
+bool is_outside(vec2 low, vec2 high) {
+    return any(greaterThan(low, box_end.xy)) || any(lessThan(high, box_begin.xy));
+}
+
+float max_height_in_block(ivec2 block, int level) {
+    vec2 page = page_of_block(block, level);
+    StreamedTile tile = tile_of_page(page.x);
+    int coarser = max(tile.level - level, 0); // the block lies in a larger cell
+    return max_height_of(block >> coarser, level + coarser, page, tile);
+}
+#else
+bool is_outside(vec2 low, vec2 high) {
+    return any(greaterThan(low, vec2(last_cell) + 1.0)) || any(lessThan(high, vec2(0.0)));
+}
+
+ivec2 cell_at(vec2 place) {
+    return ivec2(clamp(place, vec2(0.0), vec2(last_cell)));
+}
+
+float max_height_in_block(ivec2 block, int level) {
+    return texelFetch(max_mipmap, block, level).r;
+}
+#endif
+
 // Maximum height over a rectangle, from the level where at largest four blocks cover it.
 float max_height_within(vec2 low, vec2 high) {
-    vec2 end = vec2(last_cell);
-    if (any(greaterThan(low, end + 1.0)) || any(lessThan(high, vec2(0.0)))) {
+    if (is_outside(low, high)) {
         return -1.0; // outside the surface
     }
-    ivec2 first = ivec2(clamp(low, vec2(0.0), end));
-    ivec2 last = ivec2(clamp(high, vec2(0.0), end));
+    ivec2 first = cell_at(low);
+    ivec2 last = cell_at(high);
     ivec2 extent = last - first;
     int level = min(findMSB(max(max(extent.x, extent.y) - 1, 0)) + 1, top_level);
     first >>= level;
     last >>= level;
-    vec4 heights = vec4(texelFetch(max_mipmap, first, level).r,
-                        texelFetch(max_mipmap, ivec2(last.x, first.y), level).r,
-                        texelFetch(max_mipmap, ivec2(first.x, last.y), level).r,
-                        texelFetch(max_mipmap, last, level).r);
+    vec4 heights = vec4(max_height_in_block(first, level),
+                        max_height_in_block(ivec2(last.x, first.y), level),
+                        max_height_in_block(ivec2(first.x, last.y), level),
+                        max_height_in_block(last, level));
     return largest(heights);
 }
 

@@ -3,7 +3,9 @@
 #include "frame/fragment.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"
-#if defined(EXACT)
+#if defined(EXACT) && defined(STREAMED)
+#include "relief/relief_exact_streamed.glsl"
+#elif defined(EXACT)
 #include "relief/relief_exact.glsl"
 #elif defined(CONE)
 #include "relief/relief_cone.glsl"
@@ -34,14 +36,29 @@ vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative 
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
-uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
-
-layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
-#ifdef SHADOW
-layout(binding = sun_map_unit) uniform sampler2D sun_map; // the sun's part; lit_map has the rest
+#include "relief/relief_light.glsl"
+#ifdef STREAMED
+#ifdef HIT
+uniform vec4 origin_sample;   // xy: col, row of the search space's origin; zw: to be added
+uniform float samples_a_cell; // of the finest tiles
+#endif
 #endif
 
 #include "frame/output.glsl"
+
+#if defined(HIT) && defined(STREAMED)
+// origin_sample plus the place as two floats (Knuth's two-sum).
+void write_place(vec2 place, float height, float depth) {
+    vec2 offset = place * samples_a_cell; // exact: a power of two
+    precise vec2 sum = origin_sample.xy + offset;
+    precise vec2 added = sum - origin_sample.xy;
+    precise vec2 low = ((origin_sample.xy - (sum - added)) + (offset - added)) + origin_sample.zw;
+    precise vec2 high = sum + low;
+    precise vec2 rest = low - (high - sum);
+    hit = vec4(high, height, depth);
+    hit_low = rest;
+}
+#endif
 
 // Entry of the ray into the box, as a negative multiple of `along`; in perspective behind the near plane.
 float entry_before(vec3 point, vec3 direction) {
@@ -56,8 +73,8 @@ float entry_before(vec3 point, vec3 direction) {
 #ifndef HIT
 // Mip level from derivatives, limited to an anisotropy of 8: over a silhouette the neighbours show another
 // place.
-float level_of(vec2 coordinate, float distance_to_hit) {
-    vec2 texels = coordinate * vec2(textureSize(lit_map, 0));
+float level_of(vec2 place, float distance_to_hit) {
+    vec2 texels = texels_at(place);
     vec2 across = dFdx(texels);
     vec2 down = dFdy(texels);
     float longest = 8.0 * distance_to_hit * texels_per_metre_away;
@@ -74,11 +91,11 @@ float near_level(float level, float distance_to_hit) {
 
 #ifndef HIT
 vec3 lit_at(vec2 place, float level) {
-    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
-    vec3 lit = textureLod(lit_map, coordinate, level).rgb;
+    LitPlace at = lit_place(place, level);
+    vec3 lit = reflected_at(at);
 #ifdef SHADOW
     vec3 sun_direction = space_from_relative * to_sun.xyz;
-    lit += sun_at(place, sun_direction, box_begin.xyz, box_end.xyz) * textureLod(sun_map, coordinate, level).rgb;
+    lit += sun_at(place, sun_direction, box_begin.xyz, box_end.xyz) * of_sun_at(at);
 #endif
     return lit;
 }
@@ -128,11 +145,15 @@ void main() {
 #endif
 #ifdef HIT
     float height = height_span.x + height_span.y * height_at(place);
+#ifdef STREAMED
+    write_place(place, height, dot(relative, view_forward.xyz));
+#else
     hit = vec4(place, height, dot(relative, view_forward.xyz));
     hit_low = vec2(0.0);
+#endif
 #else
     float metres = length(relative);
-    float level = level_of(place * lit_from_sample.xy + lit_from_sample.zw, metres);
+    float level = level_of(place, metres);
     vec3 shown = color_at(place, level, metres);
 #ifdef SMOOTH_EDGES
     vec2 missed;

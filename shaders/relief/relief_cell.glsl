@@ -1,13 +1,11 @@
-// The part at which the ray crosses a cell's bilinear surface downwards; 2 if it does not. `above`: the ray
-// enters above the surface, despite rounding.
-float crossing(vec3 start, vec3 span, ivec2 cell, float begin, float end, inout bool above) {
-    vec4 corners = textureGather(height_map, (vec2(cell) + 1.0) * height_texel);
+// The part at which the ray crosses a cell's bilinear surface downwards; 2 if it does not. `corners`: as from
+// textureGather; `enter`, `way`: of the ray in the cell, whose sides are 1; `above`: the ray enters above the
+// surface, despite rounding.
+float crossing(vec4 corners, vec3 enter, vec3 way, float begin, float end, inout bool above) {
     float h01 = corners.x;
     float h11 = corners.y;
     float h10 = corners.z;
     float h00 = corners.w;
-    vec3 enter = start + begin * span - vec3(cell, 0.0);
-    vec3 way = (end - begin) * span;
     float east = h10 - h00;
     float south = h01 - h00;
     float twist = h00 - h10 - h01 + h11;

@@ -4,6 +4,8 @@
 #ifdef TILE
 layout(binding = cone_map_unit) uniform sampler2D cone_map;
 uniform ivec2 last_cell;
+#elif defined(STREAMED)
+layout(binding = relief_cone_map_unit) uniform sampler2DArray cone_maps; // cells of a tile per metre
 #else
 layout(binding = relief_cone_map_unit) uniform sampler2D cone_map;
 #endif
@@ -17,10 +19,43 @@ vec2 cones_at(vec2 place) {
     cell -= cells * floor(cell / cells);
 #endif
     return texelFetch(cone_map, clamp(ivec2(cell), ivec2(0), last_cell), 0).rg;
+#elif defined(STREAMED)
+    ivec2 cell = cell_at(place);
+    StreamedTile tile = tile_of_page(page_of(cell).x);
+    TileCell found = tile_cell(cell, tile.level);
+    vec2 cones = texelFetch(cone_maps, ivec3(found.index, int(tile.layer)), 0).rg;
+    return cones * (height_span.y * min(found.extent.x, found.extent.y));
 #else
     return texelFetch(cone_map, ivec2(place), 0).rg;
 #endif
 }
+
+// The last part to which the cone of a place holds.
+#ifdef STREAMED
+// Cones know their own tile only, and take all its cells for equal: the terrain's end may cut the last ones.
+// Steps a little into the next tile.
+float end_of_cone(vec3 start, vec3 span, float at) {
+    const float beyond = 1.0 / 1024.0; // cells
+    ivec2 cell = cell_at(start.xy + at * span.xy);
+    int level = tile_of_page(page_of(cell).x).level;
+    int bits = page_level + level;
+    vec2 low = vec2(((cell >> bits) << bits) - origin_cell);
+    vec2 high = low + float(page_cells << level);
+    vec2 cut = low + floor((box_end.xy - low) / float(1 << level)) * float(1 << level);
+    vec2 here = start.xy + at * span.xy;
+    bvec2 in_cut = greaterThanEqual(here, cut);
+    low = mix(low, cut, in_cut);
+    high = mix(min(high, cut), high, in_cut);
+    vec2 border = mix(low, high, greaterThan(span.xy, vec2(0.0)));
+    vec2 still = vec2(equal(span.xy, vec2(0.0)));
+    vec2 ends = (abs(border - start.xy) + beyond) / (abs(span.xy) + still) + 2.0 * still;
+    return min(ends.x, ends.y);
+}
+#else
+float end_of_cone(vec3 start, vec3 span, float at) {
+    return 3.0; // beyond the ray
+}
+#endif
 
 // Bisection, then a secant, between `part` at clearance `over` (>= 0) and `low_part` at `under` (< 0).
 float halved(vec3 start, vec3 span, float part, float over, float low_part, float under) {
@@ -55,7 +90,8 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         float ratio = relaxed ? cones.g : cones.r;
         float opens = run - ratio * span.z;
         float way = opens > 0.0 ? max(ratio * over / opens, min_way) : 1.0;
-        next = min(at + (over >= 0.0 ? way : 1.0 / steps_below), 1.0);
+        way = over >= 0.0 ? min(way, end_of_cone(start, span, at) - at) : 1.0 / steps_below;
+        next = min(at + way, 1.0);
         vec3 p = start + next * span;
         float now = p.z - height_at(p.xy);
         if (now < 0.0 && over >= 0.0) {

@@ -1,7 +1,9 @@
 #include "frame/technique_block.glsl"
 
 // The searched surface: x column, y row, z height in [0,1].
+#ifndef STREAMED
 layout(binding = height_map_unit) uniform sampler2D height_map;
+#endif
 uniform vec2 height_texel; // 1 / samples
 #ifdef TILE
 vec3 metres_per_unit = vec3(1.0); // of the search space at this fragment
@@ -38,9 +40,13 @@ float outward() {
     return (hit_layer & 1) == 0 ? 1.0 : -1.0;
 }
 #else
+#ifdef STREAMED
+#include "relief/relief_streamed.glsl"
+#else
 float height_at(vec2 place) {
     return textureLod(height_map, (place + 0.5) * height_texel, 0.0).r;
 }
+#endif
 
 float depth_in_surface(vec3 point) {
     return height_at(point.xy) - point.z;
@@ -57,6 +63,8 @@ bool begins_above = false;
 bool is_on_surface(vec2 place) {
 #ifdef TILE
     return !is_off_tile((place + 0.5) * height_texel);
+#elif defined(STREAMED)
+    return all(greaterThanEqual(place, box_begin.xy)) && all(lessThanEqual(place, box_end.xy));
 #else
     vec2 last = vec2(textureSize(height_map, 0) - 1);
     return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, last));

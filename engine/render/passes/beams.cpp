@@ -52,15 +52,11 @@ Result<void> BeamTarget::prepare(const view::DrawList& list) {
     return {};
 }
 
-void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays) {
-    check(relief.max_mipmap.has_value(), "beams over a relief without its greatest heights");
-    relief.max_mipmap->bind(bindings::max_mipmap_unit);
-    program.set(uniforms.last_cell, relief.heights.size() - 2);
-    program.set(uniforms.top_level, relief.max_mipmap->levels() - 1);
+void set_beams(gl::Program& program, const ReliefSpace& space, const PictureRays& rays) {
     program.set(uniforms.origin_of_ray, rays.origin_of_ray);
     program.set(uniforms.direction_of_ray, rays.direction_of_ray);
     program.set(uniforms.begin_height, rays.begin_height);
-    program.set(uniforms.beam_lift, static_cast<float>(relief.space.box.high.z - 1.0));
+    program.set(uniforms.beam_lift, static_cast<float>(space.box.high.z - 1.0));
 }
 
 } // namespace reljef::render

@@ -35,7 +35,7 @@ private:
     glm::ivec2 picture_size_{0};
 };
 
-/// Sets the uniforms and the max mipmap of beams.frag. Precondition: the relief has a max mipmap.
-void set_beams(gl::Program& program, const ResidentRelief& relief, const PictureRays& rays);
+/// Sets the rays of beams.frag.
+void set_beams(gl::Program& program, const ReliefSpace& space, const PictureRays& rays);
 
 } // namespace reljef::render

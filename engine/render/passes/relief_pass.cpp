@@ -4,6 +4,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/core/geometry.h"
 #include "engine/render/passes/beams.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
@@ -13,34 +14,29 @@
 namespace reljef::render {
 namespace {
 
-Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
-    DrawState& state = frame.state;
-    auto program = state.use({ShaderKind::beams});
-    if (!program) {
-        return program.error();
-    }
-    const ResidentRelief& relief = frame.residency.relief(draw);
-    state.set_wireframe(false);
-    set_beams(**program, relief,
-              picture_rays(frame.list.camera, frame.list.size, relief.space,
-                           glm::inverse(draw.world_from_local)));
-    frame.beams.bind();
-    gl::draw_arrays(gl::Primitive::triangles, 3);
-    frame.picture.bind();
-    state.stats().state_changes += 3;
-    ++state.stats().draws;
-    return {};
+bool is_streamed(const view::ReliefDraw& draw) {
+    return !draw.tiles.empty();
 }
 
-void bind_light(gl::Program& program, const ResidentMaps& maps) {
-    maps.lit.bind(bindings::lit_map_unit);
-    if (maps.sun) {
-        maps.sun->bind(bindings::sun_map_unit);
-    }
-    program.set(uniforms.lit_from_sample, maps.lit_from_sample);
+std::uint32_t streamed_feature(const view::ReliefDraw& draw) {
+    return is_streamed(draw) ? feature_streamed : 0U;
 }
 
-void set_heights(gl::Program& program, const ResidentRelief& relief) {
+const ReliefSpace& space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
+    return is_streamed(draw) ? frame.residency.relief_tiles().tiles(draw).space.space
+                             : frame.residency.relief(draw).space;
+}
+
+ReliefBlock relief_block(const ReliefSpace& space) {
+    return {.box_low = glm::vec4(glm::vec3(space.local_box.low), 0.0F),
+            .box_high = glm::vec4(glm::vec3(space.local_box.high), 0.0F),
+            .box_begin = glm::vec4(glm::vec3(space.box.low), 0.0F),
+            .box_end = glm::vec4(glm::vec3(space.box.high), 0.0F),
+            .space_scale = glm::vec4(space.metres_per_unit, 0.0F),
+            .height_span = glm::vec4(space.lowest, space.range, 1.0 / space.range, 0.0)};
+}
+
+void set_own_heights(gl::Program& program, const ResidentRelief& relief) {
     relief.heights.bind(bindings::height_map_unit);
     if (relief.max_mipmap) {
         relief.max_mipmap->bind(bindings::max_mipmap_unit);
@@ -54,6 +50,74 @@ void set_heights(gl::Program& program, const ResidentRelief& relief) {
     program.set(uniforms.last_cell, samples - 2);
 }
 
+void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles) {
+    tiles.heights->bind(bindings::height_map_unit);
+    tiles.pages->bind(bindings::pages_unit);
+    if (tiles.max_mipmaps) {
+        tiles.max_mipmaps->bind(bindings::max_mipmap_unit);
+    }
+    if (tiles.cones) {
+        tiles.cones->bind(bindings::relief_cone_map_unit);
+    }
+    const int levels_of_tile = tiles.max_mipmaps ? tiles.max_mipmaps->levels() : 1;
+    program.set(uniforms.top_level, levels_of_tile + tiles.pages->levels() - 2);
+    program.set(uniforms.height_texel, 1.0F / glm::vec2(tiles.heights->size()));
+    program.set(uniforms.last_cell, tiles.space.last_cell);
+    program.set(uniforms.origin_cell, tiles.space.origin);
+    const SplitPoint origin = split_into_floats(glm::dvec3(tiles.space.origin_sample, 0.0));
+    program.set(uniforms.origin_sample,
+                glm::vec4(origin.rounded.x, origin.rounded.y, origin.rest.x, origin.rest.y));
+    program.set(uniforms.samples_a_cell, static_cast<float>(tiles.space.samples_a_cell));
+}
+
+void set_heights(gl::Program& program, const FrameContext& frame, const view::ReliefDraw& draw) {
+    if (is_streamed(draw)) {
+        set_streamed_heights(program, frame.residency.relief_tiles().tiles(draw));
+    } else {
+        set_own_heights(program, frame.residency.relief(draw));
+    }
+}
+
+Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
+    DrawState& state = frame.state;
+    auto program = state.use({ShaderKind::beams, streamed_feature(draw)});
+    if (!program) {
+        return program.error();
+    }
+    const ReliefSpace& space = space_of(frame, draw);
+    state.set_wireframe(false);
+    set_heights(**program, frame, draw);
+    if (auto set = state.set(relief_block(space)); !set) {
+        return set;
+    }
+    set_beams(**program, space,
+              picture_rays(frame.list.camera, frame.list.size, space,
+                           glm::inverse(draw.world_from_local)));
+    frame.beams.bind();
+    gl::draw_arrays(gl::Primitive::triangles, 3);
+    frame.picture.bind();
+    state.stats().state_changes += 3;
+    ++state.stats().draws;
+    return {};
+}
+
+void bind_light(gl::Program& program, const FrameContext& frame, const view::ReliefDraw& draw) {
+    if (is_streamed(draw)) {
+        const ResidentReliefTiles& tiles = frame.residency.relief_tiles().tiles(draw);
+        tiles.lit->bind(bindings::lit_map_unit);
+        if (tiles.sun) {
+            tiles.sun->bind(bindings::sun_map_unit);
+        }
+        return;
+    }
+    const ResidentMaps& maps = frame.residency.maps(*draw.terrain);
+    maps.lit.bind(bindings::lit_map_unit);
+    if (maps.sun) {
+        maps.sun->bind(bindings::sun_map_unit);
+    }
+    program.set(uniforms.lit_from_sample, maps.lit_from_sample);
+}
+
 void set_space(gl::Program& program, const scene::Camera& camera, const ReliefSpace& space,
                const glm::dmat4& world_from_local) {
     const glm::dmat3 local_from_world(glm::inverse(world_from_local));
@@ -64,13 +128,13 @@ void set_space(gl::Program& program, const scene::Camera& camera, const ReliefSp
                 glm::vec3(space.space_from_local * eye + space.space_of_origin));
 }
 
-ReliefBlock relief_block(const ReliefSpace& space) {
-    return {.box_low = glm::vec4(glm::vec3(space.local_box.low), 0.0F),
-            .box_high = glm::vec4(glm::vec3(space.local_box.high), 0.0F),
-            .box_begin = glm::vec4(glm::vec3(space.box.low), 0.0F),
-            .box_end = glm::vec4(glm::vec3(space.box.high), 0.0F),
-            .space_scale = glm::vec4(space.metres_per_unit, 0.0F),
-            .height_span = glm::vec4(space.lowest, space.range, 0.0, 0.0)};
+// Texels of the lit map in a unit of the search space.
+glm::vec2 texels_in_space(const FrameContext& frame, const view::ReliefDraw& draw) {
+    if (is_streamed(draw)) {
+        return glm::vec2(1.0F); // relief_light.glsl counts cells
+    }
+    const ResidentMaps& maps = frame.residency.maps(*draw.terrain);
+    return glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
 }
 
 // Texels of the lit map per pixel at a distance of one metre.
@@ -80,10 +144,8 @@ float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& d
     if (frame.hits || !is_perspective(list.camera)) {
         return 1e6F;
     }
-    const ResidentMaps& maps = frame.residency.maps(*draw.terrain);
-    const glm::vec2 texels_per_sample =
-        glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
-    const glm::vec2 texels_per_metre = texels_per_sample / glm::vec2(space.metres_per_unit);
+    const glm::vec2 texels_per_metre =
+        texels_in_space(frame, draw) / glm::vec2(space.metres_per_unit);
     const glm::vec4 ray = ray_from_pixel(list.camera, list.size);
     return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
 }
@@ -91,18 +153,18 @@ float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& d
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    const ResidentRelief& relief = frame.residency.relief(draw);
+    const ReliefSpace& space = space_of(frame, draw);
     if (!frame.hits) {
-        bind_light(program, frame.residency.maps(*draw.terrain));
+        bind_light(program, frame, draw);
         ++frame.state.stats().state_changes;
     }
-    set_heights(program, relief);
-    set_space(program, frame.list.camera, relief.space, draw.world_from_local);
+    set_heights(program, frame, draw);
+    set_space(program, frame.list.camera, space, draw.world_from_local);
     if (has_beams(technique)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
-    program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, relief.space));
-    if (auto set = frame.state.set(relief_block(relief.space)); !set) {
+    program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
+    if (auto set = frame.state.set(relief_block(space)); !set) {
         return set;
     }
     return frame.state.set(technique_block(technique, reference_height(technique)));
@@ -117,7 +179,8 @@ Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw
             return drawn;
         }
     }
-    auto program = state.use({ShaderKind::relief, frame.features | technique_features(technique)});
+    auto program = state.use({ShaderKind::relief, frame.features | technique_features(technique) |
+                                                      streamed_feature(draw)});
     if (!program) {
         return program.error();
     }
@@ -131,7 +194,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw
     stats.triangles += box_vertices - 2;
     stats.state_changes += 3;
     ++stats.draws;
-    ++stats.tiles;
+    stats.tiles += std::max<int>(1, static_cast<int>(draw.tiles.size()));
     return {};
 }
 

@@ -49,12 +49,18 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     const Grid<float>& heights = surface.heightfield().heights;
     const terrain::MinMax total = surface.pyramid().total();
     ReliefSpace space;
+    space.box.low = glm::dvec3(0.0);
     space.lowest = total.low;
     space.range = total.high > total.low ? static_cast<double>(total.high) - total.low : 1.0;
-    const auto local = [&](glm::dvec3 place) {
+    space.box.high = {heights.cols() - 1.0, heights.rows() - 1.0, 1.0};
+    place_space(space, [&](glm::dvec3 place) {
         return placement.world_from_sample(
             {place.x, place.y, space.lowest + space.range * place.z});
-    };
+    });
+    return space;
+}
+
+void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local) {
     const glm::dvec3 origin = local(glm::dvec3(0.0));
     const glm::dmat3 local_from_space(local({1.0, 0.0, 0.0}) - origin,
                                       local({0.0, 1.0, 0.0}) - origin,
@@ -64,11 +70,10 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     space.metres_per_unit =
         glm::vec3(glm::length(local_from_space[0]), glm::length(local_from_space[1]),
                   glm::length(local_from_space[2]));
-    space.box.low = {0.0, 0.0, -margin};
-    space.box.high = {heights.cols() - 1.0, heights.rows() - 1.0, 1.0 + margin};
+    space.box.low.z = -margin;
+    space.box.high.z = 1.0 + margin;
     space.local_box.add(local(space.box.low));
     space.local_box.add(local(space.box.high));
-    return space;
 }
 
 Grid<glm::vec2> cone_texels(const material::ConeMaps& cones) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -26,6 +27,10 @@ struct ReliefSpace {
 };
 /// Precondition: the placement is plane.
 ReliefSpace relief_space(const scene::TerrainSurface& surface);
+
+/// Sets the axes and the boxes. `local`: local metres of a place in the space, affine. The columns
+/// and rows of the box are those of the samples.
+void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local);
 
 /// A mip chain of maximum heights, in [0,1] of the range: level n covers 2^n × 2^n cells. The sides
 /// of level 0 are powers of two; texels beyond the cells are 0.

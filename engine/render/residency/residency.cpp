@@ -68,8 +68,9 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
         done = done ? ground_.prepare(list, stats) : done;
     }
     done = done ? prepare_warped(list, stats) : done;
+    done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;
     for (const view::ReliefDraw& draw : list.reliefs) {
-        done = done ? prepare_relief(draw, stats) : done;
+        done = done && draw.tiles.empty() ? prepare_relief(draw, stats) : done;
     }
     return done ? meshes_.prepare(list.meshes, list.camera, stats) : done;
 }
@@ -116,6 +117,9 @@ Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::Frame
         }
     }
     for (const view::ReliefDraw& draw : list.reliefs) {
+        if (!draw.tiles.empty()) {
+            continue;
+        }
         if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
             return done;
         }

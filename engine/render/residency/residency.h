@@ -12,6 +12,7 @@
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
+#include "engine/render/residency/relief_tiles.h"
 #include "engine/render/residency/terrain_meshes.h"
 #include "engine/render/residency/tile_maps.h"
 #include "engine/view/draw_list.h"
@@ -51,6 +52,7 @@ public:
     [[nodiscard]] const ResidentRelief& relief(const view::ReliefDraw& draw) const;
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
+    [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
     /// warped_places() for prewarp.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
@@ -79,6 +81,7 @@ private:
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     TerrainMeshes terrain_meshes_;
     TileMaps tile_maps_;
+    ReliefTiles relief_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_;
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
     MeshResidency meshes_;

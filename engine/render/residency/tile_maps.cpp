@@ -77,7 +77,7 @@ Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::Til
         return {};
     }
     const Image map = light ? scene::lit_tile(draw.terrain->stream->maker(), *draw.tile,
-                                              irradiance_of(draw, *light))
+                                              irradiance_of(draw.terrain->stream, *light))
                             : draw.tile->albedo;
     auto texture = upload_mipmapped(map, gl::Format::rgba8_srgb, stats);
     if (!texture) {
@@ -99,7 +99,7 @@ Result<void> TileMaps::prepare_ground(const view::TileDraw& draw, Entry& entry,
         return {};
     }
     const scene::TerrainIrradiance* const irradiance =
-        entry.light ? &irradiance_of(draw, *entry.light) : nullptr;
+        entry.light ? &irradiance_of(draw.terrain->stream, *entry.light) : nullptr;
     auto ground =
         resident_ground(ground_of_tile(draw.terrain->stream->maker(), *draw.tile, irradiance),
                         entry.maps.lit_from_sample, stats);
@@ -116,13 +116,14 @@ void TileMaps::add_light(const std::shared_ptr<scene::TileStream>& stream,
     lights_[stream.get()] = {stream, light, std::move(irradiance)};
 }
 
-const scene::TerrainIrradiance& TileMaps::irradiance_of(const view::TileDraw& draw,
-                                                        const scene::TerrainLight& light) {
-    SharedLight& shared = lights_[draw.terrain->stream.get()];
+const scene::TerrainIrradiance&
+TileMaps::irradiance_of(const std::shared_ptr<scene::TileStream>& stream,
+                        const scene::TerrainLight& light) {
+    SharedLight& shared = lights_[stream.get()];
     if (shared.irradiance == nullptr || shared.light != light) {
-        shared = {draw.terrain->stream, light,
-                  std::make_shared<const scene::TerrainIrradiance>(
-                      draw.terrain->stream->maker().overview(), light)};
+        shared = {
+            stream, light,
+            std::make_shared<const scene::TerrainIrradiance>(stream->maker().overview(), light)};
     }
     return *shared.irradiance;
 }

@@ -32,6 +32,10 @@ public:
                    const scene::TerrainLight& light,
                    std::shared_ptr<const scene::TerrainIrradiance> irradiance);
 
+    /// A stream's light, computed once; dropped with the stream.
+    const scene::TerrainIrradiance& irradiance_of(const std::shared_ptr<scene::TileStream>& stream,
+                                                  const scene::TerrainLight& light);
+
     /// Precondition: a loaded tile of the prepared list.
     [[nodiscard]] const ResidentTileMaps& tile(const view::TileDraw& draw) const;
 
@@ -55,9 +59,6 @@ private:
     Result<void> prepare_light(const view::DrawList& list, const view::TileDraw& draw, Entry& entry,
                                view::FrameStats& stats);
     Result<void> prepare_ground(const view::TileDraw& draw, Entry& entry, view::FrameStats& stats);
-    const scene::TerrainIrradiance& irradiance_of(const view::TileDraw& draw,
-                                                  const scene::TerrainLight& light);
-
     std::uint64_t frame_ = 0;
     std::map<Key, Entry> entries_;
     std::map<const scene::TileStream*, SharedLight> lights_;

@@ -18,12 +18,13 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 24> feature_names{
-    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
-    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
-    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
-    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED"};
-static_assert(std::bit_width(std::uint32_t{feature_multisampled}) == feature_names.size());
+constexpr std::array<std::string_view, 25> feature_names{
+    "LIT",    "FOG",         "HIT",         "EXACT",        "PARALLAX",
+    "BISECT", "SECANT",      "LIMITED",     "ITERATED",     "VIEW_STEPS",
+    "FADE",   "HARD_SHADOW", "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",
+    "WARPED", "CONE",        "NORMAL_MAP",  "BUMP",         "EMBOSS",
+    "WRAP",   "BEAMS",       "LAYERS",      "MULTISAMPLED", "STREAMED"};
+static_assert(std::bit_width(std::uint32_t{feature_streamed}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -207,7 +208,10 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::terrain:
         return variant.features & feature_warped;
     case ShaderKind::relief:
-        return search | options_of(variant.features, search) | beams_of(variant.features, search);
+        return search | options_of(variant.features, search) | beams_of(variant.features, search) |
+               (variant.features & feature_streamed);
+    case ShaderKind::beams:
+        return variant.features & feature_streamed;
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:
@@ -252,7 +256,7 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
         own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average) {
-        return {variant.kind, 0U};
+        return {variant.kind, own};
     }
     if (variant.kind == ShaderKind::sky) {
         variant.features &= feature_lit;

@@ -62,6 +62,7 @@ enum ShaderFeature : std::uint32_t {
     feature_beams = 1U << 21U,  ///< relief rays begin where their beam may hit
     feature_layers = 1U << 22U, ///< relief search: solids between layers
     feature_multisampled = 1U << 23U,
+    feature_streamed = 1U << 24U, ///< relief over the tiles of a stream
 };
 
 struct ShaderVariant {

@@ -38,6 +38,10 @@ struct Uniforms {
     gl::Uniform<glm::vec2> height_texel{"height_texel"};
     gl::Uniform<glm::ivec2> last_cell{"last_cell"};
     gl::Uniform<int> top_level{"top_level"};
+    // Of a streamed terrain: relief_streamed.glsl, relief.frag.
+    gl::Uniform<glm::ivec2> origin_cell{"origin_cell"};
+    gl::Uniform<glm::vec4> origin_sample{"origin_sample"};
+    gl::Uniform<float> samples_a_cell{"samples_a_cell"};
 
     // A terrain's relief: relief.frag.
     gl::Uniform<glm::mat3> space_from_relative{"space_from_relative"};

@@ -68,6 +68,13 @@ glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility
     return sun_ * sun + sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up));
 }
 
+IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up) const {
+    const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
+    const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
+    const float sun = is_day_ ? std::max(glm::dot(turned, to_sun_), 0.0F) : 0.0F;
+    return {sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up)), sun_ * sun};
+}
+
 IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {
     const glm::vec3 normal = normal_at(sample);
     const float sun = is_day_ ? std::max(glm::dot(normal, to_sun_), 0.0F) : 0.0F;

@@ -43,6 +43,8 @@ public:
     /// For a finer tile of the same terrain: its normal and up (unit vectors of the local frame),
     /// and the visible share of the sun.
     [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility) const;
+    /// For callers that compute shadows themselves.
+    [[nodiscard]] IrradianceParts parts_at(glm::vec3 normal, glm::vec3 up) const;
     /// The share of the sun that the terrain does not hide, [0, 1].
     [[nodiscard]] float visibility(glm::dvec2 sample) const;
 

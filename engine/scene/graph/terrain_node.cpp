@@ -130,7 +130,7 @@ std::optional<terrain::SurfaceHit> TerrainSurface::pick(const Ray& ray) const {
 bool draws_tiles(const Technique& technique) {
     const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
     return std::holds_alternative<Texture>(technique.parameters) ||
-           (polygons != nullptr && polygons->max_levels == 1);
+           searches_surface(technique.id()) || (polygons != nullptr && polygons->max_levels == 1);
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {

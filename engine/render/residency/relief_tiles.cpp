@@ -1,0 +1,486 @@
+#include "engine/render/residency/relief_tiles.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "engine/core/check.h"
+#include "engine/core/parallel_for.h"
+#include "engine/material/cone_map.h"
+#include "engine/render/residency/uploads.h"
+#include "engine/render/shaders/bindings.h"
+#include "engine/render/shaders/relief_options.h"
+
+namespace reljef::render {
+namespace {
+
+using Tiles = std::span<const std::shared_ptr<const scene::TerrainTile>>;
+
+constexpr int page_cells = bindings::page_cells;
+constexpr int vertices_a_side = page_cells + 1;
+static_assert(page_cells == terrain::tree_tile_cells);
+static_assert(gl::max_layers >= view::max_relief_tiles);
+
+// Frames that the tiles of a stream stay unused.
+constexpr std::uint64_t kept_frames_of_stream = 8;
+
+// A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
+constexpr std::size_t max_pages = std::size_t{1} << 20U;
+
+glm::ivec2 cells_at(const terrain::TileTree& tree, int level) {
+    const int step = 1 << level;
+    return (glm::ivec2(tree.cols() - 1, tree.rows() - 1) + step - 1) / step;
+}
+
+glm::ivec2 pages_at(const terrain::TileTree& tree, int level) {
+    return (cells_at(tree, level) + page_cells - 1) / page_cells;
+}
+
+// The level of the finest tiles, or a coarser one whose pages are few enough.
+int finest_level(const terrain::TileTree& tree, Tiles tiles) {
+    int level = tree.root().level;
+    for (const auto& tile : tiles) {
+        level = std::min(level, tile->id.level);
+    }
+    const auto count = [&](int at) {
+        const glm::ivec2 pages = pages_at(tree, at);
+        return static_cast<std::size_t>(pages.x) * static_cast<std::size_t>(pages.y);
+    };
+    while (count(level) > max_pages) {
+        ++level;
+    }
+    return level;
+}
+
+terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
+    terrain::MinMax range = overview.pyramid().total();
+    for (const auto& tile : tiles) {
+        range.low = std::min(range.low, static_cast<float>(tile->range.low));
+        range.high = std::max(range.high, static_cast<float>(tile->range.high));
+    }
+    return range;
+}
+
+// Local metres of a terrain's samples. Rows that close it at a pole count like all others.
+struct SamplePlaces {
+    SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
+        : exaggeration(builder.overview().placement().exaggeration()) {
+        const glm::dvec2 first = glm::min(glm::dvec2(1.0), 0.25 * last_sample);
+        const glm::dvec2 second = last_sample - first;
+        const auto local = [&](glm::dvec2 sample) {
+            return glm::dvec2(builder.overview().placement().world_from_sample(
+                {builder.on_overview(sample), 0.0}));
+        };
+        metres_a_sample = (local(second) - local(first)) / (second - first);
+        origin = local(first) - first * metres_a_sample;
+    }
+
+    double exaggeration;
+    glm::dvec2 metres_a_sample{1.0};
+    glm::dvec2 origin{0.0};
+};
+
+// Repeats the last column and row up to the full size.
+template <class T> Grid<T> extended(const Grid<T>& grid, int side) {
+    Grid<T> whole(side, side);
+    for (int row = 0; row < side; ++row) {
+        for (int col = 0; col < side; ++col) {
+            whole(col, row) = grid.clamped(col, row);
+        }
+    }
+    return whole;
+}
+
+// Cells of the tile per metre of height.
+Grid<glm::vec2> cones_of(const scene::TerrainTile& tile) {
+    const Grid<float>& heights = tile.heightfield.heights;
+    const auto [low, high] =
+        std::minmax_element(heights.samples().begin(), heights.samples().end());
+    const float range = *high > *low ? *high - *low : 1.0F;
+    ParallelOptions alone; // tiles are made in parallel
+    alone.threads = 1;
+    const Grid<float> unit = terrain::unit_heights(heights.view());
+    Grid<glm::vec2> texels = cone_texels(*material::cone_maps(unit.view(), alone));
+    for (glm::vec2& cone : texels.samples()) {
+        cone /= range;
+    }
+    return extended(texels, page_cells);
+}
+
+int texels_a_cell(const scene::TerrainTile& tile) {
+    return std::max(1, (tile.albedo.cols() - 1) / tile.cells.x);
+}
+
+float highest_of(const scene::TerrainTile& tile) {
+    float highest = tile.blocks(0, 0).high;
+    for (const terrain::MinMax& block : tile.blocks.samples()) {
+        highest = std::max(highest, block.high);
+    }
+    return highest;
+}
+
+// As relief_streamed.glsl: tile_of_page.
+float packed_tile(const scene::TerrainTile& tile, int layer, int finest) {
+    const int texel_level = std::countr_zero(static_cast<unsigned>(texels_a_cell(tile)));
+    return static_cast<float>(layer | (tile.id.level - finest) << 12 | texel_level << 17);
+}
+
+Grid<glm::vec2> halved_pages(const Grid<glm::vec2>& fine) {
+    Grid<glm::vec2> coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
+    for (int row = 0; row < coarse.rows(); ++row) {
+        for (int col = 0; col < coarse.cols(); ++col) {
+            const glm::vec2 first = fine(2 * col, 2 * row);
+            coarse(col, row) = {first.x, std::max({first.y, fine.clamped(2 * col + 1, 2 * row).y,
+                                                   fine.clamped(2 * col, 2 * row + 1).y,
+                                                   fine.clamped(2 * col + 1, 2 * row + 1).y})};
+        }
+    }
+    return coarse;
+}
+
+// A tile's square of pages.
+void set_pages(Grid<glm::vec2>& pages, glm::ivec2 count, terrain::TreeTile tile, int finest,
+               glm::vec2 value) {
+    const int side = 1 << (tile.level - finest);
+    const glm::ivec2 first = glm::ivec2(tile.col, tile.row) * side;
+    const glm::ivec2 end = glm::min(first + side, count);
+    for (int row = first.y; row < end.y; ++row) {
+        const auto line = pages.row(row);
+        std::fill(line.begin() + first.x, line.begin() + end.x, value);
+    }
+}
+
+Result<gl::Texture2D> upload_pages(Grid<glm::vec2> pages, view::FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = {pages.cols(), pages.rows()},
+                                          .format = gl::Format::rg32f,
+                                          .levels = gl::full_chain,
+                                          .filter = gl::Filter::nearest});
+    if (texture) {
+        for (int level = 0; level < texture->levels(); ++level) {
+            texture->upload(level, pages);
+            pages = halved_pages(pages);
+        }
+        count_upload(stats, texture->bytes());
+    }
+    return texture;
+}
+
+Result<void> create_missing(std::optional<gl::TextureArray>& array,
+                            const gl::TextureOptions& options, int layers) {
+    if (array) {
+        return {};
+    }
+    auto created = gl::TextureArray::create(options, layers);
+    if (!created) {
+        return created.error();
+    }
+    array = std::move(*created);
+    return {};
+}
+
+Result<void> upload_lit(gl::TextureArray& array, int layer, const Image& lit,
+                        view::FrameStats& stats) {
+    auto texture = upload_mipmapped(extended(lit, array.size().x), gl::Format::rgba8_srgb, stats);
+    if (!texture) {
+        return texture.error();
+    }
+    array.copy(layer, *texture);
+    return {};
+}
+
+} // namespace
+
+StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm::dvec3 eye) {
+    const terrain::TileTree& tree = builder.tree();
+    const int samples_in_tree = 1 << builder.level_of_samples(); // of the tree, per sample
+    StreamedSpace made;
+    made.level = finest_level(tree, tiles);
+    made.last_cell = cells_at(tree, made.level) - 1;
+    made.samples_a_cell = static_cast<double>(1 << made.level) / samples_in_tree;
+    const glm::dvec2 last_sample =
+        glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
+    const SamplePlaces places(builder, last_sample);
+    const glm::dvec2 eye_cell =
+        (glm::dvec2(eye) - places.origin) / places.metres_a_sample / made.samples_a_cell;
+    made.origin =
+        glm::ivec2(glm::clamp(glm::floor(eye_cell), glm::dvec2(0.0), glm::dvec2(made.last_cell)));
+    made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
+
+    ReliefSpace& space = made.space;
+    const terrain::MinMax range = range_of(builder.overview(), tiles);
+    space.lowest = range.low;
+    space.range = range.high > range.low ? static_cast<double>(range.high) - range.low : 1.0;
+    space.box.low = glm::dvec3(-glm::dvec2(made.origin), 0.0);
+    space.box.high = glm::dvec3(last_sample / made.samples_a_cell - glm::dvec2(made.origin), 1.0);
+    place_space(space, [&](glm::dvec3 place) {
+        const glm::dvec2 sample = made.origin_sample + glm::dvec2(place) * made.samples_a_cell;
+        return glm::dvec3(places.origin + sample * places.metres_a_sample,
+                          (space.lowest + space.range * place.z) * places.exaggeration);
+    });
+    return made;
+}
+
+Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, TileMaps& lights,
+                                  view::FrameStats& stats) {
+    ++frame_;
+    for (const view::ReliefDraw& draw : list.reliefs) {
+        if (draw.tiles.empty()) {
+            continue;
+        }
+        if (auto done = prepare(list, draw, with_light, lights, stats); !done) {
+            return done;
+        }
+    }
+    std::erase_if(streams_, [&](const auto& entry) {
+        const Stream& stream = entry.second;
+        return stream.owner.expired() || stream.drawn + kept_frames_of_stream < frame_;
+    });
+    return {};
+}
+
+Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::ReliefDraw& draw,
+                                  bool with_light, TileMaps& lights, view::FrameStats& stats) {
+    const std::shared_ptr<scene::TileStream>& source = draw.terrain->stream;
+    const scene::Technique& technique = draw.terrain->material.technique;
+    Stream& stream = streams_[source.get()];
+    stream.owner = source;
+    stream.drawn = frame_;
+    const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
+    stream.resident.space = streamed_space(source->maker(), draw.tiles, eye);
+    const std::vector<Drawn> tiles = placed(stream, draw);
+    auto done = prepare_heights(stream, tiles, stats);
+    done = done ? prepare_search(stream, tiles, technique, stats) : done;
+    done = done ? prepare_pages(stream, tiles, stats) : done;
+    if (done && with_light) {
+        const auto light = view::light_on(list, draw.world_from_local);
+        const Lit lit{light, light && technique.options.shadow};
+        done = prepare_light(stream, tiles, source->maker(), lit,
+                             light ? &lights.irradiance_of(source, *light) : nullptr, stats);
+    }
+    return done;
+}
+
+// A layer for each tile that is no finer than the pages.
+std::vector<ReliefTiles::Drawn> ReliefTiles::placed(Stream& stream,
+                                                    const view::ReliefDraw& draw) const {
+    std::vector<Drawn> drawn;
+    for (const Tile& tile : draw.tiles) {
+        if (tile->id.level >= stream.resident.space.level) {
+            Slot& slot = stream.slots[tile->id];
+            const bool is_new = slot.owner.lock() != tile;
+            slot = is_new ? Slot{tile, slot.layer, frame_, false, false, false, {}} : slot;
+            slot.drawn = frame_;
+            drawn.push_back({tile, &slot});
+        }
+    }
+    const auto needed = static_cast<int>(drawn.size());
+    if (needed > stream.layers) {
+        stream.layers = std::min(std::max(needed + needed / 4, min_layers), gl::max_layers);
+        stream.resident = {stream.resident.space, {}, {}, {}, {}, {}, {}};
+        std::erase_if(stream.slots,
+                      [&](const auto& entry) { return entry.second.drawn != frame_; });
+        for (auto& [tile, slot] : stream.slots) {
+            slot = {slot.owner, no_layer, frame_, false, false, false, {}};
+        }
+    }
+    place_new(stream);
+    return drawn;
+}
+
+// Gives free layers to tiles without one; the longest undrawn tiles lose theirs.
+void ReliefTiles::place_new(Stream& stream) const {
+    std::vector<bool> is_taken(static_cast<std::size_t>(stream.layers));
+    std::vector<std::pair<std::uint64_t, terrain::TreeTile>> undrawn;
+    std::erase_if(stream.slots, [](const auto& entry) { return entry.second.owner.expired(); });
+    for (const auto& [tile, slot] : stream.slots) {
+        if (slot.layer != no_layer) {
+            is_taken[static_cast<std::size_t>(slot.layer)] = true;
+        }
+        if (slot.drawn != frame_) {
+            undrawn.emplace_back(slot.drawn, tile);
+        }
+    }
+    std::sort(undrawn.begin(), undrawn.end());
+    auto next_undrawn = undrawn.begin();
+    auto free = is_taken.begin();
+    for (auto& [tile, slot] : stream.slots) {
+        if (slot.layer != no_layer) {
+            continue;
+        }
+        free = std::find(free, is_taken.end(), false);
+        if (free != is_taken.end()) {
+            slot.layer = static_cast<int>(free - is_taken.begin());
+            ++free;
+        } else {
+            Slot& oldest = stream.slots.at((next_undrawn++)->second);
+            slot.layer = std::exchange(oldest.layer, no_layer);
+            oldest.owner.reset();
+        }
+    }
+}
+
+Result<void> ReliefTiles::prepare_heights(Stream& stream, const std::vector<Drawn>& tiles,
+                                          view::FrameStats& stats) {
+    std::optional<gl::TextureArray>& array = stream.resident.heights;
+    const gl::TextureOptions options{.size = glm::ivec2(vertices_a_side),
+                                     .format = gl::Format::r32f};
+    if (auto created = create_missing(array, options, stream.layers); !created) {
+        return created;
+    }
+    for (const auto& [tile, slot] : tiles) {
+        if (slot->has_heights) {
+            ++stats.skipped.uploads_unchanged;
+            continue;
+        }
+        array->upload(slot->layer, 0, extended(tile->heightfield.heights, vertices_a_side));
+        count_upload(stats, array->bytes_per_layer());
+        slot->has_heights = true;
+    }
+    return {};
+}
+
+Result<void> ReliefTiles::prepare_search(Stream& stream, const std::vector<Drawn>& tiles,
+                                         const scene::Technique& technique,
+                                         view::FrameStats& stats) {
+    if (technique.id() == scene::TechniqueId::exact || has_beams(technique)) {
+        if (auto done = prepare_max(stream, tiles, stats); !done) {
+            return done;
+        }
+    }
+    return technique.id() == scene::TechniqueId::cone ? prepare_cones(stream, tiles, stats)
+                                                      : Result<void>();
+}
+
+Result<void> ReliefTiles::prepare_max(Stream& stream, const std::vector<Drawn>& tiles,
+                                      view::FrameStats& stats) {
+    std::optional<gl::TextureArray>& array = stream.resident.max_mipmaps;
+    const gl::TextureOptions options{.size = glm::ivec2(page_cells),
+                                     .format = gl::Format::r32f,
+                                     .levels = gl::full_chain,
+                                     .filter = gl::Filter::nearest};
+    if (auto created = create_missing(array, options, stream.layers); !created) {
+        return created;
+    }
+    for (const auto& [tile, slot] : tiles) {
+        if (slot->has_max) {
+            continue;
+        }
+        const Grid<float> heights = extended(tile->heightfield.heights, vertices_a_side);
+        const std::vector<Grid<float>> levels = max_mipmap(heights.view());
+        for (std::size_t level = 0; level < levels.size(); ++level) {
+            array->upload(slot->layer, static_cast<int>(level), levels[level]);
+        }
+        count_upload(stats, array->bytes_per_layer());
+        slot->has_max = true;
+    }
+    return {};
+}
+
+Result<void> ReliefTiles::prepare_cones(Stream& stream, const std::vector<Drawn>& tiles,
+                                        view::FrameStats& stats) {
+    std::optional<gl::TextureArray>& array = stream.resident.cones;
+    const gl::TextureOptions options{
+        .size = glm::ivec2(page_cells), .format = gl::Format::rg32f, .filter = gl::Filter::nearest};
+    if (auto created = create_missing(array, options, stream.layers); !created) {
+        return created;
+    }
+    std::vector<Drawn> missing;
+    std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(missing),
+                 [](const Drawn& drawn) { return !drawn.slot->has_cones; });
+    std::vector<Grid<glm::vec2>> cones(missing.size());
+    parallel_for(static_cast<int>(missing.size()), [&](int i) {
+        const auto at = static_cast<std::size_t>(i);
+        cones[at] = cones_of(*missing[at].tile);
+    });
+    for (std::size_t i = 0; i < missing.size(); ++i) {
+        array->upload(missing[i].slot->layer, 0, cones[i]);
+        count_upload(stats, array->bytes_per_layer());
+        missing[i].slot->has_cones = true;
+    }
+    return {};
+}
+
+Result<void> ReliefTiles::prepare_light(Stream& stream, const std::vector<Drawn>& tiles,
+                                        const scene::TileBuilder& builder, const Lit& lit,
+                                        const scene::TerrainIrradiance* irradiance,
+                                        view::FrameStats& stats) {
+    ResidentReliefTiles& resident = stream.resident;
+    int side = resident.lit ? resident.lit->size().x : 0;
+    for (const Drawn& drawn : tiles) {
+        side = std::max(side, page_cells * texels_a_cell(*drawn.tile) + 1);
+    }
+    if (resident.lit &&
+        (resident.lit->size().x != side || resident.sun.has_value() != lit.in_parts)) {
+        resident.lit.reset();
+        resident.sun.reset();
+        for (auto& [tile, slot] : stream.slots) {
+            slot.lit.reset();
+        }
+    }
+    const gl::TextureOptions options{.size = glm::ivec2(side),
+                                     .format = gl::Format::rgba8_srgb,
+                                     .levels = gl::full_chain,
+                                     .filter = gl::Filter::trilinear};
+    auto done = create_missing(resident.lit, options, stream.layers);
+    if (done && lit.in_parts) {
+        done = create_missing(resident.sun, options, stream.layers);
+    }
+    for (const auto& [tile, slot] : tiles) {
+        if (slot->lit == lit || !done) {
+            continue;
+        }
+        if (lit.in_parts) {
+            const scene::LitTileParts parts = scene::lit_tile_parts(builder, *tile, *irradiance);
+            done = upload_lit(*resident.lit, slot->layer, parts.sky, stats);
+            done = done ? upload_lit(*resident.sun, slot->layer, parts.sun, stats) : done;
+        } else {
+            done = upload_lit(*resident.lit, slot->layer,
+                              irradiance != nullptr ? scene::lit_tile(builder, *tile, *irradiance)
+                                                    : tile->albedo,
+                              stats);
+        }
+        slot->lit = lit;
+    }
+    return done;
+}
+
+Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>& tiles,
+                                        view::FrameStats& stats) {
+    const int finest = stream.resident.space.level;
+    const auto owner = stream.owner.lock();
+    std::vector<std::pair<terrain::TreeTile, float>> shown;
+    shown.reserve(tiles.size());
+    for (const auto& [tile, slot] : tiles) {
+        shown.emplace_back(tile->id, packed_tile(*tile, slot->layer, finest));
+    }
+    if (stream.resident.pages && stream.shown == shown) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const glm::ivec2 count = pages_at(owner->tree(), finest);
+    const auto side_for = [](int pages) {
+        return static_cast<int>(std::bit_ceil(static_cast<unsigned>(pages)));
+    };
+    Grid<glm::vec2> pages(side_for(count.x), side_for(count.y),
+                          glm::vec2(0.0F, std::numeric_limits<float>::lowest()));
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        set_pages(pages, count, tiles[i].tile->id, finest,
+                  {shown[i].second, highest_of(*tiles[i].tile)});
+    }
+    auto texture = upload_pages(std::move(pages), stats);
+    if (!texture) {
+        return texture.error();
+    }
+    stream.resident.pages = std::move(*texture);
+    stream.shown = std::move(shown);
+    return {};
+}
+
+const ResidentReliefTiles& ReliefTiles::tiles(const view::ReliefDraw& draw) const {
+    return streams_.at(draw.terrain->stream.get()).resident;
+}
+
+} // namespace reljef::render

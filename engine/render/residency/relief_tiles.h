@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/texture_array.h"
+#include "engine/render/residency/relief_maps.h"
+#include "engine/render/residency/tile_maps.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::render {
+
+/// The search space over the tiles of a stream: x and y count the cells of the finest tiles, from
+/// an origin near the eye, where floats are precise.
+struct StreamedSpace {
+    ReliefSpace space;
+    int level = 0;                 ///< of the finest tiles
+    glm::ivec2 origin{0};          ///< cell at (0, 0)
+    glm::ivec2 last_cell{0};       ///< of the terrain
+    glm::dvec2 origin_sample{0.0}; ///< of the terrain
+    double samples_a_cell = 1.0;
+};
+/// `eye`: local metres. Precondition: a placement over a plane.
+StreamedSpace streamed_space(const scene::TileBuilder& builder,
+                             std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
+                             glm::dvec3 eye);
+
+/// A stream's tiles for rays. Each tile has the same layer in all arrays; see relief_streamed.glsl.
+struct ResidentReliefTiles {
+    StreamedSpace space;
+    std::optional<gl::Texture2D> pages;
+    std::optional<gl::TextureArray> heights;
+    std::optional<gl::TextureArray> max_mipmaps; ///< for exact and beams
+    std::optional<gl::TextureArray> cones;       ///< for cone
+    std::optional<gl::TextureArray> lit;         ///< of the sky only if there is `sun`
+    std::optional<gl::TextureArray> sun;         ///< if rays cast the shadows
+};
+
+/// The tiles of streams that rays search, in GPU memory. A tile stays until its layer is needed, or
+/// the stream drops it. All are dropped after some frames unused.
+class ReliefTiles {
+public:
+    /// `with_light`: for pictures. Fails without GL memory.
+    Result<void> prepare(const view::DrawList& list, bool with_light, TileMaps& lights,
+                         view::FrameStats& stats);
+
+    /// Precondition: a draw with tiles of the prepared list.
+    [[nodiscard]] const ResidentReliefTiles& tiles(const view::ReliefDraw& draw) const;
+
+private:
+    using Tile = std::shared_ptr<const scene::TerrainTile>;
+    // Light of a tile, or its albedo without a sun.
+    struct Lit {
+        std::optional<scene::TerrainLight> light;
+        bool in_parts = false;
+
+        friend bool operator==(const Lit&, const Lit&) = default;
+    };
+    static constexpr int no_layer = -1;
+    static constexpr int min_layers = 64;
+    struct Slot {
+        std::weak_ptr<const scene::TerrainTile> owner;
+        int layer = no_layer;
+        std::uint64_t drawn = 0; // last frame
+        bool has_heights = false;
+        bool has_max = false;
+        bool has_cones = false;
+        std::optional<Lit> lit;
+    };
+    struct Stream {
+        std::weak_ptr<scene::TileStream> owner;
+        std::uint64_t drawn = 0; // last frame
+        int layers = 0;
+        std::map<terrain::TreeTile, Slot> slots;
+        std::vector<std::pair<terrain::TreeTile, float>> shown; // by the pages
+        ResidentReliefTiles resident;
+    };
+    struct Drawn {
+        Tile tile;
+        Slot* slot = nullptr;
+    };
+
+    Result<void> prepare(const view::DrawList& list, const view::ReliefDraw& draw, bool with_light,
+                         TileMaps& lights, view::FrameStats& stats);
+    [[nodiscard]] std::vector<Drawn> placed(Stream& stream, const view::ReliefDraw& draw) const;
+    void place_new(Stream& stream) const;
+    static Result<void> prepare_heights(Stream& stream, const std::vector<Drawn>& tiles,
+                                        view::FrameStats& stats);
+    static Result<void> prepare_search(Stream& stream, const std::vector<Drawn>& tiles,
+                                       const scene::Technique& technique, view::FrameStats& stats);
+    static Result<void> prepare_max(Stream& stream, const std::vector<Drawn>& tiles,
+                                    view::FrameStats& stats);
+    static Result<void> prepare_cones(Stream& stream, const std::vector<Drawn>& tiles,
+                                      view::FrameStats& stats);
+    static Result<void> prepare_light(Stream& stream, const std::vector<Drawn>& tiles,
+                                      const scene::TileBuilder& builder, const Lit& lit,
+                                      const scene::TerrainIrradiance* irradiance,
+                                      view::FrameStats& stats);
+    static Result<void> prepare_pages(Stream& stream, const std::vector<Drawn>& tiles,
+                                      view::FrameStats& stats);
+
+    std::uint64_t frame_ = 0;
+    std::map<const scene::TileStream*, Stream> streams_;
+};
+
+} // namespace reljef::render
