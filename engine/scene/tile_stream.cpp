@@ -35,6 +35,16 @@ std::size_t texels_shown(const Image& texels) {
         std::count_if(samples.begin(), samples.end(), [](Rgba8 texel) { return texel.a != 0; }));
 }
 
+std::shared_ptr<const TerrainTile> with_cones_over(const TerrainTile& tile) {
+    TerrainTile made = tile;
+    ParallelOptions alone; // other threads make other tiles
+    alone.threads = 1;
+    const Grid<float> unit = terrain::unit_heights(made.heightfield.heights.view());
+    made.cones =
+        std::make_shared<const material::ConeMaps>(*material::cone_maps(unit.view(), alone));
+    return std::make_shared<const TerrainTile>(std::move(made));
+}
+
 } // namespace
 
 TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options)
@@ -127,10 +137,11 @@ int TileStream::texels_within(std::size_t memory_budget) {
 }
 
 void TileStream::request(std::span<const terrain::TreeTile> missing,
-                         std::span<const terrain::TreeTile> used) {
+                         std::span<const terrain::TreeTile> used, bool with_cones) {
     {
         const std::lock_guard lock(mutex_);
         ++view_;
+        with_cones_ = with_cones;
         for (const terrain::TreeTile tile : used) {
             if (const auto found = tiles_.find(tile); found != tiles_.end()) {
                 found->second.used = view_;
@@ -157,7 +168,7 @@ std::vector<terrain::TreeTile>
 TileStream::requests_for(std::span<const terrain::TreeTile> tiles) const {
     std::vector<terrain::TreeTile> requests(tiles.begin(), tiles.end());
     std::erase_if(requests, [&](terrain::TreeTile tile) {
-        return tiles_.contains(tile) && !failures_.contains(tile);
+        return tiles_.contains(tile) && !failures_.contains(tile) && !lacks_cones(tile);
     });
     const std::set<terrain::TreeTile> known(requests.begin(), requests.end());
     for (const auto& [tile, entry] : tiles_) {
@@ -166,6 +177,12 @@ TileStream::requests_for(std::span<const terrain::TreeTile> tiles) const {
         }
     }
     return requests;
+}
+
+// Whether a loaded tile lacks what the view needs.
+bool TileStream::lacks_cones(terrain::TreeTile tile) const {
+    const auto entry = tiles_.find(tile);
+    return with_cones_ && entry != tiles_.end() && entry->second.made.tile->cones == nullptr;
 }
 
 bool TileStream::is_settled() const {
@@ -271,12 +288,17 @@ void TileStream::work(const std::stop_token& stop) {
         const std::stop_token cancelled = in_flight_[*tile].get_token();
         const auto entry = tiles_.find(*tile);
         const Made before = entry != tiles_.end() ? entry->second.made : Made{};
+        const bool is_read = before.tile != nullptr && !failures_.contains(*tile);
+        const bool with_cones = with_cones_;
         lock.unlock();
-        TileContent content = read_(*tile, cancelled);
+        TileContent content = is_read ? TileContent{} : read_(*tile, cancelled);
         const bool stopped = cancelled.stop_requested();
-        Made made;
-        if (!stopped && content.errors.empty()) {
+        Made made = is_read ? before : Made{};
+        if (!is_read && !stopped && content.errors.empty()) {
             made = make(*tile, content, before);
+        }
+        if (with_cones && made.tile != nullptr && made.tile->cones == nullptr) {
+            made.tile = with_cones_over(*made.tile);
         }
         lock.lock();
         finish(*tile, content, std::move(made), stopped);

@@ -110,9 +110,10 @@ public:
 
     /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
     /// that are not repeated. Keeps the used tiles, and reads them again if their picture is
-    /// incomplete. If memory runs out, evicts tiles that this view does not use.
+    /// incomplete. If memory runs out, evicts tiles that this view does not use. `with_cones`: the
+    /// view needs TerrainTile::cones; loaded tiles without them are missing.
     void request(std::span<const terrain::TreeTile> missing,
-                 std::span<const terrain::TreeTile> used = {});
+                 std::span<const terrain::TreeTile> used = {}, bool with_cones = false);
     /// Waits until all requested tiles are loaded or have failed max_attempts times; false after a
     /// stop request. Precondition: no other thread requests tiles.
     bool wait(const std::stop_token& stop);
@@ -153,6 +154,7 @@ private:
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
     [[nodiscard]] Made make(terrain::TreeTile tile, TileContent& content, const Made& before) const;
+    [[nodiscard]] bool lacks_cones(terrain::TreeTile tile) const;
     static Made better_of(const Made& before, Made now, bool has_whole_picture);
     void finish(terrain::TreeTile tile, const TileContent& content, Made made, bool stopped);
     void note_failure(terrain::TreeTile tile, std::span<const TileContent::FileError> errors);
@@ -185,6 +187,7 @@ private:
     std::vector<std::string> new_notes_;
     bool has_proofs_ = false;
     std::uint64_t view_ = 0;
+    bool with_cones_ = false; // in this view
     std::uint64_t revision_ = 0;
     bool has_arrivals_ = false;
     TileStreamStats stats_;

@@ -104,8 +104,8 @@ MissingMaps missing_maps(const TerrainScene& scene,
         const scene::Technique shown = technique.value_or(node.material.technique);
         const Grid<float>& heights = node.surface->heightfield().heights;
         const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
-        missing.cones =
-            has_cells && shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
+        missing.cones = has_cells && shown.id() == scene::TechniqueId::cone &&
+                        node.stream == nullptr && node.cones == nullptr; // tiles have their own
         const bool has_triangles =
             scene.rays == RayUse::none || !cast::obstacle_of(node, shown).empty();
         missing.bisection = scene::error_bound(shown) > 0.0 && has_triangles &&

@@ -236,6 +236,7 @@ void request_tiles(std::span<const view::TileRequests> requests) {
         std::vector<terrain::TreeTile> missing;
         std::set<terrain::TreeTile> known; // of the missing
         std::vector<terrain::TreeTile> used;
+        bool with_cones = false;
     };
     std::map<scene::TileStream*, Merged> merged;
     for (const view::TileRequests& request : requests) {
@@ -244,9 +245,10 @@ void request_tiles(std::span<const view::TileRequests> requests) {
                      std::back_inserter(all.missing),
                      [&](terrain::TreeTile tile) { return all.known.insert(tile).second; });
         all.used.insert(all.used.end(), request.used.begin(), request.used.end());
+        all.with_cones = all.with_cones || request.with_cones;
     }
     for (const auto& [stream, all] : merged) {
-        stream->request(all.missing, all.used);
+        stream->request(all.missing, all.used, all.with_cones);
     }
 }
 

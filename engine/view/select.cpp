@@ -95,7 +95,8 @@ double bound_of(const std::optional<Coarseness>& coarseness) {
 
 // The drawn tiles and loaded ones above them, the coarsest first.
 std::vector<std::shared_ptr<const scene::TerrainTile>>
-with_coarser(const scene::TileStream& stream, std::span<const TileSelection::Drawn> drawn) {
+with_coarser(const scene::TerrainNode& terrain, std::span<const TileSelection::Drawn> drawn) {
+    const scene::TileStream& stream = *terrain.stream;
     std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> coarser;
     const terrain::TreeTile root = stream.tree().root();
     coarser.emplace(root, stream.find(root));
@@ -113,7 +114,8 @@ with_coarser(const scene::TileStream& stream, std::span<const TileSelection::Dra
     }
     std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
     for (auto tile = coarser.rbegin(); tile != coarser.rend(); ++tile) {
-        if (tile->second != nullptr && tiles.size() + drawn.size() < max_relief_tiles) {
+        if (tile->second != nullptr && is_ready(terrain, *tile->second) &&
+            tiles.size() + drawn.size() < max_relief_tiles) {
             tiles.push_back(tile->second);
         }
     }
@@ -185,8 +187,11 @@ private:
         if (has_streamed_tiles(terrain)) {
             const TileSelection choice = select_streamed(terrain, world_from_local);
             if (choice.has_root) {
-                draw.tiles = with_coarser(*terrain.stream, choice.drawn);
+                draw.tiles = with_coarser(terrain, choice.drawn);
                 is_seen = !choice.drawn.empty();
+            } else if (needs_cones(terrain) && terrain.cones == nullptr) {
+                add_tiles(terrain, world_from_local); // meanwhile
+                return;
             }
         }
         if (is_seen) {
@@ -201,7 +206,8 @@ private:
                                   const glm::dmat4& world_from_local) {
         TileSelection choice = select_tiles(terrain, list_.camera, list_.size, world_from_local,
                                             {.keeps_hidden = !options_.occlusion});
-        requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used)});
+        requests_.push_back({terrain.stream, std::move(choice.requested), std::move(choice.used),
+                             needs_cones(terrain)});
         list_.stats.skipped.tiles_outside_frustum += choice.outside_frustum;
         list_.stats.skipped.tiles_occluded += choice.hidden_unread;
         list_.stats.tiles_missing += static_cast<int>(requests_.back().missing.size());
@@ -388,8 +394,8 @@ std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::
         const auto* terrain = node.get<scene::TerrainNode>();
         if (terrain != nullptr && has_streamed_tiles(*terrain)) {
             TileSelection choice = select_tiles(*terrain, camera, size, transform);
-            requests.push_back(
-                {terrain->stream, std::move(choice.requested), std::move(choice.used)});
+            requests.push_back({terrain->stream, std::move(choice.requested),
+                                std::move(choice.used), needs_cones(*terrain)});
         }
     });
     return requests;

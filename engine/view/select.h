@@ -17,6 +17,7 @@ struct TileRequests {
     std::shared_ptr<scene::TileStream> stream;
     std::vector<terrain::TreeTile> missing; ///< to load, the most urgent first
     std::vector<terrain::TreeTile> used;    ///< in memory: to keep
+    bool with_cones = false;                ///< as TileStream::request()
 };
 
 /// One frame: what is drawn and how, what should be loaded, and what was skipped and why

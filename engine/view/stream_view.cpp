@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/view/draw_list.h"
+#include "engine/view/tile_selection.h"
 
 namespace reljef::view {
 namespace {
@@ -76,8 +77,9 @@ terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) 
 
 StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera,
                        glm::ivec2 size, const glm::dmat4& world_from_local)
-    : stream_(*terrain.stream), camera_(camera), world_from_local_(world_from_local),
-      max_drawn_(max_drawn_of(terrain)), max_error_(max_error_of(terrain.material.technique)),
+    : terrain_(terrain), stream_(*terrain.stream), camera_(camera),
+      world_from_local_(world_from_local), max_drawn_(max_drawn_of(terrain)),
+      max_error_(max_error_of(terrain.material.technique)),
       frustum_(scene::clip_from_world(camera, size)),
       wider_(wider_picture(camera, size, max_error_)),
       wider_frustum_(scene::clip_from_world(wider_.camera, wider_.size)),
@@ -116,7 +118,7 @@ void StreamView::find_horizon(glm::ivec2 size) {
 }
 
 std::optional<KnownTile> StreamView::known(terrain::TreeTile id) const {
-    if (auto tile = stream_.find(id)) {
+    if (auto tile = stream_.find(id); tile != nullptr && is_ready(terrain_, *tile)) {
         return KnownTile{*tile, std::move(tile)};
     }
     const auto summary = stream_.recall(id);

@@ -108,6 +108,7 @@ private:
     [[nodiscard]] double relative_error(const scene::TileSummary& tile) const;
     [[nodiscard]] double pixels_per_metre(double distance) const;
 
+    const scene::TerrainNode& terrain_;
     const scene::TileStream& stream_;
     const scene::Camera& camera_;
     const glm::dmat4& world_from_local_;

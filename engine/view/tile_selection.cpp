@@ -328,13 +328,21 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
 
 } // namespace
 
+bool needs_cones(const scene::TerrainNode& terrain) {
+    return terrain.material.technique.id() == scene::TechniqueId::cone;
+}
+
+bool is_ready(const scene::TerrainNode& terrain, const scene::TerrainTile& tile) {
+    return tile.cones != nullptr || !needs_cones(terrain);
+}
+
 TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                            glm::ivec2 size, const glm::dmat4& world_from_local,
                            const TileSelectionOptions& options) {
     check(terrain.stream != nullptr, "a streamed terrain was expected");
     const scene::TileStream& stream = *terrain.stream;
     const auto root = stream.find(stream.tree().root());
-    if (root == nullptr) {
+    if (root == nullptr || !is_ready(terrain, *root)) {
         TileSelection selection;
         selection.has_root = false;
         selection.requested.push_back(stream.tree().root());

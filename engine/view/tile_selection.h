@@ -29,6 +29,11 @@ struct TileSelection {
     int hidden_unread = 0; ///< hidden tiles that are not loaded
 };
 
+/// Whether the technique searches the cones of the terrain's tiles.
+bool needs_cones(const scene::TerrainNode& terrain);
+/// Whether a loaded tile has what the technique needs.
+bool is_ready(const scene::TerrainNode& terrain, const scene::TerrainTile& tile);
+
 struct TileSelectionOptions {
     /// Requests and refines hidden tiles like all others and returns them as `hidden`: to measure
     /// the effect of occlusion on the picture.

@@ -2,8 +2,8 @@
 #ifdef STREAMED
 #include "frame/relief_block.glsl"
 uniform vec2 height_texel; // 1 / vertices of a tile
-#include "relief/relief_streamed.glsl"
-#include "relief/relief_streamed_max.glsl"
+#include "stream/stream_tiles.glsl"
+#include "stream/stream_max.glsl"
 #endif
 
 // The height down to which the beam of a block of pixels meets nothing (Laine and Karras 2010, beam

@@ -4,10 +4,15 @@
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"
 #if defined(EXACT) && defined(STREAMED)
-#include "relief/relief_exact_streamed.glsl"
+#include "stream/stream_walk.glsl"
 #elif defined(EXACT)
 #include "relief/relief_exact.glsl"
 #elif defined(CONE)
+#ifdef STREAMED
+#include "stream/stream_walk.glsl"
+#else
+#include "relief/relief_exact.glsl"
+#endif
 #include "relief/relief_cone.glsl"
 #elif defined(PARALLAX)
 #include "relief/relief_parallax.glsl"
@@ -122,6 +127,9 @@ void main() {
     vec3 along = mix(view_forward.xyz, back, perspective);
     vec3 direction = space_from_relative * along;
     vec3 leave = space_from_relative * back + eye_in_space;
+    if (gl_PrimitiveID == 2 || gl_PrimitiveID == 9) {
+        leave.z = box_begin.z; // through the bottom: exact, however small the relief is
+    }
     float entry = entry_before(leave, direction);
     vec3 span = -entry * direction;
     vec3 start = leave - span;

@@ -74,6 +74,18 @@ float halved(vec3 start, vec3 span, float part, float over, float low_part, floa
     return mix(part, low_part, over / (over - under));
 }
 
+#ifndef TILE
+// The true first hit behind a part: a terrain has no holes where cones run out or skip a crest.
+bool find_rest(vec3 start, vec3 span, float from, out float part, out vec2 place) {
+    bool began_above = begins_above;
+    begins_above = began_above || from > 0.0;
+    bool found = find_exact_hit(start + from * span, (1.0 - from) * span, part, place);
+    begins_above = began_above;
+    part = mix(from, 1.0, part);
+    return found;
+}
+#endif
+
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     const float steps_below = 64.0; // per ray, until it leaves the surface
     bool relaxed = cone_relaxed > 0.5 && span.z <= 0.0;
@@ -85,11 +97,13 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float next = 0.0;
     float under = 0.0;
     bool found = false;
+    bool skips = false; // any place
     for (float i = 0.0; i < n && next < 1.0; ++i) {
         vec2 cones = cones_at(start.xy + at * span.xy);
         float ratio = relaxed ? cones.g : cones.r;
         float opens = run - ratio * span.z;
         float way = opens > 0.0 ? max(ratio * over / opens, min_way) : 1.0;
+        skips = skips || over < 0.0 || ratio * over < min_way * opens;
         way = over >= 0.0 ? min(way, end_of_cone(start, span, at) - at) : 1.0 / steps_below;
         next = min(at + way, 1.0);
         vec3 p = start + next * span;
@@ -104,6 +118,14 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     }
     part = found ? halved(start, span, at, over, next, under) : at;
     place = start.xy + part * span.xy;
+#ifndef STREAMED
     // The steps also run out close to the surface.
-    return found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
+    found = found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
+#endif
+#ifndef TILE
+    if (!found && (skips || at < 1.0)) {
+        found = find_rest(start, span, skips ? 0.0 : at, part, place);
+    }
+#endif
+    return found;
 }

@@ -22,3 +22,9 @@ bool stays(inout vec3 start, inout Walk walk) {
 float max_height_in(Walk walk) {
     return texelFetch(max_mipmap, walk.block, walk.level).r;
 }
+
+#ifndef CONE
+bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+    return find_exact_hit(start, span, part, place);
+}
+#endif

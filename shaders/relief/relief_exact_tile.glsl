@@ -40,3 +40,9 @@ float max_height_in(Walk walk) {
     ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
     return texelFetch(max_mipmap, block, walk.level).r;
 }
+
+#ifndef CONE
+bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+    return find_exact_hit(start, span, part, place);
+}
+#endif

@@ -41,7 +41,7 @@ float outward() {
 }
 #else
 #ifdef STREAMED
-#include "relief/relief_streamed.glsl"
+#include "stream/stream_tiles.glsl"
 #else
 float height_at(vec2 place) {
     return textureLod(height_map, (place + 0.5) * height_texel, 0.0).r;

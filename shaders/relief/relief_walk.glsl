@@ -3,7 +3,7 @@
 // The true first hit: traverses a max mipmap (Tevs, Ihrke and Seidel 2008) down to cells, where the bilinear
 // surface along the ray is quadratic. The inner loop only descends or advances, with one texel fetch.
 #ifdef STREAMED
-#include "relief/relief_streamed_max.glsl"
+#include "stream/stream_max.glsl"
 #else
 layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
 uniform ivec2 last_cell;
@@ -73,7 +73,7 @@ bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
     return there;
 }
 
-bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     part = 1.0;
     place = vec2(0.0);
     if (is_endless(start, span)) {

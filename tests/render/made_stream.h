@@ -10,7 +10,7 @@ namespace reljef::render {
 inline void bring_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera) {
     while (true) {
         const auto choice = view::select_tiles(terrain, camera, size, glm::dmat4(1.0));
-        terrain.stream->request(choice.requested, choice.used);
+        terrain.stream->request(choice.requested, choice.used, view::needs_cones(terrain));
         if (choice.requested.empty()) {
             return;
         }

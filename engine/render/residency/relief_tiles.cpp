@@ -8,8 +8,6 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
-#include "engine/core/parallel_for.h"
-#include "engine/material/cone_map.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
@@ -96,14 +94,11 @@ template <class T> Grid<T> extended(const Grid<T>& grid, int side) {
 
 // Cells of the tile per metre of height.
 Grid<glm::vec2> cones_of(const scene::TerrainTile& tile) {
-    const Grid<float>& heights = tile.heightfield.heights;
-    const auto [low, high] =
-        std::minmax_element(heights.samples().begin(), heights.samples().end());
+    check(tile.cones != nullptr, "tiles with cones were expected");
+    const auto heights = tile.heightfield.heights.samples();
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
     const float range = *high > *low ? *high - *low : 1.0F;
-    ParallelOptions alone; // tiles are made in parallel
-    alone.threads = 1;
-    const Grid<float> unit = terrain::unit_heights(heights.view());
-    Grid<glm::vec2> texels = cone_texels(*material::cone_maps(unit.view(), alone));
+    Grid<glm::vec2> texels = cone_texels(*tile.cones);
     for (glm::vec2& cone : texels.samples()) {
         cone /= range;
     }
@@ -122,7 +117,7 @@ float highest_of(const scene::TerrainTile& tile) {
     return highest;
 }
 
-// As relief_streamed.glsl: tile_of_page.
+// As stream_tiles.glsl: tile_of_page.
 float packed_tile(const scene::TerrainTile& tile, int layer, int finest) {
     const int texel_level = std::countr_zero(static_cast<unsigned>(texels_a_cell(tile)));
     return static_cast<float>(layer | (tile.id.level - finest) << 12 | texel_level << 17);
@@ -299,7 +294,7 @@ void ReliefTiles::place_new(Stream& stream) const {
         if (slot.layer != no_layer) {
             is_taken[static_cast<std::size_t>(slot.layer)] = true;
         }
-        if (slot.drawn != frame_) {
+        if (slot.drawn != frame_ && slot.layer != no_layer) {
             undrawn.emplace_back(slot.drawn, tile);
         }
     }
@@ -307,7 +302,7 @@ void ReliefTiles::place_new(Stream& stream) const {
     auto next_undrawn = undrawn.begin();
     auto free = is_taken.begin();
     for (auto& [tile, slot] : stream.slots) {
-        if (slot.layer != no_layer) {
+        if (slot.drawn != frame_ || slot.layer != no_layer) {
             continue;
         }
         free = std::find(free, is_taken.end(), false);
@@ -345,7 +340,7 @@ Result<void> ReliefTiles::prepare_heights(Stream& stream, const std::vector<Draw
 Result<void> ReliefTiles::prepare_search(Stream& stream, const std::vector<Drawn>& tiles,
                                          const scene::Technique& technique,
                                          view::FrameStats& stats) {
-    if (technique.id() == scene::TechniqueId::exact || has_beams(technique)) {
+    if (uses_max_mipmap(technique)) {
         if (auto done = prepare_max(stream, tiles, stats); !done) {
             return done;
         }
@@ -387,18 +382,12 @@ Result<void> ReliefTiles::prepare_cones(Stream& stream, const std::vector<Drawn>
     if (auto created = create_missing(array, options, stream.layers); !created) {
         return created;
     }
-    std::vector<Drawn> missing;
-    std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(missing),
-                 [](const Drawn& drawn) { return !drawn.slot->has_cones; });
-    std::vector<Grid<glm::vec2>> cones(missing.size());
-    parallel_for(static_cast<int>(missing.size()), [&](int i) {
-        const auto at = static_cast<std::size_t>(i);
-        cones[at] = cones_of(*missing[at].tile);
-    });
-    for (std::size_t i = 0; i < missing.size(); ++i) {
-        array->upload(missing[i].slot->layer, 0, cones[i]);
-        count_upload(stats, array->bytes_per_layer());
-        missing[i].slot->has_cones = true;
+    for (const auto& [tile, slot] : tiles) {
+        if (!slot->has_cones) {
+            array->upload(slot->layer, 0, cones_of(*tile));
+            count_upload(stats, array->bytes_per_layer());
+            slot->has_cones = true;
+        }
     }
     return {};
 }

@@ -30,7 +30,7 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder,
                              std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
                              glm::dvec3 eye);
 
-/// A stream's tiles for rays. Each tile has the same layer in all arrays; see relief_streamed.glsl.
+/// A stream's tiles for rays. Each tile has the same layer in all arrays; see stream_tiles.glsl.
 struct ResidentReliefTiles {
     StreamedSpace space;
     std::optional<gl::Texture2D> pages;

@@ -168,7 +168,7 @@ Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::Frame
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const scene::Technique& technique = draw.terrain->material.technique;
     std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
-    const bool uses_mipmap = technique.id() == scene::TechniqueId::exact || has_beams(technique);
+    const bool uses_mipmap = uses_max_mipmap(technique);
     const bool needs_mipmap = uses_mipmap && !(relief && relief->max_mipmap);
     const bool needs_cones =
         technique.id() == scene::TechniqueId::cone && !(relief && relief->cones);

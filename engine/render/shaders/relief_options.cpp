@@ -135,6 +135,11 @@ bool has_beams(const scene::Technique& technique) {
     return begins_anywhere && !technique.options.steps && !technique.options.fade;
 }
 
+bool uses_max_mipmap(const scene::Technique& technique) {
+    return technique.id() == scene::TechniqueId::exact ||
+           technique.id() == scene::TechniqueId::cone || has_beams(technique);
+}
+
 double reference_height(const scene::Technique& technique) {
     const double* const offset = scene::parallax_offset(technique.parameters);
     return offset == nullptr ? 0.5 : -*offset;

@@ -20,4 +20,7 @@ TechniqueBlock technique_block(const scene::Technique& technique, double referen
 /// whose result does not depend on the start, and interval, whose steps get shorter.
 bool has_beams(const scene::Technique& technique);
 
+/// Whether the relief of a terrain needs its maximum mipmap: for exact searches and beams.
+bool uses_max_mipmap(const scene::Technique& technique);
+
 } // namespace reljef::render

@@ -20,7 +20,8 @@ glm::vec3 TerrainTile::normal_at(glm::dvec2 vertex) const {
 
 std::size_t TerrainTile::bytes() const {
     const std::size_t more = albedo.size() - std::min(albedo.size(), normals.size());
-    return bytes_per_vertex * normals.size() +
+    constexpr std::size_t bytes_of_cones = 2 * 2 * sizeof(float); // on the CPU and on the GPU
+    return (bytes_per_vertex + (cones != nullptr ? bytes_of_cones : 0)) * normals.size() +
            static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -9,6 +10,7 @@
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
+#include "engine/material/cone_map.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
@@ -49,6 +51,8 @@ struct TerrainTile : TileSummary {
     Image albedo;                 ///< edge to edge, at least one texel per vertex, sRGB
     Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; smaller at the far sides
     bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
+    /// Over its heights, from 0 to 1; null until a view needs them.
+    std::shared_ptr<const material::ConeMaps> cones;
 
     /// A vertex in local metres.
     [[nodiscard]] glm::dvec3 place(glm::ivec2 vertex) const {

@@ -22,7 +22,9 @@ inline std::uint32_t possible_features(ShaderKind kind) {
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
-        return any | relief | feature_beams | feature_multisampled;
+        return any | relief | feature_beams | feature_multisampled | feature_streamed;
+    case ShaderKind::beams:
+        return any | feature_streamed;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled;
     case ShaderKind::textured_mesh:

@@ -91,6 +91,8 @@ std::string_view glsl_type(GLint type) {
         return "mat4";
     case GL_SAMPLER_2D:
         return "sampler2D";
+    case GL_SAMPLER_2D_ARRAY:
+        return "sampler2DArray";
     default:
         return "a type that no uniform has";
     }
@@ -130,7 +132,7 @@ CompiledVariant inspect(const gl::Program& program, std::string name) {
         uniform.declaration.type = glsl_type(type);
         if (block >= 0) {
             uniform.offset = offset;
-        } else if (type == GL_SAMPLER_2D) {
+        } else if (type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY) {
             GLint unit = -1;
             glGetUniformiv(id, location, &unit);
             uniform.unit = unit;

@@ -51,3 +51,9 @@ float crossing_in(vec3 start, vec3 span, Walk walk, float leave, inout bool abov
     return crossing(corners, (start + walk.part * span - low) / size,
                     (leave - walk.part) * span / size, walk.part, leave, above);
 }
+
+#ifndef CONE
+bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+    return find_exact_hit(start, span, part, place);
+}
+#endif
