@@ -58,10 +58,7 @@ bool is_outside(vec2 low, vec2 high) {
 }
 
 float max_height_in_block(ivec2 block, int level) {
-    vec2 page = page_of_block(block, level);
-    StreamedTile tile = tile_of_page(page.x);
-    int coarser = max(tile.level - level, 0); // the block lies in a larger cell
-    return max_height_of(block >> coarser, level + coarser, page, tile);
+    return max_height_of(block, level);
 }
 #else
 bool is_outside(vec2 low, vec2 high) {

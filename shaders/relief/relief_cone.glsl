@@ -32,15 +32,14 @@ vec2 cones_at(vec2 place) {
 
 // The last part to which the cone of a place holds.
 #ifdef STREAMED
-// Cones know their own tile only, and take all its cells for equal: the terrain's end may cut the last ones.
-// Steps a little into the next tile.
+// Cones know their own tile only, and other pages may show other tiles. They take all cells for equal, but the
+// terrain's end may cut the last ones. Steps a little into the next page.
 float end_of_cone(vec3 start, vec3 span, float at) {
     const float beyond = 1.0 / 1024.0; // cells
     ivec2 cell = cell_at(start.xy + at * span.xy);
     int level = tile_of_page(page_of(cell).x).level;
-    int bits = page_level + level;
-    vec2 low = vec2(((cell >> bits) << bits) - origin_cell);
-    vec2 high = low + float(page_cells << level);
+    vec2 low = vec2(((cell >> page_level) << page_level) - origin_cell);
+    vec2 high = low + float(page_cells);
     vec2 cut = low + floor((box_end.xy - low) / float(1 << level)) * float(1 << level);
     vec2 here = start.xy + at * span.xy;
     bvec2 in_cut = greaterThanEqual(here, cut);

@@ -20,9 +20,6 @@ struct Walk {
     int level;
     ivec2 block;
     float part; // of the ray at the entry
-#ifdef STREAMED
-    vec2 page; // of the block
-#endif
 };
 
 // Whether the walk would not end.
@@ -33,29 +30,6 @@ vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk);
 // After a step into the next block: whether it exists.
 bool stays(inout vec3 start, inout Walk walk);
 float max_height_in(Walk walk);
-#ifdef STREAMED
-// Finds the block's page. A block within a larger cell becomes that cell.
-void settle(inout Walk walk);
-bool is_cell(Walk walk);
-vec2 place_of(ivec2 corner); // in the search space
-float crossing_in(vec3 start, vec3 span, Walk walk, float leave, inout bool above);
-#else
-void settle(inout Walk walk) {}
-
-bool is_cell(Walk walk) {
-    return walk.level == 0;
-}
-
-vec2 place_of(ivec2 corner) {
-    return vec2(corner);
-}
-
-float crossing_in(vec3 start, vec3 span, Walk walk, float leave, inout bool above) {
-    vec4 corners = textureGather(height_map, (vec2(walk.block) + 1.0) * height_texel);
-    return crossing(corners, start + walk.part * span - vec3(walk.block, 0.0), (leave - walk.part) * span,
-                    walk.part, leave, above);
-}
-#endif
 
 // Steps into the next block, and a level up at the border of a parent block. False if there is none.
 bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
@@ -73,6 +47,7 @@ bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
     return there;
 }
 
+#ifndef STREAMED
 bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     part = 1.0;
     place = vec2(0.0);
@@ -95,24 +70,26 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         vec2 exits = vec2(1.0);
         bool reached = false;
         while (inside && !reached) {
-            settle(walk);
             exits = exits_of(start, inverse, forward, walk) + never;
             float leave = min(min(exits.x, exits.y), 1.0);
             float lowest = start.z + (falls ? leave : walk.part) * span.z;
             bool over = above && lowest > max_height_in(walk);
-            reached = !over && is_cell(walk);
+            reached = !over && walk.level == 0;
             if (over) {
                 inside = move_on(exits, forward, start, walk);
             } else if (!reached) {
                 --walk.level;
-                vec2 middle = place_of((2 * walk.block + 1) << walk.level);
+                vec2 middle = vec2((2 * walk.block + 1) << walk.level);
                 vec2 p = start.xy + walk.part * span.xy;
                 walk.block = 2 * walk.block + ivec2(greaterThanEqual(p, middle));
             }
         }
         if (reached) {
             float leave = min(min(exits.x, exits.y), 1.0);
-            float found = crossing_in(start, span, walk, leave, above);
+            vec4 corners = textureGather(height_map, (vec2(walk.block) + 1.0) * height_texel);
+            float found =
+                crossing(corners, start + walk.part * span - vec3(walk.block, 0.0),
+                         (leave - walk.part) * span, walk.part, leave, above);
             if (found <= 1.0) {
                 part = found;
                 place = start.xy + part * span.xy;
@@ -123,3 +100,4 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     }
     return false;
 }
+#endif

@@ -267,6 +267,43 @@ TEST_F(StreamedReliefGlTest, NoSkyShowsBetweenTiles) {
     }
 }
 
+// Pages of a coarse tile show it only where nothing finer is drawn.
+TEST_F(StreamedReliefGlTest, TilesAboveTheDrawnOnesChangeNothing) {
+    Driver driver = made_driver();
+    CutWorld cut({2049, 2049}, true);
+    cut.set("exact");
+    for (const Pose pose : {Pose::overview, Pose::low, Pose::grazing}) {
+        cut.look(pose);
+        view::FrameView frame = cut.selected();
+        const HitBuffer hits = test::must(driver.draw_hits(frame)).hits;
+        auto& tiles = frame.list.reliefs.at(0).tiles;
+        const auto is_above = [](TreeTile tile, TreeTile other) {
+            const int levels = tile.level - other.level;
+            return levels > 0 && other.col >> levels == tile.col && other.row >> levels == tile.row;
+        };
+        const auto all = tiles;
+        const auto dropped = std::erase_if(tiles, [&](const auto& tile) {
+            return tile != all.front() &&
+                   std::any_of(all.begin(), all.end(),
+                               [&](const auto& other) { return is_above(tile->id, other->id); });
+        });
+        const HitBuffer of_drawn = test::must(driver.draw_hits(frame)).hits;
+        EXPECT_GT(dropped, 2U);
+        int moved = 0;
+        for (int row = 0; row < size.y; ++row) {
+            for (int col = 0; col < size.x; ++col) {
+                const Hit& a = hits(col, row);
+                const Hit& b = of_drawn(col, row);
+                moved += a.is_sky() != b.is_sky() ||
+                                 (!a.is_sky() && glm::distance(a.place(), b.place()) > 0.01)
+                             ? 1
+                             : 0;
+            }
+        }
+        EXPECT_LE(moved, size.x * size.y / 1000) << static_cast<int>(pose);
+    }
+}
+
 // Where cones run out or skip a crest, too.
 TEST_F(StreamedReliefGlTest, ConesShowNoSkyWhereThereIsGround) {
     Driver driver = made_driver();
