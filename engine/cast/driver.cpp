@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,13 +67,51 @@ Box bounds_of_tiles(const view::DrawList& list) {
     return bounds;
 }
 
-// No pixel of a proven tile is farther off than the tile itself, and rounding.
-double kept_error(const view::DrawList& list) {
-    double largest = 0.0;
-    for (const view::TileDraw& draw : list.tiles) {
-        largest = std::max(largest, draw.tile->borrows || !draw.is_proven() ? 0.0 : draw.error);
+// No pixel of a proven tile is farther off than the tile itself, and rounding. Empty: none is
+// proven.
+std::optional<double> kept_error(const view::DrawList& list) {
+    std::optional<double> largest;
+    if (list.tiles.empty()) {
+        largest = 0.0; // the samples
     }
-    return largest + rounding_error(list.camera, list.size);
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.is_proven()) {
+            largest = std::max(largest.value_or(0.0), draw.tile->borrows ? 0.0 : draw.error);
+        }
+    }
+    return largest ? std::optional(*largest + rounding_error(list.camera, list.size)) : largest;
+}
+
+// The finest tiles of a relief over a stream, as tiles.
+view::DrawList with_tiles_of_reliefs(view::DrawList list) {
+    for (view::ReliefDraw& relief : list.reliefs) {
+        std::set<terrain::TreeTile> above;
+        for (const auto& tile : relief.tiles) {
+            terrain::TreeTile id = tile->id;
+            const int top = relief.tiles.front()->id.level;
+            while (id.level < top) {
+                id = {id.level + 1, id.col / 2, id.row / 2};
+                above.insert(id);
+            }
+        }
+        for (const auto& tile : relief.tiles) {
+            if (!above.contains(tile->id)) {
+                view::TileDraw& draw = list.tiles.emplace_back();
+                draw.terrain = relief.terrain;
+                draw.tile = tile;
+                draw.transform = static_cast<int>(list.transforms.size());
+            }
+        }
+        list.transforms.push_back(relief.world_from_local);
+    }
+    std::erase_if(list.reliefs,
+                  [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
+    return list;
+}
+
+bool has_streamed_reliefs(const view::DrawList& list) {
+    return std::any_of(list.reliefs.begin(), list.reliefs.end(),
+                       [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
 }
 
 bool is_perspective(const view::DrawList& list) {
@@ -392,8 +431,12 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
 }
 
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
+    return has_streamed_reliefs(frame.list) ? draw(with_tiles_of_reliefs(frame.list))
+                                            : draw(frame.list);
+}
+
+Result<view::FrameStats> Driver::draw(const view::DrawList& list) {
     const Stopwatch watch;
-    const view::DrawList& list = frame.list;
     if (auto possible = check_support(list); !possible) {
         return possible.error();
     }
@@ -407,7 +450,11 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
 }
 
 Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
-    const view::DrawList& list = frame.list;
+    return has_streamed_reliefs(frame.list) ? draw_hits(with_tiles_of_reliefs(frame.list))
+                                            : draw_hits(frame.list);
+}
+
+Result<view::DrawnHits> Driver::draw_hits(const view::DrawList& list) {
     if (auto possible = check_support(list); !possible) {
         return possible.error();
     }

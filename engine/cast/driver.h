@@ -86,6 +86,8 @@ private:
     };
 
     explicit Driver(const DriverOptions& options);
+    Result<view::FrameStats> draw(const view::DrawList& list);
+    Result<view::DrawnHits> draw_hits(const view::DrawList& list);
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
     const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
     const LitLevels& levels_of(const scene::TerrainNode& terrain,

@@ -90,6 +90,26 @@ TEST_F(SceneRendererWithRays, TakesLightForWhateverDrawsNext) {
     }
 }
 
+struct OtherHits {
+    int ground = 0;
+    int others = 0; // sky, or more than a pixel apart
+};
+
+OtherHits compared(const HitBuffer& opengl, const HitBuffer& rays) {
+    OtherHits found;
+    for (std::size_t i = 0; i < rays.samples().size(); ++i) {
+        const Hit& a = opengl.samples()[i];
+        const Hit& b = rays.samples()[i];
+        found.ground += b.is_sky() ? 0 : 1;
+        const double far = 0.005 * std::max(a.depth, b.depth) + 1.0; // metres
+        const bool is_apart = !a.is_sky() && !b.is_sky() &&
+                              (10.0 * glm::distance(a.place(), b.place()) > 4.0 * far ||
+                               std::abs(a.height - b.height) > far);
+        found.others += a.is_sky() != b.is_sky() || is_apart ? 1 : 0;
+    }
+    return found;
+}
+
 // Of a stream in a small memory; the tiles are the same.
 TEST_F(SceneRendererWithRays, FindsTheHitsOfOpenGlOverStreamedTiles) {
     const test::TemporaryFolder folder;
@@ -103,35 +123,24 @@ TEST_F(SceneRendererWithRays, FindsTheHitsOfOpenGlOverStreamedTiles) {
     view.pose = scene::Pose::low;
     view.max_error = 0.5;
     Log silent;
-    const TerrainScene scene = test::must(open_scene(choice, view, silent));
-    ASSERT_NE(scene.terrain->get<scene::TerrainNode>()->stream, nullptr);
-    SceneRenderer by_opengl = test::must(test::make_renderer(shown_size));
-    SceneRenderer by_rays =
-        test::must(SceneRenderer::create({.rays = cast::DriverOptions{.size = shown_size}}));
-    for (SceneRenderer* const renderer : {&by_opengl, &by_rays}) {
-        wait_for_tiles(scene.scene, shown_size, renderer->selector(), silent, {});
-    }
-    const HitBuffer opengl = test::must(by_opengl.draw_hits(scene.scene));
-    const HitBuffer rays = test::must(by_rays.draw_hits(scene.scene));
-    int ground = 0;
-    int others = 0; // sky, or more than a pixel apart
-    for (int row = 0; row < shown_size.y; ++row) {
-        for (int col = 0; col < shown_size.x; ++col) {
-            const Hit& a = opengl(col, row);
-            const Hit& b = rays(col, row);
-            ground += b.is_sky() ? 0 : 1;
-            const double far = 0.005 * std::max(a.depth, b.depth) + 1.0; // metres
-            others +=
-                a.is_sky() != b.is_sky() ||
-                        (!a.is_sky() && (10.0 * glm::distance(a.place(), b.place()) > 4.0 * far ||
-                                         std::abs(a.height - b.height) > far))
-                    ? 1
-                    : 0;
+    TerrainScene scene = test::must(open_scene(choice, view, silent));
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    ASSERT_NE(terrain.stream, nullptr);
+    for (const scene::Technique& technique :
+         {terrain.material.technique, scene::Technique{scene::Exact{}}}) {
+        terrain.material.technique = technique;
+        SceneRenderer by_opengl = test::must(test::make_renderer(shown_size));
+        SceneRenderer by_rays =
+            test::must(SceneRenderer::create({.rays = cast::DriverOptions{.size = shown_size}}));
+        for (SceneRenderer* const renderer : {&by_opengl, &by_rays}) {
+            wait_for_tiles(scene.scene, shown_size, renderer->selector(), silent, {});
         }
+        const OtherHits found = compared(test::must(by_opengl.draw_hits(scene.scene)),
+                                         test::must(by_rays.draw_hits(scene.scene)));
+        EXPECT_GT(found.ground, shown_size.x * shown_size.y / 4) << scene::to_string(technique);
+        EXPECT_LE(found.others, found.ground / 50) << scene::to_string(technique);
+        EXPECT_GT(test::must(by_rays.draw(scene.scene)).tiles, 10) << scene::to_string(technique);
     }
-    EXPECT_GT(ground, shown_size.x * shown_size.y / 4);
-    EXPECT_LE(others, ground / 50);
-    EXPECT_GT(test::must(by_rays.draw(scene.scene)).tiles, 10);
 }
 
 TEST(SceneRendererOptions, WithRaysAloneNothingElseDraws) {
