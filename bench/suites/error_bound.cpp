@@ -53,26 +53,27 @@ const scene::TerrainSurface& bounded_surface(const BenchmarkScene& scene) {
 
 class FrameChecker {
 public:
-    FrameChecker(const BenchmarkScene& scene, glm::ivec2 size, unsigned threads)
+    FrameChecker(const BenchmarkScene& scene, glm::ivec2 size, ParallelOptions parallel)
         : surface_(bounded_surface(scene)), world_from_local_(scene.terrain().world_from_local()),
-          size_(size), threads_(threads) {}
+          size_(size), parallel_(std::move(parallel)) {}
 
-    // `stated`: the error of the frame, pixels.
+    // `stated`: the error of the frame, pixels. Incomplete after a stop.
     FrameErrors check_frame(const scene::Camera& camera, const HitBuffer& hits, double stated,
                             const PixelLattice& lattice) const {
         const int rows = (size_.y - lattice.first.y + lattice.step - 1) / lattice.step;
         std::vector<FrameErrors> parts(static_cast<std::size_t>(rows));
         const truth::SurfaceView view{surface_.heightfield().heights.view(), surface_.placement(),
                                       world_from_local_, camera};
-        parallel_for(rows,
-                     [&](int index) {
-                         const int y = lattice.first.y + index * lattice.step;
-                         for (int x = lattice.first.x; x < size_.x; x += lattice.step) {
-                             check_pixel(view, {x, y}, hits(x, y), stated,
-                                         parts[static_cast<std::size_t>(index)]);
-                         }
-                     },
-                     {threads_, {}, {}});
+        parallel_for(
+            rows,
+            [&](int index) {
+                const int y = lattice.first.y + index * lattice.step;
+                for (int x = lattice.first.x; x < size_.x; x += lattice.step) {
+                    check_pixel(view, {x, y}, hits(x, y), stated,
+                                parts[static_cast<std::size_t>(index)]);
+                }
+            },
+            parallel_);
         FrameErrors all;
         for (const FrameErrors& part : parts) {
             all.add(part);
@@ -141,7 +142,7 @@ private:
     const scene::TerrainSurface& surface_;
     glm::dmat4 world_from_local_;
     glm::ivec2 size_;
-    unsigned threads_;
+    ParallelOptions parallel_;
 };
 
 ErrorBoundRow row_of(const BenchmarkScene& scene, std::string views, double error) {
@@ -249,7 +250,8 @@ private:
     }
 
     [[nodiscard]] FrameChecker checker_of(const BenchmarkScene& scene) const {
-        return {scene, options_.suite.size, static_cast<unsigned>(options_.suite.threads)};
+        return {
+            scene, options_.suite.size, {static_cast<unsigned>(options_.suite.threads), stop_, {}}};
     }
 
     Result<void> run_random(BenchmarkScene& scene, std::string views, int poses,
@@ -310,7 +312,10 @@ private:
         const double stated = std::max(row.error, drawn->stats.kept_error.value_or(row.error));
         row.stated_px = std::max(row.stated_px, stated);
         const scene::Camera camera = scene.scene().camera();
-        add_frame(row, checker.check_frame(camera, drawn->hits, stated, lattice), camera);
+        const FrameErrors found = checker.check_frame(camera, drawn->hits, stated, lattice);
+        if (!stop_.stop_requested()) { // all of its pixels were checked
+            add_frame(row, found, camera);
+        }
         return {};
     }
 

@@ -109,6 +109,11 @@ view::DrawList with_tiles_of_reliefs(view::DrawList list) {
     return list;
 }
 
+// Tiles of a stream are drawn in up to four pieces.
+int tile_count(const view::DrawList& list, const PlacedTiles& placed) {
+    return static_cast<int>(list.tiles.empty() ? placed.tiles.size() : list.tiles.size());
+}
+
 bool has_streamed_reliefs(const view::DrawList& list) {
     return std::any_of(list.reliefs.begin(), list.reliefs.end(),
                        [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
@@ -444,7 +449,7 @@ Result<view::FrameStats> Driver::draw(const view::DrawList& list) {
     const PlacedTiles placed = placed_tiles(list, true, stats);
     paint(list, placed);
     stats.rays = placed.tiles.empty() ? 0 : first_.picture.size();
-    stats.tiles = static_cast<int>(placed.tiles.size());
+    stats.tiles = tile_count(list, placed);
     stats.cpu_ms = watch.milliseconds();
     return stats;
 }
@@ -469,7 +474,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::DrawList& list) {
     }
     drawn.hits = std::move(*hits);
     drawn.stats.rays = placed.tiles.empty() ? 0 : drawn.hits.size();
-    drawn.stats.tiles = static_cast<int>(placed.tiles.size());
+    drawn.stats.tiles = tile_count(list, placed);
     return drawn;
 }
 

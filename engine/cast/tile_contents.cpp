@@ -159,10 +159,12 @@ void TileContents::make(const view::DrawList& list, const Options& options,
         light && options.paints ? &irradiance_of(terrain, *light) : nullptr;
     const auto make_one = [&](int index) {
         const Missing& one = missing[static_cast<std::size_t>(index)];
-        make_pieces(builder, one);
+        if (!one.content->pieces.front()) {
+            make_pieces(builder, one);
+        }
         if (options.paints) {
             one.content->levels.emplace(irradiance != nullptr
-                                            ? scene::lit_tile(builder, *one.tile, *irradiance)
+                                            ? scene::lit_tile(builder, *one.tile, *irradiance, 1)
                                             : one.tile->albedo,
                                         one.tile->cells + 1);
             one.content->light = light;

@@ -411,22 +411,23 @@ glm::vec3 up_at(const TileBuilder& builder, const TerrainTile& tile, glm::ivec2 
 }
 
 // `light`: at the vertices, linear.
-Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light) {
+Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light, unsigned threads = 0) {
     Image lit(tile.albedo.cols(), tile.albedo.rows());
-    parallel_for(lit.rows(), [&](int row) {
+    const auto reflect_row = [&](int row) {
         for (int col = 0; col < lit.cols(); ++col) {
             lit(col, row) =
                 rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
                                   bilinear(light, tile.vertex_of({col, row}), std::identity()));
         }
-    });
+    };
+    parallel_for(lit.rows(), reflect_row, {threads, {}, {}});
     return lit;
 }
 
 } // namespace
 
 Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
-               const TerrainIrradiance& irradiance) {
+               const TerrainIrradiance& irradiance, unsigned threads) {
     const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
@@ -440,7 +441,7 @@ Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                 irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}), visibility);
         }
     }
-    return reflected(tile, light);
+    return reflected(tile, light, threads);
 }
 
 LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,

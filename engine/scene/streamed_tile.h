@@ -130,9 +130,9 @@ private:
     terrain::HeightTint tint_;
 };
 
-/// The lit albedo, sRGB. The light is interpolated between vertices.
+/// The lit albedo, sRGB. The light is interpolated between vertices. `threads` as parallel_for().
 Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
-               const TerrainIrradiance& irradiance);
+               const TerrainIrradiance& irradiance, unsigned threads = 0);
 
 /// The same in parts, for callers that compute shadows themselves.
 struct LitTileParts {

@@ -285,25 +285,30 @@ void TileStream::work(const std::stop_token& stop) {
             }
             continue;
         }
-        const std::stop_token cancelled = in_flight_[*tile].get_token();
-        const auto entry = tiles_.find(*tile);
-        const Made before = entry != tiles_.end() ? entry->second.made : Made{};
-        const bool is_read = before.tile != nullptr && !failures_.contains(*tile);
-        const bool with_cones = with_cones_;
-        lock.unlock();
-        TileContent content = is_read ? TileContent{} : read_(*tile, cancelled);
-        const bool stopped = cancelled.stop_requested();
-        Made made = is_read ? before : Made{};
-        if (!is_read && !stopped && content.errors.empty()) {
-            made = make(*tile, content, before);
-        }
-        if (with_cones && made.tile != nullptr && made.tile->cones == nullptr) {
-            made.tile = with_cones_over(*made.tile);
-        }
-        lock.lock();
-        finish(*tile, content, std::move(made), stopped);
+        load(*tile, lock);
         changed_.notify_all();
     }
+}
+
+// Precondition: locked; unlocks while it reads.
+void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock) {
+    const std::stop_token cancelled = in_flight_[tile].get_token();
+    const auto entry = tiles_.find(tile);
+    const Made before = entry != tiles_.end() ? entry->second.made : Made{};
+    const bool is_read = before.tile != nullptr && !failures_.contains(tile);
+    const bool with_cones = with_cones_;
+    lock.unlock();
+    TileContent content = is_read ? TileContent{} : read_(tile, cancelled);
+    const bool stopped = cancelled.stop_requested();
+    Made made = is_read ? before : Made{};
+    if (!is_read && !stopped && content.errors.empty()) {
+        made = make(tile, content, before);
+    }
+    if (with_cones && made.tile != nullptr && made.tile->cones == nullptr) {
+        made.tile = with_cones_over(*made.tile);
+    }
+    lock.lock();
+    finish(tile, content, std::move(made), stopped);
 }
 
 TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,

@@ -151,6 +151,7 @@ private:
         std::vector<std::string> files;
     };
     void work(const std::stop_token& stop);
+    void load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock);
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
     [[nodiscard]] Made make(terrain::TreeTile tile, TileContent& content, const Made& before) const;

@@ -94,25 +94,31 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     return std::move(cached->value);
 }
 
+MissingMaps missing_of_terrain(const scene::TerrainNode& node, const scene::Technique& shown,
+                               RayUse rays) {
+    MissingMaps missing;
+    if (node.stream != nullptr) {
+        return missing; // its tiles have their own
+    }
+    const Grid<float>& heights = node.surface->heightfield().heights;
+    const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
+    missing.cones = has_cells && shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
+    const bool has_triangles = rays == RayUse::none || !cast::obstacle_of(node, shown).empty();
+    missing.bisection =
+        scene::error_bound(shown) > 0.0 && has_triangles && node.bisection == nullptr;
+    missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;
+    return missing;
+}
+
 } // namespace
 
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique) {
-    MissingMaps missing;
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        const scene::Technique shown = technique.value_or(node.material.technique);
-        const Grid<float>& heights = node.surface->heightfield().heights;
-        const bool has_cells = heights.cols() >= 2 && heights.rows() >= 2;
-        missing.cones = has_cells && shown.id() == scene::TechniqueId::cone &&
-                        node.stream == nullptr && node.cones == nullptr; // tiles have their own
-        const bool has_triangles =
-            scene.rays == RayUse::none || !cast::obstacle_of(node, shown).empty();
-        missing.bisection = scene::error_bound(shown) > 0.0 && has_triangles &&
-                            node.stream == nullptr && node.bisection == nullptr;
-        missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;
-        return missing;
+        return missing_of_terrain(node, technique.value_or(node.material.technique), scene.rays);
     }
+    MissingMaps missing;
     for (const scene::Material* const material : scene.materials()) {
         const MissingMaps::Set& set = material->detail.set;
         const scene::Technique& shown = technique ? *technique : material->technique;

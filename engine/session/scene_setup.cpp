@@ -202,6 +202,28 @@ Result<void> TerrainScene::check(const scene::Technique& technique) const {
     return {};
 }
 
+namespace {
+
+// The models of a gallery; each draws its own technique.
+Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const TerrainSource& source,
+                                                  const SourceOptions& terrain,
+                                                  const SceneOptions& view, Log& log,
+                                                  const std::stop_token& stop) {
+    auto models = add_gallery(result.scene, source.description, terrain, view, log, stop);
+    if (!models) {
+        return models;
+    }
+    for (const scene::Node* const model : *models) {
+        const auto* const mesh = model->get<scene::MeshNode>();
+        if (auto good = scene::check_technique(mesh->material.technique, *mesh); !good) {
+            return refused_technique(good.error(), view);
+        }
+    }
+    return models;
+}
+
+} // namespace
+
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
     TerrainScene result;
@@ -227,17 +249,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     shown.detail = std::move(*detail);
     if (result.is_gallery) {
-        auto models = add_gallery(result.scene, source.description, terrain, view, log, stop);
+        auto models = checked_gallery(result, source, terrain, view, log, stop);
         if (!models) {
             return models.error();
         }
         result.models = std::move(*models);
-        for (const scene::Node* const model : result.models) {
-            const auto* const mesh = model->get<scene::MeshNode>();
-            if (auto good = scene::check_technique(mesh->material.technique, *mesh); !good) {
-                return refused_technique(good.error(), view);
-            }
-        }
     } else if (auto done = choose_technique(result, view); !done) {
         return done.error();
     }

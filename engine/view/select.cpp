@@ -346,8 +346,7 @@ Occluders occluders_of(const DrawList& list, const TileDraw& draw) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const terrain::Heightfield& heightfield = surface.heightfield();
     const terrain::Placement& placement = surface.placement();
-    const terrain::MinMax range = surface.pyramid().bounds(
-        {0, 0}, {heightfield.heights.cols() - 2, heightfield.heights.rows() - 2});
+    const terrain::MinMax range = surface.pyramid().total();
     const double exaggeration = placement.exaggeration();
     return {terrain::Horizon::create(heightfield, surface.pyramid(), placement, *view),
             terrain::EarthHorizon::create(

@@ -25,8 +25,8 @@ static_assert(gl::max_layers >= view::max_relief_tiles);
 // Frames that the tiles of a stream stay unused.
 constexpr std::uint64_t kept_frames_of_stream = 8;
 
-// A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
-constexpr std::size_t max_pages = std::size_t{1} << 20U;
+// Along a side. A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
+constexpr int max_pages = 1024;
 
 glm::ivec2 cells_at(const terrain::TileTree& tree, int level) {
     const int step = 1 << level;
@@ -43,11 +43,11 @@ int finest_level(const terrain::TileTree& tree, Tiles tiles) {
     for (const auto& tile : tiles) {
         level = std::min(level, tile->id.level);
     }
-    const auto count = [&](int at) {
+    const auto longest = [&](int at) {
         const glm::ivec2 pages = pages_at(tree, at);
-        return static_cast<std::size_t>(pages.x) * static_cast<std::size_t>(pages.y);
+        return std::max(pages.x, pages.y);
     };
-    while (count(level) > max_pages) {
+    while (longest(level) > max_pages) {
         ++level;
     }
     return level;
@@ -392,10 +392,9 @@ Result<void> ReliefTiles::prepare_cones(Stream& stream, const std::vector<Drawn>
     return {};
 }
 
-Result<void> ReliefTiles::prepare_light(Stream& stream, const std::vector<Drawn>& tiles,
-                                        const scene::TileBuilder& builder, const Lit& lit,
-                                        const scene::TerrainIrradiance* irradiance,
-                                        view::FrameStats& stats) {
+// The textures of the tiles' light, empty where tiles need others.
+Result<void> ReliefTiles::prepare_light_arrays(Stream& stream, const std::vector<Drawn>& tiles,
+                                               const Lit& lit) {
     ResidentReliefTiles& resident = stream.resident;
     int side = resident.lit ? resident.lit->size().x : 0;
     for (const Drawn& drawn : tiles) {
@@ -414,24 +413,31 @@ Result<void> ReliefTiles::prepare_light(Stream& stream, const std::vector<Drawn>
                                      .levels = gl::full_chain,
                                      .filter = gl::Filter::trilinear};
     auto done = create_missing(resident.lit, options, stream.layers);
-    if (done && lit.in_parts) {
-        done = create_missing(resident.sun, options, stream.layers);
-    }
-    for (const auto& [tile, slot] : tiles) {
-        if (slot->lit == lit || !done) {
-            continue;
-        }
-        if (lit.in_parts) {
-            const scene::LitTileParts parts = scene::lit_tile_parts(builder, *tile, *irradiance);
-            done = upload_lit(*resident.lit, slot->layer, parts.sky, stats);
-            done = done ? upload_lit(*resident.sun, slot->layer, parts.sun, stats) : done;
-        } else {
-            done = upload_lit(*resident.lit, slot->layer,
-                              irradiance != nullptr ? scene::lit_tile(builder, *tile, *irradiance)
-                                                    : tile->albedo,
+    return done && lit.in_parts ? create_missing(resident.sun, options, stream.layers) : done;
+}
+
+Result<void> ReliefTiles::prepare_light(Stream& stream, const std::vector<Drawn>& tiles,
+                                        const scene::TileBuilder& builder, const Lit& lit,
+                                        const scene::TerrainIrradiance* irradiance,
+                                        view::FrameStats& stats) {
+    auto done = prepare_light_arrays(stream, tiles, lit);
+    ResidentReliefTiles& resident = stream.resident;
+    const auto upload = [&](const scene::TerrainTile& tile, int layer) {
+        if (!lit.in_parts) {
+            return upload_lit(*resident.lit, layer,
+                              irradiance != nullptr ? scene::lit_tile(builder, tile, *irradiance)
+                                                    : tile.albedo,
                               stats);
         }
-        slot->lit = lit;
+        const scene::LitTileParts parts = scene::lit_tile_parts(builder, tile, *irradiance);
+        auto sky = upload_lit(*resident.lit, layer, parts.sky, stats);
+        return sky ? upload_lit(*resident.sun, layer, parts.sun, stats) : sky;
+    };
+    for (const auto& [tile, slot] : tiles) {
+        if (done && slot->lit != lit) {
+            done = upload(*tile, slot->layer);
+            slot->lit = done ? std::optional(lit) : std::nullopt;
+        }
     }
     return done;
 }
@@ -440,10 +446,11 @@ Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>
                                         view::FrameStats& stats) {
     const int finest = stream.resident.space.level;
     const auto owner = stream.owner.lock();
-    std::vector<std::pair<terrain::TreeTile, float>> shown;
+    std::vector<std::pair<terrain::TreeTile, glm::vec2>> shown;
     shown.reserve(tiles.size());
     for (const auto& [tile, slot] : tiles) {
-        shown.emplace_back(tile->id, packed_tile(*tile, slot->layer, finest));
+        shown.emplace_back(tile->id,
+                           glm::vec2(packed_tile(*tile, slot->layer, finest), highest_of(*tile)));
     }
     if (stream.resident.pages && stream.shown == shown) {
         ++stats.skipped.uploads_unchanged;
@@ -456,8 +463,7 @@ Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>
     Grid<glm::vec2> pages(side_for(count.x), side_for(count.y),
                           glm::vec2(0.0F, std::numeric_limits<float>::lowest()));
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        set_pages(pages, count, tiles[i].tile->id, finest,
-                  {shown[i].second, highest_of(*tiles[i].tile)});
+        set_pages(pages, count, tiles[i].tile->id, finest, shown[i].second);
     }
     auto texture = upload_pages(std::move(pages), stats);
     if (!texture) {

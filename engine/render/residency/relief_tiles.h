@@ -77,7 +77,7 @@ private:
         std::uint64_t drawn = 0; // last frame
         int layers = 0;
         std::map<terrain::TreeTile, Slot> slots;
-        std::vector<std::pair<terrain::TreeTile, float>> shown; // by the pages
+        std::vector<std::pair<terrain::TreeTile, glm::vec2>> shown; // by the pages
         ResidentReliefTiles resident;
     };
     struct Drawn {
@@ -97,6 +97,8 @@ private:
                                     view::FrameStats& stats);
     static Result<void> prepare_cones(Stream& stream, const std::vector<Drawn>& tiles,
                                       view::FrameStats& stats);
+    static Result<void> prepare_light_arrays(Stream& stream, const std::vector<Drawn>& tiles,
+                                             const Lit& lit);
     static Result<void> prepare_light(Stream& stream, const std::vector<Drawn>& tiles,
                                       const scene::TileBuilder& builder, const Lit& lit,
                                       const scene::TerrainIrradiance* irradiance,
