@@ -92,6 +92,13 @@ std::optional<glm::dvec2> Placement::latitudes_all_around() const {
                       geodetic_->latitude_longitude({0.0, 0.0}).x);
 }
 
+std::optional<double> Placement::columns_all_around() const {
+    if (!geodetic_ || !geodetic_->rows().wrap().around) {
+        return std::nullopt;
+    }
+    return from_placed({2.0 * center_.x, 0.0}).x - from_placed({0.0, 0.0}).x;
+}
+
 glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
     const glm::dvec2 place = placed(glm::dvec2(sample));
     if (!frame_) {

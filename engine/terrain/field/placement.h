@@ -55,6 +55,8 @@ public:
     [[nodiscard]] HeightRange zero_range() const { return zero_range_; }
     /// South and north of a terrain that covers all longitudes, degrees; otherwise empty.
     [[nodiscard]] std::optional<glm::dvec2> latitudes_all_around() const;
+    /// Columns around a terrain that covers all longitudes; otherwise empty.
+    [[nodiscard]] std::optional<double> columns_all_around() const;
 
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const;
     /// The inverse; may lie outside the heightfield. Empty outside the map's domain.
