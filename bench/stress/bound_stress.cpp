@@ -181,7 +181,7 @@ int reach_of(double error) {
 }
 
 Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene, int poses,
-                                   ViewChances& chances) {
+                                   ViewGenerators& generators) {
     session::Log silent;
     auto frames = make_frames(run, silent);
     if (!frames) {
@@ -190,7 +190,7 @@ Result<StatedErrors> stated_errors(StressRun& run, session::TerrainScene& scene,
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     StatedErrors found;
     for (int i = 0; i < poses && !run.stopped(); ++i) {
-        auto random = chances.next();
+        auto random = generators.next();
         if (!random) {
             continue;
         }
@@ -240,7 +240,7 @@ void add_streamed_rows(StressRun& run, const StressRow& of_ground, const StatedE
 
 // Half of the poses, or all of a terrain without a place on the Earth.
 Result<bool> fly_on(StressRun& run, const StreamedGround& ground, terrain::PlacementKind placement,
-                    ViewChances& chances) {
+                    ViewGenerators& generators) {
     auto scene = open_streamed(run, streamed_source(ground, placement));
     if (!scene) {
         return scene.error();
@@ -248,7 +248,7 @@ Result<bool> fly_on(StressRun& run, const StreamedGround& ground, terrain::Place
     const auto& surface = *scene->terrain->get<scene::TerrainNode>()->surface;
     const bool on_earth = surface.heightfield().georeference.has_value();
     const int poses = run.options().poses.value_or(run.cases(4, 100));
-    const auto found = stated_errors(run, *scene, on_earth ? (poses + 1) / 2 : poses, chances);
+    const auto found = stated_errors(run, *scene, on_earth ? (poses + 1) / 2 : poses, generators);
     if (!found) {
         return found.error();
     }
@@ -264,15 +264,16 @@ Result<bool> fly_on(StressRun& run, const StreamedGround& ground, terrain::Place
     return on_earth;
 }
 
-Result<void> stress_streamed(StressRun& run, const StreamedGround& ground, ViewChances& chances) {
+Result<void> stress_streamed(StressRun& run, const StreamedGround& ground,
+                             ViewGenerators& generators) {
     session::Log silent;
     const auto indexed = session::index_terrain(streamed_source(ground), silent, run.stop());
     if (!indexed) {
         return indexed.error();
     }
-    auto on_earth = fly_on(run, ground, terrain::PlacementKind::plane, chances);
+    auto on_earth = fly_on(run, ground, terrain::PlacementKind::plane, generators);
     if (on_earth && *on_earth && !run.stopped()) {
-        on_earth = fly_on(run, ground, terrain::PlacementKind::ellipsoid, chances);
+        on_earth = fly_on(run, ground, terrain::PlacementKind::ellipsoid, generators);
     }
     if (ground.is_temporary) {
         std::error_code ignored;
@@ -282,7 +283,7 @@ Result<void> stress_streamed(StressRun& run, const StreamedGround& ground, ViewC
 }
 
 // The DEM files of the options that do not fit the memory.
-Result<void> stress_streamed_files(StressRun& run, ViewChances& chances) {
+Result<void> stress_streamed_files(StressRun& run, ViewGenerators& generators) {
     for (const std::string& terrain : run.options().terrains) {
         const StreamedGround ground{terrain, terrain, streamed_megabytes, false};
         std::error_code ignored;
@@ -292,7 +293,7 @@ Result<void> stress_streamed_files(StressRun& run, ViewChances& chances) {
         const auto scene = open_streamed(run, streamed_source(ground));
         const bool is_streamed =
             scene && scene->terrain->get<scene::TerrainNode>()->stream != nullptr;
-        if (auto done = is_streamed ? stress_streamed(run, ground, chances) : Result<void>();
+        if (auto done = is_streamed ? stress_streamed(run, ground, generators) : Result<void>();
             !done) {
             return run.stopped() ? Result<void>() : done;
         }
@@ -351,7 +352,7 @@ Result<void> stress_streamed_repeats(StressRun& run) {
 }
 
 Result<void> stress_streamed_bound(StressRun& run) {
-    ViewChances chances(run.options().seed, run.options().skip);
+    ViewGenerators generators(run.options().seed, run.options().skip);
     const auto folder = make_scaling_folder({}, streamed_side);
     if (!folder) {
         return folder.error();
@@ -364,13 +365,13 @@ Result<void> stress_streamed_bound(StressRun& run) {
         if (!ground) {
             return run.stopped() ? Result<void>() : ground.error();
         }
-        if (auto done = stress_streamed(run, *ground, chances); !done) {
+        if (auto done = stress_streamed(run, *ground, generators); !done) {
             return run.stopped() ? Result<void>() : done;
         }
         std::error_code ignored;
         fs::remove(ground->path, ignored);
     }
-    return stress_streamed_files(run, chances);
+    return stress_streamed_files(run, generators);
 }
 
 } // namespace reljef::bench

@@ -169,7 +169,7 @@ class ErrorBoundRun {
 public:
     ErrorBoundRun(ErrorBoundResults& results, std::stop_token stop)
         : results_(results), options_(results.options), stop_(std::move(stop)),
-          chances_(options_.seed, options_.skip), line_("judging views", options_.suite.quiet) {}
+          generators_(options_.seed, options_.skip), line_("judging views", options_.suite.quiet) {}
 
     Result<void> run() {
         auto device = make_device(options_.suite);
@@ -261,7 +261,7 @@ private:
         const FrameChecker checker = checker_of(scene);
         Result<void> done;
         for (int i = 0; i < poses && done && !stop_.stop_requested(); ++i) {
-            if (auto random = chances_.next()) {
+            if (auto random = generators_.next()) {
                 scene.set_camera(view(*random, bounded_surface(scene)));
                 const PixelLattice lattice{glm::ivec2(i, i / random_step) % random_step,
                                            random_step};
@@ -340,7 +340,7 @@ private:
     ErrorBoundResults& results_;
     const ErrorBoundOptions& options_;
     std::stop_token stop_;
-    ViewChances chances_;
+    ViewGenerators generators_;
     cli::ProgressLine line_;
     double frames_ = 0.0;
 };

@@ -49,7 +49,7 @@ double between(std::mt19937& random, double low, double high) {
            (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());
 }
 
-std::optional<std::mt19937> ViewChances::next() {
+std::optional<std::mt19937> ViewGenerators::next() {
     const std::int64_t number = count_++;
     if (number < skip_) {
         return std::nullopt;

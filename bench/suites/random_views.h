@@ -12,12 +12,12 @@ namespace reljef::bench {
 /// Evenly in [low, high]; the same on every machine, unlike the standard library's distributions.
 double between(std::mt19937& random, double low, double high);
 
-/// The random numbers of successive views. Those of a view depend on the seed and its number only,
-/// so that a long run can be continued.
-class ViewChances {
+/// The generators of random numbers of successive views. That of a view depends on the seed and the
+/// number of the view only, so that a long run can be continued.
+class ViewGenerators {
 public:
     /// `skip`: the views that are left out at the beginning.
-    ViewChances(std::uint32_t seed, std::int64_t skip) : seed_(seed), skip_(skip) {}
+    ViewGenerators(std::uint32_t seed, std::int64_t skip) : seed_(seed), skip_(skip) {}
 
     /// Of the next view; empty: it is left out.
     std::optional<std::mt19937> next();

@@ -2,8 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
-#include <fstream>
 #include <future>
 #include <thread>
 
@@ -11,75 +9,20 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/io/image/image.h"
-#include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 #include "tests/app/command_line.h"
-#include "tests/session/made_session.h"
+#include "tests/session/streamed_cells.h"
 #include "tests/support/nginx.h"
-#include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_data.h"
 #include "tests/support/test_program.h"
 
 namespace reljef {
 namespace {
 
+using test::Streaming;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-/// Folders of SRTM-like cells 1201 samples a side, big-endian, made of a formula.
-class Streaming : public ::testing::Test {
-protected:
-    void SetUp() override {
-        for (const auto& [name, west, south] :
-             {std::tuple("N44E006.hgt", 6, 44), {"N44E007.hgt", 7, 44}, {"N45E006.hgt", 6, 45}}) {
-            write_cell(name, west, south);
-        }
-        options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
-        options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
-    }
-    void write_cell(const std::string& name, int west, int south) const {
-        constexpr int side = 1201;
-        std::string bytes;
-        for (int row = 0; row < side; ++row) {
-            for (int col = 0; col < side; ++col) {
-                const double x = west + col / 1200.0;
-                const double y = south + 1.0 - row / 1200.0;
-                const auto height = static_cast<std::int16_t>(
-                    1500.0 + 900.0 * std::sin(40.0 * x) * std::cos(37.0 * y) +
-                    60.0 * std::sin(700.0 * x + 500.0 * y));
-                bytes.push_back(static_cast<char>(height >> 8));
-                bytes.push_back(static_cast<char>(height & 0xff));
-            }
-        }
-        folder_.write("tiles/" + name, bytes);
-    }
-    /// For the application's own calls, whose caches XDG_CACHE_HOME keeps here.
-    [[nodiscard]] session::SourceOptions streamed_choice() const {
-        session::SourceOptions choice;
-        choice.terrain = path("tiles");
-        choice.memory_megabytes = 32;
-        choice.streamed = true;
-        return choice;
-    }
-    [[nodiscard]] test::ProgramResult
-    render(const std::string& picture, std::vector<std::string> more,
-           const std::string& camera = "44.6,6.6,2600,60,-12") const {
-        std::vector<std::string> arguments{"render",   path("tiles"), "-o",        path(picture),
-                                           "--size",   "160x120",     "--context", "osmesa",
-                                           "--memory", "32",          "--camera",  camera};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return test::reljef(arguments, options_);
-    }
-    [[nodiscard]] std::string path(const std::string& name) const {
-        return (folder_.path() / name).string();
-    }
-
-    test::TemporaryFolder folder_;
-    test::ProgramOptions options_;
-};
 
 TEST_F(Streaming, what_does_not_fit_the_memory_is_read_as_the_view_needs_it) {
     const auto result = render("a.png", {"--stats"});
@@ -299,164 +242,6 @@ TEST_F(Streaming, coarse_views_of_a_file_without_overviews_read_no_more_of_it) {
     const auto near = render_from("44.7,8,9000,0,-30");
     ASSERT_EQ(near.exit_code, 0) << near.err;
     EXPECT_THAT(near.out, Not(HasSubstr("tiles read (0.0 MB of files)")));
-}
-
-/// Over the same cells: images of one colour each, in UTM, as GDAL's virtual rasters.
-class StreamedImagery : public Streaming {
-protected:
-    void SetUp() override {
-        Streaming::SetUp();
-        write_image("west.vrt", 290000.0, 40000.0, "\xff\x10\x10");
-        write_image("east.vrt", 330000.0, 80000.0, "\x10\x10\xff");
-    }
-    // 100 km from north to south.
-    void write_image(const std::string& name, double west, double width,
-                     const std::string& color) const {
-        constexpr int side = 64;
-        std::string pixels = "P6\n64 64\n255\n";
-        for (int i = 0; i < side * side; ++i) {
-            pixels += color;
-        }
-        folder_.write("images/" + name + ".dat", pixels);
-        std::string bands;
-        for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
-            bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
-                                 "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
-                                 "{2}.dat</SourceFilename><SourceBand>{0}</SourceBand>"
-                                 "</SimpleSource></VRTRasterBand>",
-                                 band, meaning, name);
-        }
-        folder_.write("images/" + name,
-                      fmt::format("<VRTDataset rasterXSize=\"64\" rasterYSize=\"64\"><SRS>"
-                                  "EPSG:32632</SRS><GeoTransform>{}, {}, 0, 5000000, 0, {}"
-                                  "</GeoTransform>{}</VRTDataset>",
-                                  west, width / side, -100000.0 / side, bands));
-    }
-    // Straight down from 30 km, onto where the two meet.
-    [[nodiscard]] test::ProgramResult render_down(const std::string& picture,
-                                                  std::vector<std::string> more) const {
-        return render(picture, std::move(more), "44.7,6.85,30000,0,-90");
-    }
-    [[nodiscard]] Image picture_of(const std::string& name) const {
-        auto image = io::read_image(path(name));
-        EXPECT_TRUE(image) << (image ? "" : image.error().message);
-        return std::move(*image);
-    }
-};
-
-enum class Shown { red, blue, other };
-Shown shown(Rgba8 pixel) {
-    return pixel.r > 3 * pixel.b ? Shown::red : pixel.b > 3 * pixel.r ? Shown::blue : Shown::other;
-}
-
-TEST_F(StreamedImagery, of_a_folder_shows_no_gap_where_two_images_meet) {
-    const auto result = render_down("a.png", {"--imagery", path("images")});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const Image picture = picture_of("a.png");
-    int other = 0;
-    for (const Rgba8 pixel : picture.samples()) {
-        other += shown(pixel) == Shown::other ? 1 : 0;
-    }
-    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
-    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
-    EXPECT_LE(other, 3 * picture.rows()); // those that lie across the edge
-}
-
-TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
-    folder_.write("scene.toml", "[terrain]\nheights = \"tiles\"\n"
-                                "imagery = [\"images/west.vrt\", \"images/east.vrt\"]\n");
-    const auto scene =
-        test::reljef({"render", path("scene.toml"), "-o", path("c.png"), "--size", "160x120",
-                      "--context", "osmesa", "--memory", "32", "--camera", "44.7,6.85,30000,0,-90"},
-                     options_);
-    ASSERT_EQ(scene.exit_code, 0) << scene.err;
-    const Image picture = picture_of("c.png");
-    EXPECT_EQ(shown(picture(2, 60)), Shown::red);
-    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
-}
-
-/// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory.
-class FineImagery : public StreamedImagery {
-protected:
-    void SetUp() override {
-        StreamedImagery::SetUp();
-        write_fine();
-    }
-    void write_fine() const;
-};
-
-void FineImagery::write_fine() const {
-    folder_.write("fine.ppm", "P6\n256 256\n255\n" + std::string(3 * 256 * 256, '\x60'));
-    std::string bands;
-    for (const auto& [band, meaning] : {std::pair("1", "Red"), {"2", "Green"}, {"3", "Blue"}}) {
-        bands += fmt::format("<VRTRasterBand dataType=\"Byte\" band=\"{0}\"><ColorInterp>{1}"
-                             "</ColorInterp><SimpleSource><SourceFilename relativeToVRT=\"1\">"
-                             "fine.ppm</SourceFilename><SourceBand>{0}</SourceBand>"
-                             "</SimpleSource></VRTRasterBand>",
-                             band, meaning);
-    }
-    folder_.write("fine.vrt",
-                  "<VRTDataset rasterXSize=\"256\" rasterYSize=\"256\"><SRS>EPSG:4326</SRS>"
-                  "<GeoTransform>6.485, 0.000119, 0, 44.515, 0, -0.000119</GeoTransform>" +
-                      bands + "</VRTDataset>");
-}
-
-// But an error that is promised is kept.
-TEST_F(FineImagery, is_streamed_over_what_fits_the_memory) {
-    RELJEF_RELEASE_ONLY("a whole terrain by the lines of the next tests");
-    const auto render_with = [&](std::vector<std::string> more) {
-        std::vector<std::string> arguments{"render",    path("tiles/N44E006.hgt"),
-                                           "--memory",  "64",
-                                           "--imagery", path("fine.vrt"),
-                                           "-o",        path("a.png"),
-                                           "--size",    "64x48",
-                                           "--context", "osmesa",
-                                           "--camera",  "44.5,6.5,3500,0,-60",
-                                           "--stats"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return test::reljef(arguments, options_);
-    };
-    const auto fine = render_with({});
-    ASSERT_EQ(fine.exit_code, 0) << fine.err;
-    EXPECT_THAT(fine.out, HasSubstr("streamed: "));
-    const auto promised = render_with({"--max-error", "1"});
-    ASSERT_EQ(promised.exit_code, 0) << promised.err;
-    EXPECT_THAT(promised.out, Not(HasSubstr("streamed: ")));
-}
-
-TEST_F(FineImagery, leaves_all_samples_to_shadows_and_far_ground_where_there_is_memory) {
-    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
-    session::SourceOptions choice;
-    choice.terrain = path("tiles/N44E006.hgt");
-    choice.imagery = {path("fine.vrt")};
-    choice.streamed = choice.pictures_streamed = true;
-    choice.memory_megabytes = 160; // of which the samples and their picture take a half at most
-    const auto whole = test::open_terrain(choice);
-    ASSERT_TRUE(whole) << whole.error().message;
-    ASSERT_TRUE(whole->stream);
-    EXPECT_EQ(whole->stream->plan.reduction, 1);
-    EXPECT_EQ(whole->terrain.heightfield.heights.cols(), 1201);
-    EXPECT_THAT(whole->terrain.notes, ::testing::Contains(HasSubstr("finer parts of the images")));
-    choice.memory_megabytes = 64;
-    const auto averages = test::open_terrain(choice);
-    ASSERT_TRUE(averages) << averages.error().message;
-    ASSERT_TRUE(averages->stream);
-    EXPECT_GT(averages->stream->plan.reduction, 1);
-    EXPECT_THAT(averages->terrain.notes,
-                ::testing::Contains(HasSubstr("shadows and far ground are of averages")));
-}
-
-TEST_F(StreamedImagery, that_is_missing_is_told_once_and_the_rest_is_shown) {
-    std::filesystem::remove(folder_.path() / "images/west.vrt.dat");
-    const auto result = render_down(
-        "a.png", {"--imagery", path("images/west.vrt"), "--imagery", path("images/east.vrt")});
-    EXPECT_EQ(result.exit_code, 1);
-    const auto first = result.err.find("west.vrt: ");
-    ASSERT_NE(first, std::string::npos) << result.err;
-    EXPECT_EQ(result.err.find("west.vrt: ", first + 1), std::string::npos) << result.err;
-    const Image picture = picture_of("a.png");
-    EXPECT_EQ(shown(picture(2, 60)), Shown::other); // the tint
-    EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
 }
 
 /// A cloud-optimized file of a cell: it begins with its overviews, 1,300,000 bytes, and then has

@@ -18,9 +18,9 @@ namespace reljef::terrain {
 class EarthHorizon {
 public:
     /// `samples`: of the placed terrain. `drawn`: the heights of all drawn ground, scene metres
-    /// without a geoid's height; as polygons over cells that many samples wide. Empty on a plane,
-    /// if the eye is not more than view.near above `drawn`, and if the terrain ends within the
-    /// horizon.
+    /// without a geoid's height. `cell`: samples between the vertices of the coarsest polygons.
+    /// Empty on a plane, if the eye is not more than view.near above `drawn`, and if the terrain
+    /// ends within the horizon.
     static std::optional<EarthHorizon> create(const Placement& placement, glm::ivec2 samples,
                                               HeightRange drawn, double cell,
                                               const HorizonView& view);

@@ -4,6 +4,8 @@
 
 #include <glm/common.hpp>
 
+#include "engine/terrain/mesh/bending.h"
+
 // With second derivatives of at most C in any direction, a bilinear interpolant over squares of
 // side s is off by at most s²/8 (C + C) = s² C / 4. Positions at a fixed height are as smooth as
 // the map from samples to the ground, except where cells of another length begin: at the last cells
@@ -26,10 +28,10 @@ int distance_for(double curvature, double max_error) {
     return distance;
 }
 
-// Columns or rows of anchors. Cells of another length may begin after the first, before the last,
-// and at `shorter_from`.
-std::vector<int> anchor_lines(int last, int shorter_from, int distance) {
-    std::vector<int> lines{0, 1, std::clamp(shorter_from, 0, last), last - 1, last};
+// Columns or rows of anchors. Cells of another length may lie before `first_equal` and after
+// `last_equal`.
+std::vector<int> anchor_lines(int last, int first_equal, int last_equal, int distance) {
+    std::vector<int> lines{0, std::min(first_equal, last), std::min(last_equal, last), last};
     for (int line = distance; line < last; line += distance) {
         lines.push_back(line);
     }
@@ -55,10 +57,11 @@ SamplePositions::SamplePositions(const Heightfield& heightfield, const Placement
     }
     const int distance = distance_for(curvature, max_error);
     error_ = error_between_anchors(distance, curvature);
-    const glm::ivec2 shorter =
-        placement.lattice() != nullptr ? placement.lattice()->shorter_from() : last;
-    const std::vector<int> cols = anchor_lines(last.x, shorter.x, distance);
-    const std::vector<int> rows = anchor_lines(last.y, shorter.y, distance);
+    const ShorterCells shorter(heightfield, placement);
+    const glm::ivec2 from = shorter.first_equal();
+    const glm::ivec2 to = shorter.last_equal();
+    const std::vector<int> cols = anchor_lines(last.x, from.x, to.x, distance);
+    const std::vector<int> rows = anchor_lines(last.y, from.y, to.y, distance);
     cols_ = places_between(cols);
     rows_ = places_between(rows);
     anchors_ = Grid<Anchor>(static_cast<int>(cols.size()), static_cast<int>(rows.size()));

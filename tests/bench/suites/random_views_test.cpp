@@ -14,8 +14,8 @@ namespace reljef::bench {
 namespace {
 
 TEST(RandomViews, ThoseOfAContinuedRunAreThoseOfAWholeOne) {
-    ViewChances whole(7, 0);
-    ViewChances continued(7, 3);
+    ViewGenerators whole(7, 0);
+    ViewGenerators continued(7, 3);
     for (int i = 0; i < 20; ++i) {
         auto expected = whole.next();
         auto found = continued.next();
@@ -25,7 +25,7 @@ TEST(RandomViews, ThoseOfAContinuedRunAreThoseOfAWholeOne) {
             EXPECT_EQ(*found, *expected) << i;
         }
     }
-    EXPECT_NE(*ViewChances(7, 0).next(), *ViewChances(8, 0).next());
+    EXPECT_NE(*ViewGenerators(7, 0).next(), *ViewGenerators(8, 0).next());
 }
 
 std::vector<scene::TerrainSurface> surfaces() {
@@ -53,9 +53,9 @@ double height_above(const scene::TerrainSurface& surface, glm::dvec3 eye) {
 
 TEST(RandomViews, NearTheGroundAreWithinThreeMetresOfItOnThePlaneAndOnTheEarth) {
     for (const scene::TerrainSurface& surface : surfaces()) {
-        ViewChances chances(1, 0);
+        ViewGenerators generators(1, 0);
         for (int i = 0; i < 200; ++i) {
-            std::mt19937 random = *chances.next();
+            std::mt19937 random = *generators.next();
             const scene::Camera camera = view_near_the_ground(random, surface);
             const double above = height_above(surface, camera.eye);
             EXPECT_GT(above, 0.299);
@@ -71,9 +71,9 @@ TEST(RandomViews, NearTheGroundAreWithinThreeMetresOfItOnThePlaneAndOnTheEarth) 
 
 TEST(RandomViews, AreAboveTheGround) {
     for (const scene::TerrainSurface& surface : surfaces()) {
-        ViewChances chances(2, 0);
+        ViewGenerators generators(2, 0);
         for (int i = 0; i < 200; ++i) {
-            std::mt19937 random = *chances.next();
+            std::mt19937 random = *generators.next();
             const scene::Camera camera = random_view(random, surface);
             const bool is_plane = surface.placement().kind() == terrain::PlacementKind::plane;
             if (!is_plane) {

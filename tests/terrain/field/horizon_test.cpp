@@ -1,8 +1,7 @@
 #include "engine/terrain/field/horizon.h"
 
 #include <cmath>
-#include <string>
-#include <utility>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,30 +9,16 @@
 #include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/tile_layout.h"
 #include "tests/terrain/chance.h"
-#include "tests/terrain/made_heightfield.h"
+#include "tests/terrain/landscape.h"
 
 namespace reljef::terrain {
 namespace {
 
-struct Landscape {
-    Landscape(std::string named, Heightfield made, double exaggeration = 1.0)
-        : name(std::move(named)), heightfield(std::move(made)),
-          placement(test::placed(heightfield, exaggeration)), pyramid(heightfield.heights.view()) {}
-    Landscape(const Landscape&) = delete;
+using test::Landscape;
 
-    [[nodiscard]] glm::dvec3 on_ground(glm::dvec2 sample) const {
-        return placement.world_from_sample(
-            {sample, bilinear_height(heightfield.heights.view(), sample)});
-    }
-    [[nodiscard]] std::optional<Horizon> horizon(const HorizonView& view) const {
-        return Horizon::create(heightfield, pyramid, placement, view);
-    }
-
-    std::string name;
-    Heightfield heightfield;
-    Placement placement;
-    MinMaxPyramid pyramid;
-};
+std::optional<Horizon> horizon_of(const Landscape& land, const HorizonView& view) {
+    return Horizon::create(land.heightfield, land.pyramid, land.placement, view);
+}
 
 // Waves from west to east, `across` samples long, that rise and fall along their crests too.
 Grid<float> wave_crests(int side, double height, double across) {
@@ -48,7 +33,7 @@ Box block_of(const Landscape& land, glm::ivec2 first, int side) {
     Box box;
     for (int row = first.y; row <= first.y + side; ++row) {
         for (int col = first.x; col <= first.x + side; ++col) {
-            box.add(land.on_ground({col, row}));
+            box.add(land.at({col, row}));
         }
     }
     return box;
@@ -70,8 +55,8 @@ Count count_hidden(const Landscape& land, int views, unsigned seed) {
     for (int i = 0; i < views; ++i) {
         const glm::dvec2 at(chance.between(2, heights.cols() - 3),
                             chance.between(2, heights.rows() - 3));
-        const glm::dvec3 eye = land.on_ground(at) + glm::dvec3(0, 0, chance.between(1.0, 60.0));
-        auto horizon = land.horizon({eye, 0.1, 1e-3});
+        const glm::dvec3 eye = land.at(at) + glm::dvec3(0, 0, chance.between(1.0, 60.0));
+        auto horizon = horizon_of(land, {eye, 0.1, 1e-3});
         for (int j = 0; horizon && j < 40; ++j) {
             const glm::ivec2 first(chance.whole(0, heights.cols() - block - 1),
                                    chance.whole(0, heights.rows() - block - 1));
@@ -82,8 +67,8 @@ Count count_hidden(const Landscape& land, int views, unsigned seed) {
             ++count.hidden;
             for (int k = 0; k < 30; ++k) {
                 const glm::dvec3 place =
-                    land.on_ground(glm::dvec2(first) +
-                                   glm::dvec2(chance.between(0, block), chance.between(0, block)));
+                    land.at(glm::dvec2(first) +
+                            glm::dvec2(chance.between(0, block), chance.between(0, block)));
                 const auto hit = caster.first_hit({eye, place - eye});
                 EXPECT_TRUE(hit && hit->t < 1.0 - 1e-9) << land.name << ' ' << i;
             }
@@ -112,7 +97,7 @@ TEST(Horizon, AWallHidesWhatIsBehindItAndNotWhatIsBesideItOrAbove) {
         "wall", test::plane_heightfield(test::made_heights(257, 257, [](int col, int /*row*/) {
             return col >= 140 && col < 150 ? 50.0 : 0.0;
         })));
-    auto horizon = land.horizon({land.on_ground({128.0, 128.0}) + glm::dvec3(0, 0, 5), 0.1, 1e-3});
+    auto horizon = horizon_of(land, {land.at({128.0, 128.0}) + glm::dvec3(0, 0, 5), 0.1, 1e-3});
     ASSERT_TRUE(horizon);
     EXPECT_TRUE(horizon->hides(block_of(land, {200, 120}, 16)));
     EXPECT_FALSE(horizon->hides(block_of(land, {40, 120}, 16)));
@@ -126,21 +111,21 @@ TEST(Horizon, AWallHidesWhatIsBehindItAndNotWhatIsBesideItOrAbove) {
 
 TEST(Horizon, LevelGroundHidesNothing) {
     const Landscape land("level", test::plane_heightfield(Grid<float>(200, 200, 3.0F)));
-    auto horizon = land.horizon({land.on_ground({100.0, 100.0}) + glm::dvec3(0, 0, 2), 0.1, 1e-3});
+    auto horizon = horizon_of(land, {land.at({100.0, 100.0}) + glm::dvec3(0, 0, 2), 0.1, 1e-3});
     ASSERT_TRUE(horizon);
     EXPECT_FALSE(horizon->hides(block_of(land, {150, 100}, 16)));
 }
 
 TEST(Horizon, NothingIsSaidFromBelowFromBesideFromTooCloseOrOnTheEarth) {
     const Landscape land("hill", test::plane_heightfield(wave_crests(65, 10.0, 9.0)));
-    const glm::dvec3 ground = land.on_ground({32.0, 32.0});
-    EXPECT_TRUE(land.horizon({ground + glm::dvec3(0, 0, 20), 0.1, 0.0}));
-    EXPECT_FALSE(land.horizon({ground - glm::dvec3(0, 0, 20), 0.1, 0.0}));
-    EXPECT_FALSE(land.horizon({ground + glm::dvec3(200, 0, 20), 0.1, 0.0}));
-    EXPECT_FALSE(land.horizon({ground + glm::dvec3(0, 0, 20), 25.0, 0.0}));
+    const glm::dvec3 ground = land.at({32.0, 32.0});
+    EXPECT_TRUE(horizon_of(land, {ground + glm::dvec3(0, 0, 20), 0.1, 0.0}));
+    EXPECT_FALSE(horizon_of(land, {ground - glm::dvec3(0, 0, 20), 0.1, 0.0}));
+    EXPECT_FALSE(horizon_of(land, {ground + glm::dvec3(200, 0, 20), 0.1, 0.0}));
+    EXPECT_FALSE(horizon_of(land, {ground + glm::dvec3(0, 0, 20), 25.0, 0.0}));
     const Landscape earth(
         "Earth", test::geographic_heightfield(wave_crests(65, 10.0, 9.0), 46.0, 7.0, 0.001));
-    EXPECT_FALSE(earth.horizon({earth.on_ground({32.0, 32.0}) + glm::dvec3(0, 0, 20), 0.1, 0.0}));
+    EXPECT_FALSE(horizon_of(earth, {earth.at({32.0, 32.0}) + glm::dvec3(0, 0, 20), 0.1, 0.0}));
 }
 
 } // namespace
