@@ -35,16 +35,6 @@ std::size_t texels_shown(const Image& texels) {
         std::count_if(samples.begin(), samples.end(), [](Rgba8 texel) { return texel.a != 0; }));
 }
 
-std::shared_ptr<const TerrainTile> with_cones_over(const TerrainTile& tile) {
-    TerrainTile made = tile;
-    ParallelOptions alone; // other threads make other tiles
-    alone.threads = 1;
-    const Grid<float> unit = terrain::unit_heights(made.heightfield.heights.view());
-    made.cones =
-        std::make_shared<const material::ConeMaps>(*material::cone_maps(unit.view(), alone));
-    return std::make_shared<const TerrainTile>(std::move(made));
-}
-
 } // namespace
 
 TileStream::TileStream(TileBuilder maker, TileContentReader read, const TileStreamOptions& options)
@@ -304,10 +294,11 @@ void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock
     if (!is_read && !stopped && content.errors.empty()) {
         made = make(tile, content, before);
     }
-    if (with_cones && made.tile != nullptr && made.tile->cones == nullptr) {
-        made.tile = with_cones_over(*made.tile);
+    if (with_cones && !stopped) {
+        made = with_cones_over(made.tile != nullptr ? std::move(made) : before);
     }
     lock.lock();
+    note_cones(made);
     finish(tile, content, std::move(made), stopped);
 }
 
@@ -331,6 +322,28 @@ TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
     return before.tile == nullptr
                ? now
                : better_of(before, std::move(now), content.picture_errors.empty());
+}
+
+TileStream::Made TileStream::with_cones_over(Made made) {
+    if (made.tile == nullptr || made.tile->cones != nullptr) {
+        return made;
+    }
+    TerrainTile tile = *made.tile;
+    ParallelOptions alone; // other threads make other tiles
+    alone.threads = 1;
+    const Grid<float> unit = terrain::unit_heights(tile.heightfield.heights.view());
+    tile.cones =
+        std::make_shared<const material::ConeMaps>(*material::cone_maps(unit.view(), alone));
+    made.tile = std::make_shared<const TerrainTile>(std::move(tile));
+    return made;
+}
+
+void TileStream::note_cones(const Made& made) {
+    if (made.tile != nullptr && made.tile->cones != nullptr && !has_noted_cones_) {
+        has_noted_cones_ = true;
+        new_notes_.emplace_back("the cones of a tile are made when it is first seen; a moving view "
+                                "shows coarser tiles until then");
+    }
 }
 
 // Keeps the old heights, because its neighbours' borders lie on them, unless they are the
@@ -368,11 +381,12 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
     if (made.tile->is_proven && !has_proofs_) {
         return; // made before the proofs ended: is read again
     }
-    if (content.picture_errors.empty()) {
+    const auto& errors = content.errors.empty() ? content.picture_errors : content.errors;
+    if (errors.empty()) {
         forget_failure(tile);
         std::erase(requested_, tile);
     } else {
-        note_failure(tile, content.picture_errors);
+        note_failure(tile, errors);
     }
     const auto before = tiles_.find(tile);
     if (before == tiles_.end() || before->second.made.tile != made.tile) {

@@ -152,6 +152,8 @@ private:
     };
     void work(const std::stop_token& stop);
     void load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock);
+    static Made with_cones_over(Made made);
+    void note_cones(const Made& made); // once
     std::optional<terrain::TreeTile> next_tile(Clock::time_point now);
     [[nodiscard]] std::optional<Clock::time_point> next_attempt() const;
     [[nodiscard]] Made make(terrain::TreeTile tile, TileContent& content, const Made& before) const;
@@ -189,6 +191,7 @@ private:
     bool has_proofs_ = false;
     std::uint64_t view_ = 0;
     bool with_cones_ = false; // in this view
+    bool has_noted_cones_ = false;
     std::uint64_t revision_ = 0;
     bool has_arrivals_ = false;
     TileStreamStats stats_;

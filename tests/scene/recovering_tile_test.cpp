@@ -1,10 +1,12 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/scene/tile_stream.h"
@@ -25,6 +27,7 @@ protected:
         bool of_overview = false;
         int texels_shown = 0;
         bool fails = false;
+        bool is_unreadable = false;
     };
     static constexpr TreeTile tile{0, 0, 0};
     static constexpr Rgba8 shown{9, 8, 7, 255};
@@ -62,9 +65,16 @@ protected:
         return stream_->find(tile);
     }
 
+    std::unique_ptr<TileStream> stream_;
+
 private:
     static TileContent read(const Attempt& attempt, TreeTile requested,
                             const std::stop_token& stop) {
+        if (attempt.is_unreadable) {
+            TileContent nothing;
+            nothing.errors = {{"heights.tif", "heights.tif: is gone"}};
+            return nothing;
+        }
         TileContent reading = read_plane(requested, stop);
         reading.of_overview = attempt.of_overview;
         for (float& height : reading.heights.samples()) {
@@ -83,7 +93,6 @@ private:
     std::vector<Attempt> attempts_;
     std::atomic<int> readings_{0};
     std::atomic<int> may_begin_{0};
-    std::unique_ptr<TileStream> stream_;
 };
 
 TEST_F(RecoveringTile, TakesOfALaterReadingOnlyAPictureThatShowsMore) {
@@ -111,6 +120,19 @@ TEST_F(RecoveringTile, TakesOfALaterReadingTheHeightsThatTheOverviewStoodInFor) 
     const auto whole = last();
     EXPECT_EQ(whole->heightfield.heights, recovered->heightfield.heights);
     EXPECT_NE(whole->albedo(3, 0), shown);
+}
+
+TEST_F(RecoveringTile, HasConesThoughItsFileCannotBeReadAgain) {
+    const auto first = first_of({{.texels_shown = 4, .fails = true}, {.is_unreadable = true}});
+    EXPECT_EQ(first->cones, nullptr);
+    stream_->request(std::array{tile}, std::array{tile}, true);
+    const auto after = after_failures(2);
+    ASSERT_NE(after->cones, nullptr);
+    EXPECT_EQ(after->heightfield.heights.samples()[0], first->heightfield.heights.samples()[0]);
+    const std::vector<std::string> notes = stream_->take_notes();
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_THAT(notes[0], ::testing::HasSubstr("cones"));
+    EXPECT_THAT(stream_->take_errors(), ::testing::Contains(std::string("heights.tif: is gone")));
 }
 
 } // namespace
