@@ -298,6 +298,11 @@ Result<void> Driver::add_light(const view::PreparedLight& prepared) {
     return {};
 }
 
+void Driver::forget_content() {
+    surfaces_.clear();
+    streamed_ = {};
+}
+
 // Precondition: check_support().
 PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats) {
     const std::vector<SeenTerrain> seen = terrains_of(list);

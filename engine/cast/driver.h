@@ -66,6 +66,9 @@ public:
     /// Takes the light of a terrain that was computed before.
     Result<void> add_light(const view::PreparedLight& prepared);
 
+    /// Releases what was made of terrains; the next frame makes what it needs again.
+    void forget_content();
+
     Result<void> resize(glm::ivec2 size);
     [[nodiscard]] glm::ivec2 size() const { return {first_.picture.cols(), first_.picture.rows()}; }
     /// See DriverOptions::samples. Precondition: check_samples().

@@ -58,6 +58,8 @@ public:
     Result<void> add_light(const view::PreparedLight& prepared) {
         return residency_.add_light(prepared);
     }
+    /// Releases what is in GPU memory; the next frame uploads what it needs again.
+    void forget_content() { residency_ = {}; }
     [[nodiscard]] int max_texture_side() const { return limits_.max_texture_size; }
 
     Result<void> resize(glm::ivec2 size);

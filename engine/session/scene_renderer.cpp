@@ -75,11 +75,23 @@ Result<bool> SceneRenderer::choose_rays() {
         note_ = by_rays ? "exact rays on the CPU draw again"
                         : obstacle + ": drawn by OpenGL, not by rays on the CPU";
     }
+    if (shows_rays_ != by_rays) {
+        forget_other_side(by_rays);
+    }
     shows_rays_ = by_rays;
     if (auto passed = pass_lights(by_rays); !passed) {
         return passed.error();
     }
     return by_rays;
+}
+
+// What draws no more releases its content, so that both together stay within the memory.
+void SceneRenderer::forget_other_side(bool by_rays) {
+    if (by_rays && opengl_) {
+        opengl_->forget_content();
+    } else if (!by_rays && rays_) {
+        rays_->forget_content();
+    }
 }
 
 Result<void> SceneRenderer::pass_lights(bool to_rays) {

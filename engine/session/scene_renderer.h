@@ -90,6 +90,7 @@ private:
     /// Whether rays draw the selected frame; fails if nothing does.
     Result<bool> choose_rays();
     Result<void> prepare_opengl();
+    void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
 
     std::optional<render::DriverOptions> opengl_options_; // of the driver to be made

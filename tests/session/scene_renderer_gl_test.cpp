@@ -90,6 +90,20 @@ TEST_F(SceneRendererWithRays, TakesLightForWhateverDrawsNext) {
     }
 }
 
+TEST_F(SceneRendererWithRays, WhatDrawsNoMoreReleasesItsContent) {
+    TerrainScene scene = app::hill_scene();
+    SceneRenderer renderer = make_renderer();
+    for (int round = 0; round < 2; ++round) {
+        for (const scene::Technique& technique :
+             {scene::Technique{scene::Exact{}}, scene::Technique{scene::Texture{}}}) {
+            use(scene, technique);
+            const auto first = test::must(renderer.draw(scene.scene)).upload_bytes;
+            const auto again = test::must(renderer.draw(scene.scene)).upload_bytes;
+            EXPECT_GT(first, again + 1000) << round << scene::to_string(technique);
+        }
+    }
+}
+
 struct OtherHits {
     int ground = 0;
     int others = 0; // sky, or more than a pixel apart
