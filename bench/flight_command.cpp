@@ -42,7 +42,10 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_view_options(*arguments, choice->options.view);
     arguments->get_option("--max-error")
         ->description("polygons: at most PX pixels of error, with as few triangles as possible "
-                      "(none: every sample of a tile)");
+                      "(none: every sample of a tile; 1 with --context cpu)");
+    arguments->add_flag(
+        "!--no-wait", choice->options.waits_for_tiles,
+        "draw each frame at once, with the tiles that are there, while others are read");
     add_json_option(*arguments, choice->outputs);
     arguments->callback([choice] {
         cli::check_view_options(choice->options.view);
@@ -52,11 +55,16 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     });
     arguments->footer(
         "Each frame waits for all its tiles, as in reljef render. Waiting and drawing are timed\n"
-        "separately. Memory is that of the process; what it used before the terrain was opened is\n"
+        "separately. With --no-wait, frames are drawn as in reljef view, and the kept errors tell\n"
+        "what the missing tiles cost. Memory is that of the process; what it used before the "
+        "terrain was opened is\n"
         "subtracted.\n"
-        "Example:\n"
+        "Examples:\n"
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
-        "flight.json");
+        "flight.json\n"
+        "  reljef-bench flight alps.tif --placement plane --path flyover --frames 500 --context "
+        "cpu "
+        "--no-wait");
     return {arguments, [choice, &interrupt] {
                 const std::string terrain = choice->options.terrain.terrain;
                 return cli::with_standard_input(

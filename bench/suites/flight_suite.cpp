@@ -20,9 +20,11 @@ Result<session::DeviceFrames> flight_device(const FlightOptions& options, sessio
     auto device = session::Device::create({.context = options.view.context,
                                            .size = options.view.size,
                                            .shader_dir = options.view.shader_dir,
-                                           .threads = options.terrain.threads});
-    return device ? Result<session::DeviceFrames>(
-                        session::DeviceFrames(std::move(*device), log, {.timed = true}))
+                                           .threads = options.terrain.threads,
+                                           .simd = options.view.simd});
+    return device ? Result<session::DeviceFrames>(session::DeviceFrames(
+                        std::move(*device), log,
+                        {.timed = true, .waits_for_tiles = options.waits_for_tiles}))
                   : device.error();
 }
 
@@ -31,7 +33,9 @@ Result<session::TerrainScene> flight_scene(const FlightOptions& options, session
     session::SourceOptions terrain = options.terrain;
     terrain.streamed = true;
     session::SceneOptions view = options.view;
-    if (!view.technique) {
+    if (options.view.context == session::BackendKind::cpu) {
+        view.rays = session::RayUse::only;
+    } else if (!view.technique) {
         view.max_error = view.max_error.value_or(0.0); // every sample of a tile
     }
     return session::open_scene(terrain, view, log, stop);
@@ -54,7 +58,9 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
         }
         results.max_memory = std::max(results.max_memory, process_memory().now);
         const view::FrameStats& stats = frames.frame_stats();
-        results.kept_error = std::max(results.kept_error, stats.kept_error);
+        if (stats.kept_error) {
+            results.kept_errors.push_back(*stats.kept_error);
+        }
         results.max_tiles_unproven = std::max(results.max_tiles_unproven, stats.tiles_unproven);
         session::log_stream_errors(scene.scene, log);
         if (index == 0) {
@@ -99,9 +105,11 @@ std::string heading(const FlightResults& results) {
                             stream->read, megabytes(stream->bytes_read), stream->failed,
                             stream->cancelled, stream->evicted, megabytes(stream->max_bytes));
     }
-    if (results.kept_error) {
-        text += fmt::format("kept error: at most {:.2f} px, unproven tiles: at most {}\n",
-                            *results.kept_error, results.max_tiles_unproven);
+    if (const std::vector<double>& errors = results.kept_errors; !errors.empty()) {
+        text += fmt::format("kept error: median {:.2f} px, at most {:.2f}, unproven tiles: at most "
+                            "{}\n",
+                            summarize(errors).median, *std::ranges::max_element(errors),
+                            results.max_tiles_unproven);
     }
     text.pop_back();
     return text;
@@ -152,6 +160,8 @@ FigureTable figure_table(const FlightResults& results) {
     const double share = (static_cast<double>(results.max_memory) -
                           static_cast<double>(results.times.memory_before)) /
                          static_cast<double>(budget);
+    const std::vector<double>& errors = results.kept_errors;
+    const FigureJson none(nullptr);
     FigureTable table{
         .schema = "reljef-bench-flight/1",
         .heading = heading(results),
@@ -165,8 +175,11 @@ FigureTable figure_table(const FlightResults& results) {
                      {"drawing_ms", json_of(summarize(results.times.drawing_ms))},
                      {"waiting_ms", json_of(summarize(results.times.waiting_ms))},
                      {"tiles", results.stream ? stream_json(*results.stream) : FigureJson()},
+                     {"waits_for_tiles", options.waits_for_tiles},
                      {"kept_error_px",
-                      results.kept_error ? FigureJson(*results.kept_error) : FigureJson(nullptr)},
+                      errors.empty() ? none : FigureJson(*std::ranges::max_element(errors))},
+                     {"median_kept_error_px",
+                      errors.empty() ? none : FigureJson(summarize(errors).median)},
                      {"tiles_unproven", results.max_tiles_unproven},
                      {"faulty_files", results.failed_files},
                      {"memory",

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
@@ -15,9 +16,11 @@ namespace reljef::bench {
 struct FlightOptions {
     cli::TerrainChoice terrain;
     cli::ViewChoice view; ///< with a path and the number of frames
+    /// Each frame is drawn when all its tiles are loaded; false: with those that are there.
+    bool waits_for_tiles = true;
 };
 
-/// A flight over a streamed terrain. Each frame is drawn when all its tiles are resident.
+/// A flight over a streamed terrain.
 struct FlightResults {
     FlightOptions options;
     Environment environment;
@@ -27,10 +30,9 @@ struct FlightResults {
     cli::LiftedFrames lifted;
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
     std::size_t failed_files = 0;
-    std::size_t max_memory = 0; ///< of the process, bytes
-    /// The largest of all frames, pixels; absent without an error bound.
-    std::optional<double> kept_error;
-    int max_tiles_unproven = 0; ///< of a frame
+    std::size_t max_memory = 0;      ///< of the process, bytes
+    std::vector<double> kept_errors; ///< of each frame, pixels; empty without an error bound
+    int max_tiles_unproven = 0;      ///< of a frame
     RunEnd end;
 };
 

@@ -90,8 +90,13 @@ void DeviceFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_tok
     if (ready_for_ == scene.camera()) {
         return;
     }
-    const Stopwatch waiting;
     SceneRenderer& renderer = device_.renderer();
+    if (!options_.waits_for_tiles) {
+        request_tiles(renderer.select(scene).requests);
+        ready_for_ = scene.camera();
+        return;
+    }
+    const Stopwatch waiting;
     session::wait_for_tiles(scene, renderer.size(), renderer.selector(), log_, stop);
     // The last selection counts as drawing.
     waited_ms_ += waiting.milliseconds() - renderer.selector().milliseconds();

@@ -45,6 +45,8 @@ struct FrameTimes {
 struct DeviceFramesOptions {
     bool timed = false;       ///< waits for the end of each frame
     int memory_megabytes = 0; ///< SourceOptions::memory_megabytes of the scene
+    /// False: tiles are requested, and frames show what is there.
+    bool waits_for_tiles = true;
 };
 
 class DeviceFrames : public FrameMaker {

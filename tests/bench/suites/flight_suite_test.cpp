@@ -61,6 +61,24 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_EQ(report.at("memory").at("allowed"), 1 << 20);
 }
 
+TEST(Flight, that_does_not_wait_draws_what_is_there_and_states_its_error) {
+    const test::TemporaryFolder folder;
+    FlightOptions options = short_flight(folder);
+    options.waits_for_tiles = false;
+    options.view.max_error = 0.5;
+    for (const auto context : {session::BackendKind::osmesa, session::BackendKind::cpu}) {
+        options.view.context = context;
+        options.terrain.placement = terrain::PlacementKind::plane;
+        const auto results = run_flight(options, {});
+        ASSERT_TRUE(results) << results.error().message;
+        EXPECT_EQ(results->times.drawing_ms.size(), 4U);
+        EXPECT_EQ(results->times.waiting_ms, std::vector<double>(4, 0.0));
+        const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
+        EXPECT_EQ(report.at("waits_for_tiles"), false);
+        EXPECT_GE(report.at("kept_error_px"), report.at("median_kept_error_px"));
+    }
+}
+
 TEST(Flight, FromStandardInputNamesNoTemporaryFile) {
     const test::TemporaryFolder folder;
     test::ProgramOptions options;
