@@ -22,6 +22,20 @@ struct Walk {
     float part; // of the ray at the entry
 };
 
+// Where a ray leads.
+struct Course {
+    ivec2 forward;
+    vec2 inverse; // of its span
+    vec2 never;   // a ray does not leave through borders that are parallel to it
+    bool falls;
+};
+
+Course course_of(vec3 span) {
+    return Course(ivec2(greaterThan(span.xy, vec2(0.0))),
+                  vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0),
+                  vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0), span.z < 0.0);
+}
+
 // Whether the walk would not end.
 bool is_endless(vec3 start, vec3 span);
 ivec2 first_cell(inout vec3 start);
@@ -54,11 +68,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     if (is_endless(start, span)) {
         return false;
     }
-    ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
-    // A ray does not leave through borders that are parallel to it.
-    vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
-    vec2 never = vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0);
-    bool falls = span.z < 0.0;
+    Course course = course_of(span);
     // If unknown, the first cell decides; that is cheaper than a height lookup.
     bool above = begins_above || start.z >= 1.0;
     Walk walk;
@@ -70,13 +80,13 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         vec2 exits = vec2(1.0);
         bool reached = false;
         while (inside && !reached) {
-            exits = exits_of(start, inverse, forward, walk) + never;
+            exits = exits_of(start, course.inverse, course.forward, walk) + course.never;
             float leave = min(min(exits.x, exits.y), 1.0);
-            float lowest = start.z + (falls ? leave : walk.part) * span.z;
+            float lowest = start.z + (course.falls ? leave : walk.part) * span.z;
             bool over = above && lowest > max_height_in(walk);
             reached = !over && walk.level == 0;
             if (over) {
-                inside = move_on(exits, forward, start, walk);
+                inside = move_on(exits, course.forward, start, walk);
             } else if (!reached) {
                 --walk.level;
                 vec2 middle = vec2((2 * walk.block + 1) << walk.level);
@@ -95,7 +105,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
                 place = start.xy + part * span.xy;
                 return true;
             }
-            inside = move_on(exits, forward, start, walk);
+            inside = move_on(exits, course.forward, start, walk);
         }
     }
     return false;

@@ -33,11 +33,7 @@ float crossing_in(vec3 start, vec3 span, Walk walk, StreamedTile tile, float lea
 bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     part = 1.0;
     place = vec2(0.0);
-    ivec2 forward = ivec2(greaterThan(span.xy, vec2(0.0)));
-    // A ray does not leave through borders that are parallel to it.
-    vec2 inverse = vec2(span.x != 0.0 ? 1.0 / span.x : 0.0, span.y != 0.0 ? 1.0 / span.y : 0.0);
-    vec2 never = vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0);
-    bool falls = span.z < 0.0;
+    Course course = course_of(span);
     bool above = begins_above || start.z >= 1.0;
     Walk walk;
     walk.level = min(top_level, start_level);
@@ -55,12 +51,12 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         bool in_page = walk.level < page_level;
         ivec2 number = walk.block >> max(page_level - walk.level, 0);
         bool reached = false;
-        vec2 exits = exits_of(start, inverse, forward, walk) + never;
+        vec2 exits = exits_of(start, course.inverse, course.forward, walk) + course.never;
         if (!in_page) {
             float leave = min(min(exits.x, exits.y), 1.0);
-            float lowest = start.z + (falls ? leave : walk.part) * span.z;
+            float lowest = start.z + (course.falls ? leave : walk.part) * span.z;
             if (above && lowest > unit_height(page.y)) {
-                inside = move_on(exits, forward, start, walk);
+                inside = move_on(exits, course.forward, start, walk);
             } else if (walk.level == page_level && tile.level >= page_level) {
                 reached = true;
             } else {
@@ -68,16 +64,16 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             }
         }
         while (inside && in_page && !reached) {
-            exits = exits_of(start, inverse, forward, walk) + never;
+            exits = exits_of(start, course.inverse, course.forward, walk) + course.never;
             float leave = min(min(exits.x, exits.y), 1.0);
-            float lowest = start.z + (falls ? leave : walk.part) * span.z;
+            float lowest = start.z + (course.falls ? leave : walk.part) * span.z;
             int up = walk.level - tile.level;
             ivec2 texel = walk.block & ((page_cells >> up) - 1);
             float highest = unit_height(texelFetch(max_mipmaps, ivec3(texel, int(tile.layer)), up).r);
             bool over = above && lowest > highest;
             reached = !over && up == 0;
             if (over) {
-                inside = move_on(exits, forward, start, walk);
+                inside = move_on(exits, course.forward, start, walk);
                 in_page = walk.level < page_level &&
                           walk.block >> max(page_level - walk.level, 0) == number;
             } else if (!reached) {
@@ -92,7 +88,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
                 place = start.xy + part * span.xy;
                 return true;
             }
-            inside = move_on(exits, forward, start, walk);
+            inside = move_on(exits, course.forward, start, walk);
         }
     }
     return false;
