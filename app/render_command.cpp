@@ -53,7 +53,7 @@ Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
                                  .prefers_rays = true,
                                  .size = choice.view.size,
                                  .shader_dir = choice.view.shader_dir,
-                                 .samples = choice.view.samples.value_or(render::automatic_samples),
+                                 .samples = choice.view.samples.value_or(view::automatic_samples),
                                  .threads = choice.terrain.threads,
                                  .simd = choice.view.simd});
     if (!device) {

@@ -77,7 +77,7 @@ session::RayUse rays_of(const ViewerChoice& choice, platform::Window& window) {
 
 Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platform::Window& window,
                                              session::RayUse rays) {
-    const int samples = choice.view.samples.value_or(render::automatic_samples);
+    const int samples = choice.view.samples.value_or(view::automatic_samples);
     const glm::ivec2 size = window.framebuffer_size();
     session::SceneRendererOptions options;
     options.opengl = {.size = size,

@@ -6,12 +6,13 @@
 #include <glm/vec2.hpp>
 
 #include "engine/session/scene_renderer.h"
+#include "engine/view/sample_count.h"
 
 namespace reljef::app {
 
 struct FrameQuality {
-    int samples = render::automatic_samples; ///< per pixel
-    int divisor = 1;                         ///< of the window's sides
+    int samples = view::automatic_samples; ///< per pixel
+    int divisor = 1;                       ///< of the window's sides
 
     [[nodiscard]] glm::ivec2 picture_size(glm::ivec2 window) const {
         return glm::max(window / divisor, glm::ivec2(1));

@@ -226,7 +226,7 @@ Result<void> check_support(const view::DrawList& list) {
 Driver::Driver(const DriverOptions& options) : options_(options) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
-    if (auto possible = check_samples(options.samples); !possible) {
+    if (auto possible = view::check_samples(options.samples); !possible) {
         return possible.error();
     }
     Driver driver(options);

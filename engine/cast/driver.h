@@ -18,6 +18,7 @@
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/sample_count.h"
 #include "engine/view/select.h"
 #include "engine/view/terrain_maps.h"
 
@@ -26,7 +27,7 @@ namespace reljef::cast {
 struct DriverOptions {
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels
     unsigned threads = 0;       ///< 0: one per hardware thread; no influence on the result
-    /// Per pixel, see check_samples(). Each sample has its own ray where surfaces end or bend
+    /// Per pixel, see view::check_samples(). Each sample has its own ray where surfaces end or bend
     /// sharply; all other pixels have one. Hits are those of the pixels' middles.
     int samples = 1;
     bool samples_all = false; ///< each sample of all pixels has its own ray, to measure the others
@@ -53,7 +54,7 @@ Result<void> check_support(const view::DrawList& list);
 /// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
 class Driver {
 public:
-    /// Fails on a size that is out of range, and as check_samples().
+    /// Fails on a size that is out of range, and as view::check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
     /// Draws a frame of size(), and has finished when it returns. Fails as check_support().
@@ -71,7 +72,7 @@ public:
 
     Result<void> resize(glm::ivec2 size);
     [[nodiscard]] glm::ivec2 size() const { return {first_.picture.cols(), first_.picture.rows()}; }
-    /// See DriverOptions::samples. Precondition: check_samples().
+    /// See DriverOptions::samples. Precondition: view::check_samples().
     void set_samples(int samples) { options_.samples = samples; }
 
     /// Of the maps that light a terrain, texels.

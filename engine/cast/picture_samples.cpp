@@ -6,9 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include <fmt/format.h>
-
 #include "engine/core/check.h"
+#include "engine/view/sample_count.h"
 
 namespace reljef::cast {
 namespace {
@@ -87,22 +86,13 @@ bool differs_from_neighbours(const Image& picture, glm::ivec2 pixel) {
 
 } // namespace
 
-Result<void> check_samples(int samples) {
-    constexpr std::array possible{automatic_samples, 1, 2, 4, 8, 16};
-    if (std::find(possible.begin(), possible.end(), samples) != possible.end()) {
-        return {};
-    }
-    return Error{
-        fmt::format("picture with {} samples a pixel: expected 1, 2, 4, 8 or 16", samples)};
-}
-
 std::span<const glm::ivec2> sixteenths_of(int samples) {
     switch (samples) {
     case 1:
         return one_place;
     case 2:
         return two_places;
-    case automatic_samples:
+    case view::automatic_samples:
     case 4:
         return four_places;
     case 8:

@@ -7,17 +7,11 @@
 #include "engine/cast/block_rays.h"
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
-#include "engine/core/result.h"
 
 namespace reljef::cast {
 
-/// The driver's choice: 4.
-inline constexpr int automatic_samples = 0;
-
-/// Fails unless `samples` is 1, 2, 4, 8, 16 or automatic_samples.
-Result<void> check_samples(int samples);
-
-/// Places of a pixel's samples, from its middle, pixels. Precondition: check_samples().
+/// Places of a pixel's samples, from its middle, pixels. Automatic: 4. Precondition:
+/// view::check_samples().
 std::span<const glm::ivec2> sixteenths_of(int samples);
 
 /// A picture with one sample per pixel, and how near its hits are: linear in the pixel over a

@@ -1,10 +1,6 @@
 #include "engine/render/driver.h"
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-
-#include <fmt/format.h>
 
 #include "engine/core/stopwatch.h"
 #include "engine/gl/read_pixels.h"
@@ -26,7 +22,7 @@ int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
     const bool has_triangles = !list.tiles.empty() || !list.meshes.empty();
     const double pixels = static_cast<double>(size.x) * size.y;
     const bool has_several = has_triangles && pixels <= max_sampled_pixels;
-    return samples != automatic_samples ? samples : has_several ? samples_of_triangles : 1;
+    return samples != view::automatic_samples ? samples : has_several ? samples_of_triangles : 1;
 }
 
 // Later passes draw the same content again: only their work counts.
@@ -39,21 +35,12 @@ void add_work(view::FrameStats& stats, const view::FrameStats& pass) {
 
 } // namespace
 
-Result<void> check_samples(int samples) {
-    constexpr std::array possible{automatic_samples, 1, 2, 4, 8, 16};
-    if (std::find(possible.begin(), possible.end(), samples) != possible.end()) {
-        return {};
-    }
-    return Error{
-        fmt::format("picture with {} samples a pixel: expected 1, 2, 4, 8 or 16", samples)};
-}
-
 Driver::Driver(const DriverOptions& options, gl::Framebuffer target)
     : options_(options), limits_(gl::query_limits()), color_target_(std::move(target)),
       no_vertices_(gl::VertexArray::create()), shaders_(options.shader_dir) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
-    if (auto possible = check_samples(options.samples); !possible) {
+    if (auto possible = view::check_samples(options.samples); !possible) {
         return possible.error();
     }
     auto target = gl::Framebuffer::create({.size = options.size});

@@ -17,22 +17,17 @@
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/sample_count.h"
 #include "engine/view/select.h"
 
 namespace reljef::render {
-
-/// 4 samples per pixel for a picture with triangles, else 1.
-inline constexpr int automatic_samples = 0;
-
-/// Fails unless `samples` is 1, 2, 4, 8, 16 or automatic_samples.
-Result<void> check_samples(int samples);
 
 struct DriverOptions {
     glm::ivec2 size{1024, 768};       ///< of the picture, pixels
     std::filesystem::path shader_dir; ///< files there override the built-in shaders
     bool software = true;             ///< CPU renderer: measure time by a clock, not by queries
-    /// Per pixel, see check_samples(). In a relief search each sample has its own ray. Hits are
-    /// those of the pixels' centres.
+    /// Per pixel, see view::check_samples(). In a relief search each sample has its own ray. Hits
+    /// are those of the pixels' centres.
     int samples = 1;
 };
 
@@ -41,7 +36,7 @@ struct DriverOptions {
 /// the context is current, like all objects of this room that own GL objects.
 class Driver {
 public:
-    /// Fails on a size that GL cannot draw and as check_samples().
+    /// Fails on a size that GL cannot draw and as view::check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
     /// Draws a frame of size(). `wait` waits for the GPU and fills FrameStats::gpu_ms. Fails as
@@ -63,7 +58,7 @@ public:
     [[nodiscard]] int max_texture_side() const { return limits_.max_texture_size; }
 
     Result<void> resize(glm::ivec2 size);
-    /// See DriverOptions::samples. Precondition: check_samples().
+    /// See DriverOptions::samples. Precondition: view::check_samples().
     void set_samples(int samples) { options_.samples = samples; }
     [[nodiscard]] glm::ivec2 size() const { return color_target_.size(); }
 

@@ -134,7 +134,7 @@ TEST(CastDriver, SamplesWhereTheyChangeThePicture) {
 TEST(CastDriver, ChoosesFourSamples) {
     LitStage stage;
     stage.look_from(scene::Pose::low);
-    DriverOptions options{.size = small_picture, .samples = automatic_samples};
+    DriverOptions options{.size = small_picture, .samples = view::automatic_samples};
     const Image chosen = drawn_with(stage.scene, options);
     options.samples = 4;
     EXPECT_EQ(chosen, drawn_with(stage.scene, options));
@@ -205,7 +205,7 @@ TEST(CastDriver, RefusesSizesAndSamplesOutOfRange) {
     EXPECT_FALSE(Driver::create({.size = {0, 5}}));
     EXPECT_FALSE(Driver::create({.size = {5, 1 << 15}}));
     EXPECT_FALSE(Driver::create({.size = {5, 5}, .samples = 3}));
-    EXPECT_TRUE(Driver::create({.size = {5, 5}, .samples = automatic_samples}));
+    EXPECT_TRUE(Driver::create({.size = {5, 5}, .samples = view::automatic_samples}));
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 #include "engine/material/relief_material.h"
 #include "engine/render/passes/sample_target.h"
 #include "engine/scene/technique/technique.h"
+#include "engine/view/sample_count.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {
@@ -348,7 +349,7 @@ TEST_F(SamplesGlTest, HitsAreThoseOfThePixelsCentresWhateverTheSamples) {
         technique = scene::parse_technique(name).value();
         session::SceneRenderer one = driver();
         const auto expected = numbers_of(test::must(one.draw_hits(world.scene)));
-        for (const int samples : {4, 8, automatic_samples}) {
+        for (const int samples : {4, 8, view::automatic_samples}) {
             session::SceneRenderer made = driver_of(samples);
             EXPECT_EQ(numbers_of(test::must(made.draw_hits(world.scene))), expected)
                 << name << samples;
@@ -379,11 +380,11 @@ TEST_F(SamplesGlTest, AutomaticIsFourForTrianglesAndOneForRays) {
     World world;
     auto& technique = world.terrain->get<scene::TerrainNode>()->material.technique;
     technique = scene::parse_technique("polygons").value();
-    EXPECT_EQ(drawn(world.scene, automatic_samples), drawn(world.scene, 4));
+    EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 4));
     technique = scene::parse_technique("exact").value();
-    EXPECT_EQ(drawn(world.scene, automatic_samples), drawn(world.scene, 1));
+    EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 1));
     world.scene.add_mesh(scene::sphere_mesh(20.0F));
-    EXPECT_EQ(drawn(world.scene, automatic_samples), drawn(world.scene, 4));
+    EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 4));
 }
 
 TEST_F(SamplesGlTest, AResizedOneHasItsSamples) {

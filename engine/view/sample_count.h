@@ -1,0 +1,14 @@
+#pragma once
+
+#include "engine/core/result.h"
+
+namespace reljef::view {
+
+/// The driver's choice of the samples of a pixel: 4 where edges of triangles or surfaces are seen
+/// (render::Driver, cast::Driver), else 1.
+inline constexpr int automatic_samples = 0;
+
+/// Fails unless `samples` is 1, 2, 4, 8, 16 or automatic_samples.
+Result<void> check_samples(int samples);
+
+} // namespace reljef::view
