@@ -13,8 +13,8 @@
 
 #include <hwy/highway.h>
 
-#include "engine/cast/packet_beams-inl.h"
 #include "engine/cast/packet_paint-inl.h"
+#include "engine/cast/packet_rays-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();

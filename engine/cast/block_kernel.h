@@ -88,6 +88,8 @@ inline constexpr unsigned west_wall = 1;
 inline constexpr unsigned east_wall = 2;
 inline constexpr unsigned north_wall = 4;
 inline constexpr unsigned south_wall = 8;
+/// Rays begin where their last piece has ended, which may be rounded to the other side.
+inline constexpr unsigned begin_wall = 16;
 
 /// The rays of a block at a tile.
 struct BlockJob {

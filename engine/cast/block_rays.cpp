@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -76,41 +79,133 @@ bool overlap(const PixelBlock& a, const PixelBlock& b) {
 }
 
 // The t before which no ray of a block hits a tile; empty if none does.
-std::optional<double> start_of(const PlacedTile& tile, const PixelBlock& block, bool beams) {
-    const PictureRays& rays = tile.rays;
+std::optional<double> start_of(const RayTile& tile, const PictureRays& rays,
+                               const PixelBlock& block, bool beams) {
     const bool is_finite = are_finite(rays.origin) && are_finite(rays.direction);
-    if (!is_finite || tile.tile->cells().x < 1 || tile.tile->cells().y < 1) {
+    if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
         return std::nullopt;
     }
     const PixelBlock whole{block.first, glm::ivec2(block_side)};
     const double start =
-        beams ? clear_until(*tile.tile, rays, whole, rays.range.begin) : rays.range.begin;
-    return start < no_hit ? std::optional(start) : std::nullopt;
+        beams ? clear_until(tile, rays, whole, rays.range.begin) : rays.range.begin;
+    return start < rays.range.end ? std::optional(start) : std::nullopt;
 }
+
+class JobList {
+public:
+    JobList(const PlacedTiles& placed, const PixelBlock& block, bool beams,
+            std::vector<std::size_t>* indices)
+        : placed_(placed), block_(block), beams_(beams), indices_(indices) {}
+
+    void add(std::size_t index, const PictureRays& rays, unsigned more_walls) {
+        const PlacedTile& tile = placed_.tiles[index];
+        const auto start = start_of(*tile.tile, rays, block_, beams_);
+        if (!start) {
+            return;
+        }
+        BlockJob& job = jobs_.emplace_back();
+        job.start = static_cast<float>(*start - rays.anchor);
+        job.has_beams = beams_;
+        job.tile = samples_of(*tile.tile);
+        job.rays = rays_of(*tile.tile, rays, block_);
+        job.paint = &tile.paint;
+        job.walls = tile.walls | more_walls;
+        if (indices_ != nullptr) {
+            indices_->push_back(index);
+        }
+    }
+
+    std::vector<BlockJob> run() {
+        if (placed_.curve != nullptr) {
+            add_pieces();
+            return std::move(jobs_);
+        }
+        for (std::size_t i = 0; i < placed_.tiles.size(); ++i) {
+            if (overlap(placed_.tiles[i].seen, block_)) {
+                add(i, placed_.tiles[i].rays, 0);
+            }
+        }
+        return std::move(jobs_);
+    }
+
+private:
+    void add_pieces() {
+        const std::span<const RayPiece> pieces = placed_.curve->pieces(block_);
+        Box all;
+        for (const RayPiece& piece : pieces) {
+            all.add(piece.box);
+        }
+        std::vector<std::size_t> near;
+        for (std::size_t i = 0; i < placed_.tiles.size(); ++i) {
+            if (meet(placed_.tiles[i].box, all)) {
+                near.push_back(i);
+            }
+        }
+        for (const RayPiece& piece : pieces) {
+            std::vector<std::size_t> met;
+            std::copy_if(near.begin(), near.end(), std::back_inserter(met),
+                         [&](std::size_t i) { return meet(placed_.tiles[i].box, piece.box); });
+            sort_front_to_back(met, piece.from);
+            for (const std::size_t i : met) {
+                const PlacedTile& tile = placed_.tiles[i];
+                add(i, in_samples(piece.rays, tile.scale, tile.by),
+                    &piece == &pieces.front() ? 0U : begin_wall);
+            }
+        }
+    }
+
+    // Rays pass below a tile without a hit, but then they are below the next one, too.
+    [[nodiscard]] static bool meet(const Box& tile, const Box& rays) {
+        return tile.low.x <= rays.high.x && rays.low.x <= tile.high.x &&
+               tile.low.y <= rays.high.y && rays.low.y <= tile.high.y && rays.low.z <= tile.high.z;
+    }
+
+    // Each time one before which no ray passes another.
+    void sort_front_to_back(std::vector<std::size_t>& met, glm::dvec2 from) const {
+        for (auto next = met.begin(); next != met.end(); ++next) {
+            const auto first = std::find_if(next, met.end(), [&](std::size_t one) {
+                return std::none_of(next, met.end(), [&](std::size_t other) {
+                    return other != one &&
+                           passes_first(placed_.tiles[other].box, placed_.tiles[one].box, from);
+                });
+            });
+            if (first != met.end()) {
+                std::rotate(next, first, first + 1);
+            }
+        }
+    }
+
+    // Whether a ray may pass `a` and then `b`, which lie side by side. See RayPiece::from.
+    [[nodiscard]] static bool passes_first(const Box& a, const Box& b, glm::dvec2 from) {
+        constexpr double rounding = 1e-6; // samples
+        bool is_first = false;
+        for (int axis = 0; axis < 2; ++axis) {
+            const bool is_low = a.high[axis] <= b.low[axis] + rounding;
+            const bool is_high = b.high[axis] <= a.low[axis] + rounding;
+            if (!is_low && !is_high) {
+                continue;
+            }
+            const double line = is_low ? a.high[axis] : a.low[axis];
+            if ((from[axis] <= line) != is_low) {
+                return false;
+            }
+            is_first = true;
+        }
+        return is_first;
+    }
+
+    const PlacedTiles& placed_;
+    const PixelBlock& block_;
+    bool beams_;
+    std::vector<std::size_t>* indices_;
+    std::vector<BlockJob> jobs_;
+};
 
 } // namespace
 
 std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
                                  std::vector<std::size_t>* indices) {
-    std::vector<BlockJob> jobs;
-    for (std::size_t i = 0; i < placed.tiles.size(); ++i) {
-        const PlacedTile& tile = placed.tiles[i];
-        const auto start = overlap(tile.seen, block) ? start_of(tile, block, beams) : std::nullopt;
-        if (!start) {
-            continue;
-        }
-        BlockJob& job = jobs.emplace_back();
-        job.start = static_cast<float>(*start - tile.rays.anchor);
-        job.has_beams = beams;
-        job.tile = samples_of(*tile.tile);
-        job.rays = rays_of(*tile.tile, tile.rays, block);
-        job.paint = &tile.paint;
-        job.walls = tile.walls;
-        if (indices != nullptr) {
-            indices->push_back(i);
-        }
-    }
-    return jobs;
+    return JobList(placed, block, beams, indices).run();
 }
 
 namespace {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "engine/cast/beam.h"
 #include "engine/cast/block_kernel.h"
+#include "engine/cast/curved_rays.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/core/parallel_for.h"
@@ -23,12 +25,18 @@ struct PlacedTile {
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
     PixelBlock seen; ///< no other pixel shows it
+    /// With PlacedTiles::curve, instead of `rays`, which have its anchor: sample of the tile =
+    /// scale · sample of the curve + by.
+    glm::dvec2 scale{1.0};
+    glm::dvec2 by{0.0};
+    Box box = {}; ///< around it, samples of the curve and metres of height
 };
 
 /// The tiles of a picture, front to back. All rays have the same anchor.
 struct PlacedTiles {
     std::vector<PlacedTile> tiles;
     bool has_walls = false;
+    std::shared_ptr<const CurvedRays> curve; ///< not null: on the ellipsoid, in any order
 };
 
 /// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays

@@ -67,9 +67,21 @@ Box bounds_of_tiles(const view::DrawList& list) {
     return bounds;
 }
 
-// No pixel of a proven tile is farther off than the tile itself, and rounding. Empty: none is
-// proven.
-std::optional<double> kept_error(const view::DrawList& list) {
+bool is_curved(const scene::TerrainNode& node) {
+    return node.surface->placement().kind() == terrain::PlacementKind::ellipsoid;
+}
+
+// Around all ground that is drawn, local coordinates. `samples`: the same.
+Box local_bounds(const scene::TerrainSurface& surface, const Box& samples) {
+    const Box overview = samples_and_heights(surface);
+    const double more = std::max(overview.low.z - samples.low.z, samples.high.z - overview.high.z);
+    const double room = surface.placement().exaggeration() * std::max(more, 0.0);
+    return {surface.bounds().low - room, surface.bounds().high + room};
+}
+
+// No pixel of a proven tile is farther off than the tile itself, and the rays (`of_rays`). Empty:
+// none is proven.
+std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
     std::optional<double> largest;
     if (list.tiles.empty()) {
         largest = 0.0; // the samples
@@ -79,7 +91,7 @@ std::optional<double> kept_error(const view::DrawList& list) {
             largest = std::max(largest.value_or(0.0), draw.tile->borrows ? 0.0 : draw.error);
         }
     }
-    return largest ? std::optional(*largest + rounding_error(list.camera, list.size)) : largest;
+    return largest ? std::optional(*largest + of_rays) : largest;
 }
 
 // The finest tiles of a relief over a stream, as tiles.
@@ -187,8 +199,12 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0) {
         return "a streamed globe";
     }
-    if (terrain.surface->placement().kind() != terrain::PlacementKind::plane) {
-        return "placement ellipsoid";
+    const bool is_on_earth = is_curved(terrain);
+    if (is_on_earth && terrain.surface->placement().columns_all_around()) {
+        return "a globe";
+    }
+    if (is_on_earth && terrain.stream != nullptr) {
+        return "a streamed terrain on the ellipsoid";
     }
     if (terrain.material.wireframe) {
         return "a wireframe";
@@ -210,6 +226,11 @@ std::string obstacle_of(const view::DrawList& list) {
             !found.empty()) {
             return found;
         }
+        if (is_curved(*terrain.node) &&
+            !are_linear(list.camera, list.size, terrain.world_from_local,
+                        terrain.node->surface->placement(), terrain.node->surface->bounds())) {
+            return "a view from so far that a block of pixels shows the bend of the Earth";
+        }
     }
     return terrains.size() > 1 ? "more than one terrain" : "";
 }
@@ -218,7 +239,7 @@ Result<void> check_support(const view::DrawList& list) {
     const std::string found = obstacle_of(list);
     return found.empty() ? Result<void>()
                          : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
-                                             "over one terrain on a plane was expected; "
+                                             "over one terrain was expected; "
                                              "--context osmesa draws the others",
                                              found)};
 }
@@ -303,6 +324,34 @@ void Driver::forget_content() {
     streamed_ = {};
 }
 
+namespace {
+
+struct RaysOver {
+    PictureRays straight; // in samples; over the ellipsoid only their range and anchor
+    std::shared_ptr<const CurvedRays> curve;
+};
+
+RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, const Box& bounds,
+                   unsigned threads) {
+    const auto& [node, world_from_local] = seen;
+    const terrain::Placement& placement = node->surface->placement();
+    if (!is_curved(*node)) {
+        return {picture_rays(list.camera, list.size, world_from_local, placement, bounds), nullptr};
+    }
+    auto curve = std::make_shared<const CurvedRays>(
+        list.camera, list.size,
+        CurvedRays::Terrain{placement, world_from_local, local_bounds(*node->surface, bounds),
+                            bounds},
+        threads);
+    PictureRays straight;
+    straight.size = list.size;
+    straight.range = curve->local().range;
+    straight.anchor = curve->local().anchor;
+    return {straight, std::move(curve)};
+}
+
+} // namespace
+
 // Precondition: check_support().
 PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats) {
     const std::vector<SeenTerrain> seen = terrains_of(list);
@@ -311,21 +360,26 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
     }
     const auto& [node, world_from_local] = seen.front();
     const bool is_streamed = !list.tiles.empty() && !list.tiles.front().tile->borrows;
-    const PictureRays rays =
-        picture_rays(list.camera, list.size, world_from_local, node->surface->placement(),
-                     is_streamed ? bounds_of_tiles(list) : samples_and_heights(*node->surface));
+    const Box bounds = is_streamed ? bounds_of_tiles(list) : samples_and_heights(*node->surface);
+    const auto [rays, curve] = rays_over(list, seen.front(), bounds, options_.threads);
     const bool stands_in = node->stream != nullptr && !is_streamed; // for tiles to be loaded
     if (scene::error_bound(node->material.technique) > 0.0 && !stands_in) {
-        stats.kept_error = kept_error(list);
+        stats.kept_error = kept_error(list, rounding_error(list.camera, list.size) +
+                                                (curve != nullptr ? curve->error() : 0.0));
     }
     if (is_streamed) {
-        return streamed_.place(list, rays, {options_.threads, paints}, stats);
+        PlacedTiles placed = streamed_.place(list, rays, {options_.threads, paints}, stats);
+        placed.curve = curve;
+        return placed;
     }
     PlacedTiles placed;
+    placed.curve = curve;
+    placed.has_walls = curve != nullptr;
     PlacedTile& tile = placed.tiles.emplace_back();
     tile.tile = &tile_of(*node, stats);
     tile.rays = rays;
     tile.seen = {{0, 0}, list.size};
+    tile.box = bounds;
     if (paints) {
         tile.paint = levels_of(*node, view::light_on(list, world_from_local), stats).paint();
         tile.paint.longest_texels =

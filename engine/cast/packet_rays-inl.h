@@ -1,4 +1,5 @@
-// Rays of a packet of pixels, one in each lane. Included once for each instruction set.
+// Rays of a packet of pixels, one in each lane, and where they may begin: a beam in each lane.
+// Included once for each instruction set.
 #if defined(RELJEF_PACKET_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_RAYS_INL_H
 #undef RELJEF_PACKET_RAYS_INL_H
@@ -6,8 +7,11 @@
 #define RELJEF_PACKET_RAYS_INL_H
 #endif
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <limits>
 
 #include <hwy/highway.h>
 
@@ -162,7 +166,9 @@ HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, unsigned walls)
     const Floats side =
         hn::IfThenElse(hn::Ge(entry.col, entry.row), side_of(rays.col, west_wall, east_wall),
                        side_of(rays.row, north_wall, south_wall));
-    return hn::And(hn::Gt(side, hn::Zero(floats)), hn::Gt(entry.t(), rays.begin));
+    const Lanes enters = hn::Gt(entry.t(), rays.begin);
+    const Lanes walled = hn::And(hn::Gt(side, hn::Zero(floats)), enters);
+    return (walls & begin_wall) != 0 ? hn::Or(walled, hn::Not(enters)) : walled;
 }
 
 HWY_INLINE Rays rays_of(const BlockJob& job, const PixelOffsets& pixels) {
@@ -179,6 +185,189 @@ HWY_INLINE Rays rays_of(const BlockJob& job, const PixelOffsets& pixels) {
     rays.begin = all(block.begin);
     rays.end = end_of(rays, block);
     return rays;
+}
+
+// Floats have errors of 2^-24 of the distance from the rays' base, and a beam adds a few of them.
+constexpr float beam_rounding = 0x1p-20F;
+
+// A bound of all rays of each beam along an axis: first + t · change, for t >= 0.
+struct BeamSide {
+    Floats first;
+    Floats change;
+
+    [[nodiscard]] HWY_INLINE Floats at(Floats t) const { return hn::MulAdd(t, change, first); }
+};
+
+struct BeamAxis {
+    BeamSide low;
+    BeamSide high;
+};
+
+HWY_INLINE float half_of(const BlockRays::Vectors& vectors, int axis) {
+    return 0.5F * (static_cast<float>(beam_cols) * std::abs(vectors.right[axis]) +
+                   static_cast<float>(beam_rows) * std::abs(vectors.down[axis]));
+}
+
+HWY_INLINE BeamAxis beam_axis(const BlockRays& block, const PixelOffsets& middles, int axis) {
+    const Floats origin = middles.of(block.origin, axis);
+    const Floats direction = middles.of(block.direction, axis);
+    const Floats wider = all(half_of(block.origin, axis));
+    const Floats opening = all(half_of(block.direction, axis));
+    return {{hn::Sub(origin, wider), hn::Sub(direction, opening)},
+            {hn::Add(origin, wider), hn::Add(direction, opening)}};
+}
+
+struct Beams {
+    BeamAxis col;
+    BeamAxis row;
+    BeamSide height;
+    float per_sample = 0.0F; // t in which no ray moves farther than a sample
+};
+
+// The beams from number `first` on.
+HWY_INLINE Beams beams_of(const BlockRays& block, int first) {
+    const Ints number = hn::Iota(ints, first);
+    const auto middle = [](Ints index, int pixels) HWY_ATTR {
+        const float half = 0.5F * static_cast<float>(pixels - block_side);
+        return hn::MulAdd(hn::ConvertTo(floats, index), all(static_cast<float>(pixels)), all(half));
+    };
+    const PixelOffsets middles{
+        middle(hn::And(number, all(beams_a_row - 1)), beam_cols),
+        middle(hn::ShiftRight<std::countr_zero(static_cast<unsigned>(beams_a_row))>(number),
+               beam_rows)};
+    const float steps = 0.5F * static_cast<float>(block_side);
+    const auto speed = [&](int axis) {
+        return std::abs(block.direction.middle[axis]) +
+               steps *
+                   (std::abs(block.direction.right[axis]) + std::abs(block.direction.down[axis]));
+    };
+    constexpr float slowest = 1e-25F;
+    return {beam_axis(block, middles, 0), beam_axis(block, middles, 1),
+            beam_axis(block, middles, 2).low, 1.0F / std::max({speed(0), speed(1), slowest})};
+}
+
+// Bounds of the cells that the beams may touch, and of their heights, on a piece of their way.
+struct BeamPiece {
+    Floats low_col; // from the base
+    Floats high_col;
+    Floats low_row;
+    Floats high_row;
+    Floats lowest; // metres above the base height
+};
+
+HWY_INLINE BeamPiece beam_piece(const Beams& beams, Floats begin, Floats end) {
+    // Samples by which rounded rays may miss their place.
+    const Floats margin = hn::MulAdd(hn::Abs(end), all(beam_rounding / beams.per_sample),
+                                     all(beam_rounding * static_cast<float>(block_side)));
+    const auto low = [&](const BeamSide& side)
+                         HWY_ATTR { return hn::Min(side.at(begin), side.at(end)); };
+    const auto high = [&](const BeamSide& side)
+                          HWY_ATTR { return hn::Max(side.at(begin), side.at(end)); };
+    return {hn::Sub(low(beams.col.low), margin), hn::Add(high(beams.col.high), margin),
+            hn::Sub(low(beams.row.low), margin), hn::Add(high(beams.row.high), margin),
+            low(beams.height)};
+}
+
+HWY_INLINE Ints cell_inside(Floats place, int base, int cells) {
+    const float first = static_cast<float>(-base);
+    const Floats inside =
+        hn::Min(hn::Max(place, all(first)), all(first + static_cast<float>(cells - 1)));
+    return hn::Add(hn::ConvertTo(ints, hn::Floor(inside)), all(base));
+}
+
+// The highest height over the cells of a piece: of the at most four blocks that cover them.
+// Infinity where more would.
+HWY_INLINE Floats max_under(const BlockJob& job, const BeamPiece& piece) {
+    const TileSamples& tile = job.tile;
+    const glm::ivec2 base = job.rays.base;
+    const Ints first_col = cell_inside(piece.low_col, base.x, tile.cells.x);
+    const Ints last_col = cell_inside(piece.high_col, base.x, tile.cells.x);
+    const Ints first_row = cell_inside(piece.low_row, base.y, tile.cells.y);
+    const Ints last_row = cell_inside(piece.high_row, base.y, tile.cells.y);
+    const Ints extent = hn::Max(hn::Sub(last_col, first_col), hn::Sub(last_row, first_row));
+    // The exponent of a float is the number of bits, less one.
+    const Ints bits = hn::BitCast(ints, hn::ConvertTo(floats, extent));
+    const Ints level = hn::Max(hn::Sub(hn::ShiftRight<23>(bits), all(126)), hn::Zero(ints));
+    const Ints coarse = hn::Min(level, all(tile.top_level));
+    const Ints all_rows = all(2 * tile.rows);
+    const Ints level_row = hn::Sub(all_rows, hn::Shr(all_rows, coarse));
+    const Ints stride = all(tile.stride);
+    const Ints north = hn::Mul(hn::Add(hn::Shr(first_row, coarse), level_row), stride);
+    const Ints south = hn::Mul(hn::Add(hn::Shr(last_row, coarse), level_row), stride);
+    const Ints west = hn::Shr(first_col, coarse);
+    const Ints east = hn::Shr(last_col, coarse);
+    const auto at = [&](Ints row, Ints col) HWY_ATTR {
+        return hn::GatherIndex(floats, tile.maxima, hn::Add(row, col));
+    };
+    const Floats highest = hn::Max(hn::Max(at(north, west), at(north, east)),
+                                   hn::Max(at(south, west), at(south, east)));
+    const Lanes fits = hn::RebindMask(floats, hn::Eq(level, coarse));
+    return hn::IfThenElse(fits, highest, all(std::numeric_limits<float>::infinity()));
+}
+
+// Beams that have left the tile, or are above all of it and rise.
+HWY_INLINE Lanes beams_gone(const BlockJob& job, const Beams& beams, const BeamPiece& piece) {
+    const Floats zero = hn::Zero(floats);
+    const auto beyond = [&](const BeamAxis& axis, Floats low, Floats high, int index) HWY_ATTR {
+        const float first = static_cast<float>(-job.rays.base[index]);
+        const float last = first + static_cast<float>(job.tile.cells[index]);
+        return hn::Or(hn::And(hn::Lt(high, all(first)), hn::Le(axis.high.change, zero)),
+                      hn::And(hn::Gt(low, all(last)), hn::Ge(axis.low.change, zero)));
+    };
+    const Lanes above =
+        hn::And(hn::Gt(piece.lowest, all(job.rays.highest)), hn::Ge(beams.height.change, zero));
+    return hn::Or(above, hn::Or(beyond(beams.col, piece.low_col, piece.high_col, 0),
+                                beyond(beams.row, piece.low_row, piece.high_row, 1)));
+}
+
+// Half the width of the beams at t, samples; at least half a sample.
+HWY_INLINE Floats smallest_step(const Beams& beams, Floats t) {
+    const auto width = [&](const BeamAxis& axis)
+                           HWY_ATTR { return hn::Sub(axis.high.at(t), axis.low.at(t)); };
+    const Floats half = all(0.5F);
+    return hn::Max(hn::Mul(hn::Max(width(beams.col), width(beams.row)), half), half);
+}
+
+// Steps on as long as nothing can be hit; steps double in free space, and halve where a beam may
+// hit, down to half its width. Infinity for beams that hit nothing.
+HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float start) {
+    constexpr int max_steps = 48;
+    constexpr float first_step = 4.0F; // samples
+    const Floats bound = all(job.rays.base_height - 2.0F * job.rays.lift);
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    Floats t = all(start);
+    Floats step = all(first_step);
+    Lanes active = hn::Lt(hn::Zero(floats), all(1.0F));
+    for (int i = 0; i < max_steps && !hn::AllFalse(floats, active); ++i) {
+        const Floats end = hn::MulAdd(step, all(beams.per_sample), t);
+        const BeamPiece piece = beam_piece(beams, t, end);
+        const Lanes gone = hn::And(active, beams_gone(job, beams, piece));
+        const Lanes clear =
+            hn::And(active, hn::Gt(hn::Add(piece.lowest, bound), max_under(job, piece)));
+        const Lanes blocked = hn::AndNot(clear, active);
+        t = hn::IfThenElse(gone, never, hn::IfThenElse(clear, end, t));
+        step = hn::Mul(step, hn::IfThenElse(clear, all(2.0F), all(0.5F)));
+        const Lanes near = hn::And(blocked, hn::Lt(step, smallest_step(beams, t)));
+        active = hn::AndNot(hn::Or(near, gone), active);
+    }
+    const Floats before = hn::NegMulAdd(all(beam_rounding), hn::Abs(t), t);
+    return hn::IfThenElse(hn::Lt(t, never), hn::Max(before, all(start)), never);
+}
+
+// Of all beams of a block.
+HWY_INLINE void find_starts(BlockJob& job) {
+    if (job.has_starts) {
+        return;
+    }
+    job.has_starts = true;
+    if (!job.has_beams || !(job.start < std::numeric_limits<float>::infinity())) {
+        job.starts.fill(job.start);
+        return;
+    }
+    for (int first = 0; first < beam_count; first += lane_count) {
+        const Floats t = clear_until(job, beams_of(job.rays, first), job.start);
+        hn::StoreU(t, floats, job.starts.data() + first);
+    }
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

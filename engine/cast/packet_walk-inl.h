@@ -158,8 +158,8 @@ struct Walk {
     Lanes active;  // not hit, not at the end
     Lanes arrived; // in a cell that it may hit
     // Only among tiles with walls:
-    Entry entry;
-    Lanes walled; // comes in from another tile
+    Floats entry; // t at which it comes in
+    Lanes walled; // from another tile
     Lanes below;  // was below the surface where it was last
     Lanes wall;   // hit a wall
 };
@@ -301,7 +301,7 @@ template <bool has_walls> HWY_INLINE void step(const Rays& rays, const BlockJob&
 // which side they leave their cells.
 HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
     const Floats zero = hn::Zero(floats);
-    const Lanes comes_in = hn::And(walk.walled, hn::Eq(piece.begin, walk.entry.t()));
+    const Lanes comes_in = hn::And(walk.walled, hn::Eq(piece.begin, walk.entry));
     const Lanes was_above = hn::AndNot(walk.below, walk.arrived);
     const Lanes wall = hn::And(hn::And(comes_in, was_above), hn::Lt(piece.start, zero));
     walk.wall = hn::Or(walk.wall, wall);
@@ -381,7 +381,7 @@ HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met&
     Walk walk = walk_from(rays, job.tile, begin);
     if constexpr (has_walls) {
         walk.active = hn::AndNot(met.found, walk.active);
-        walk.entry = entry;
+        walk.entry = hn::Max(entry.t(), rays.begin);
         walk.walled = walled_of(rays, entry, job.walls);
         walk.below = met.below;
     }

@@ -34,21 +34,69 @@ glm::dvec3 corner_of(const Box& box, int index) {
             (index & 4) != 0 ? box.high.z : box.low.z};
 }
 
-// The smallest depth in the box: the depth of a place is linear in its coordinates. In perspective
-// its rays begin at the eye.
-double depth_of(const Box& bounds, const PictureRays& rays, bool perspective) {
-    const PictureRays::Vectors& fan = perspective ? rays.direction : rays.origin;
-    const glm::dvec3 across = glm::cross(fan.right, fan.down);
-    const glm::dvec3 along = across / glm::dot(across, rays.direction.first);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 8; ++i) {
-        nearest = std::min(nearest, glm::dot(along, corner_of(bounds, i) - rays.origin.first));
-    }
+double anchor_of(const Box& bounds, const PictureRays& rays, bool perspective) {
+    const double nearest = depths_of(bounds, rays, perspective).begin;
     const double depth = perspective ? std::max(nearest, 0.0) : nearest;
     return std::isfinite(depth) ? depth : rays.range.begin;
 }
 
+Interval range_of(const scene::Camera& camera) {
+    return is_perspective(camera) ? Interval{camera.near, std::numeric_limits<double>::infinity()}
+                                  : Interval{camera.orthographic_near, camera.orthographic_far};
+}
+
+// `ray_at`: of a place on the picture.
+template <class RayAt> PictureRays rays_through(glm::ivec2 size, const RayAt& ray_at) {
+    const Ray first = ray_at({0.0, 0.0});
+    const Ray right = ray_at({size.x, 0.0});
+    const Ray down = ray_at({0.0, size.y});
+    PictureRays rays;
+    rays.size = size;
+    rays.origin = linear(first.origin, right.origin, down.origin, size);
+    rays.direction = linear(first.direction, right.direction, down.direction, size);
+    return rays;
+}
+
+PictureRays::Vectors moved(const PictureRays::Vectors& vectors, glm::dvec2 scale, glm::dvec2 by) {
+    const glm::dvec3 factor(scale, 1.0);
+    return {vectors.first * factor + glm::dvec3(by, 0.0), vectors.right * factor,
+            vectors.down * factor};
+}
+
 } // namespace
+
+// The depth of a place is linear in its coordinates. In perspective the rays begin at the eye.
+Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspective) {
+    const PictureRays::Vectors& fan = is_perspective ? rays.direction : rays.origin;
+    const glm::dvec3 across = glm::cross(fan.right, fan.down);
+    const glm::dvec3 along = across / glm::dot(across, rays.direction.first);
+    Interval depths{std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+    for (int i = 0; i < 8; ++i) {
+        const double depth = glm::dot(along, corner_of(bounds, i) - rays.origin.first);
+        depths = {std::min(depths.begin, depth), std::max(depths.end, depth)};
+    }
+    return depths;
+}
+
+PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by) {
+    rays.origin = moved(rays.origin, scale, by);
+    rays.direction = moved(rays.direction, scale, glm::dvec2(0.0));
+    return rays;
+}
+
+PictureRays local_rays(const scene::Camera& camera, glm::ivec2 size,
+                       const glm::dmat4& world_from_local, const Box& bounds) {
+    const glm::dmat4 local_from_world = glm::inverse(world_from_local);
+    PictureRays rays = rays_through(size, [&](glm::dvec2 pixel) {
+        const Ray ray = scene::view_ray(camera, size, pixel);
+        return Ray{glm::dvec3(local_from_world * glm::dvec4(ray.origin, 1.0)),
+                   glm::dmat3(local_from_world) * ray.direction};
+    });
+    rays.range = range_of(camera);
+    rays.anchor = anchor_of(bounds, rays, is_perspective(camera));
+    return rays;
+}
 
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
                          const glm::dmat4& world_from_local, const terrain::Placement& placement,
@@ -57,23 +105,14 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
     const glm::dmat4 local_from_world = glm::inverse(world_from_local);
     const glm::dmat3 sample_from_world =
         samples_from_local(placement) * glm::dmat3(local_from_world);
-    const auto ray_at = [&](glm::dvec2 pixel) {
+    PictureRays rays = rays_through(size, [&](glm::dvec2 pixel) {
         const Ray ray = scene::view_ray(camera, size, pixel);
         const glm::dvec3 local(local_from_world * glm::dvec4(ray.origin, 1.0));
         return Ray{placement.sample_from_world(local).value_or(glm::dvec3(0.0)),
                    sample_from_world * ray.direction};
-    };
-    const Ray first = ray_at({0.0, 0.0});
-    const Ray right = ray_at({size.x, 0.0});
-    const Ray down = ray_at({0.0, size.y});
-    PictureRays rays;
-    rays.size = size;
-    rays.origin = linear(first.origin, right.origin, down.origin, size);
-    rays.direction = linear(first.direction, right.direction, down.direction, size);
-    rays.range = is_perspective(camera)
-                     ? Interval{camera.near, std::numeric_limits<double>::infinity()}
-                     : Interval{camera.orthographic_near, camera.orthographic_far};
-    rays.anchor = depth_of(bounds, rays, is_perspective(camera));
+    });
+    rays.range = range_of(camera);
+    rays.anchor = anchor_of(bounds, rays, is_perspective(camera));
     return rays;
 }
 

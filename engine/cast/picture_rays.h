@@ -39,4 +39,15 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
                          const glm::dmat4& world_from_local, const terrain::Placement& placement,
                          const Box& bounds);
 
+/// The same in local coordinates, metres. `bounds`: of the surface, in these.
+PictureRays local_rays(const scene::Camera& camera, glm::ivec2 size,
+                       const glm::dmat4& world_from_local, const Box& bounds);
+
+/// Depth along the view axis at which the rays meet the nearest and the farthest place of a box in
+/// their coordinates.
+Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspective);
+
+/// The rays in samples that are `scale` times those of `rays`, plus `by`.
+PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by);
+
 } // namespace reljef::cast

@@ -22,19 +22,6 @@ std::size_t number_of(const TilePiece& piece) {
     return (piece.vertex.x > 0 ? 1U : 0U) + (piece.vertex.y > 0 ? 2U : 0U);
 }
 
-PictureRays::Vectors moved(const PictureRays::Vectors& vectors, glm::dvec2 scale, glm::dvec2 by) {
-    const glm::dvec3 factor(scale, 1.0);
-    return {vectors.first * factor + glm::dvec3(by, 0.0), vectors.right * factor,
-            vectors.down * factor};
-}
-
-// The rays in samples that are `scale` times those of `rays`, plus `by`.
-PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by) {
-    rays.origin = moved(rays.origin, scale, by);
-    rays.direction = moved(rays.direction, scale, glm::dvec2(0.0));
-    return rays;
-}
-
 // Where all rays begin; infinite along the axes of parallel ones.
 glm::dvec2 beginning_of(const view::DrawList& list, const PictureRays& rays) {
     if (list.camera.projection == scene::ProjectionKind::perspective) {
@@ -187,8 +174,8 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
     const scene::TileBuilder& builder = any.terrain->stream->maker();
     const terrain::Placement& overview = any.terrain->surface->placement();
     const glm::dvec2 zero = builder.from_overview(glm::dvec2(0.0));
-    const PictureRays on_terrain =
-        in_samples(rays, builder.from_overview(glm::dvec2(1.0)) - zero, zero);
+    const glm::dvec2 scale = builder.from_overview(glm::dvec2(1.0)) - zero;
+    const PictureRays on_terrain = in_samples(rays, scale, zero);
     const glm::dvec2 from = beginning_of(list, on_terrain);
     const terrain::TileTree& tree = builder.tree();
     const glm::dvec2 last = builder.sample(tree.root(), tree.cells(tree.root()));
@@ -216,6 +203,9 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
                 glm::dvec3(builder.on_overview(piece.first + piece.step * glm::dvec2(piece.cells)),
                            tile.tile->total().high));
             tile.seen = seen.of(box);
+            tile.box = box;
+            tile.scale = scale / piece.step;
+            tile.by = (zero - piece.first) / piece.step;
             if (options.paints) {
                 tile.paint = content.levels->paint(glm::vec2(piece.vertex));
                 tile.paint.longest_texels = longest_texels(list, tile.paint, metres * piece.step);

@@ -44,7 +44,7 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
     }
     const bool needs_plane = view.technique && scene::needs_plane(view.technique->id());
     if (!options.placement && (needs_plane || view.rays == RayUse::only)) {
-        options.placement = terrain::PlacementKind::plane; // the only one it draws
+        options.placement = terrain::PlacementKind::plane; // all that it draws of any size
     }
     return options;
 }
@@ -59,8 +59,8 @@ std::optional<std::string> plane_note(const scene::TerrainSurface& surface,
         !surface.heightfield().georeference) {
         return std::nullopt;
     }
-    return fmt::format("{}: drawn on a plane, because rays on the CPU draw nothing else; other "
-                       "contexts draw it on the ellipsoid",
+    return fmt::format("{}: drawn on a plane, where rays on the CPU draw terrain of any size; "
+                       "--placement ellipsoid draws what fits --memory at its place on the Earth",
                        surface.terrain().name);
 }
 
@@ -153,6 +153,7 @@ std::optional<scene::Technique> default_technique(const scene::TerrainNode& terr
     const scene::Technique exact{scene::Exact{}};
     const bool is_named = view.technique || view.max_error;
     const bool is_exact = view.rays != RayUse::none && !is_named && terrain.stream == nullptr &&
+                          terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
                           cast::obstacle_of(terrain, exact).empty();
     return is_exact ? std::optional(exact) : std::nullopt;
 }

@@ -8,6 +8,7 @@
 
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
+#include "engine/view/sample_count.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/session/made_session.h"
@@ -191,7 +192,7 @@ TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
     stage.use({scene::Texture{}});
     EXPECT_EQ(reason_against(stage.scene),
               "rays on the CPU: technique texture found, exact or an error bound over one terrain "
-              "on a plane was expected; --context osmesa draws the others");
+              "was expected; --context osmesa draws the others");
     scene::Technique shadowed{scene::Exact{}};
     shadowed.options.shadow = scene::Shadow{};
     stage.use(shadowed);

@@ -1,0 +1,371 @@
+#include "engine/cast/curved_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "engine/cast/block_kernel.h"
+#include "engine/core/parallel_for.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr double chord_error = 0.005;  // pixels
+constexpr double largest_error = 0.05; // of rays that are not linear in the pixel
+// Share of the error that the polynomial may have; the chords have the rest.
+constexpr double share_of_map = 0.2;
+constexpr double earth_radius = 6.4e6; // metres
+
+constexpr double far_away = std::numeric_limits<double>::infinity();
+
+// Of a block, from its first pixel: corners, middle, and the middles of two sides.
+constexpr double whole = block_side;
+constexpr double half = 0.5 * block_side;
+constexpr std::array places{glm::dvec2(0.0, 0.0),   glm::dvec2(whole, 0.0),
+                            glm::dvec2(0.0, whole), glm::dvec2(whole, whole),
+                            glm::dvec2(half, half), glm::dvec2(whole, half),
+                            glm::dvec2(half, whole)};
+
+bool has_eye(const scene::Camera& camera) {
+    return camera.projection == scene::ProjectionKind::perspective;
+}
+
+// The chord between two depths, and its line beyond them.
+PictureRays::Vectors at_zero(const PictureRays::Vectors& from, const PictureRays::Vectors& change,
+                             double t) {
+    return {from.first - t * change.first, from.right - t * change.right,
+            from.down - t * change.down};
+}
+
+PictureRays::Vectors change_of(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
+                               double length) {
+    return {(to.first - from.first) / length, (to.right - from.right) / length,
+            (to.down - from.down) / length};
+}
+
+// See RayPiece::from, along one axis. `from`: where rays of the block begin.
+double beginning_of(const PictureRays::Vectors& from, const PictureRays::Vectors& change,
+                    const PixelBlock& block, int axis) {
+    double low = far_away;
+    double high = -far_away;
+    for (const glm::dvec2 place : places) {
+        const double way = change.at(glm::dvec2(block.first) + place)[axis];
+        low = std::min(low, way);
+        high = std::max(high, way);
+    }
+    if (low >= 0.0 || high <= 0.0) {
+        return low >= 0.0 ? -far_away : far_away;
+    }
+    // All rays come from where those are that stay at their line.
+    const glm::dvec2 slope(change.right[axis], change.down[axis]);
+    const glm::dvec2 middle = glm::dvec2(block.first) + half;
+    const glm::dvec2 still = middle - slope * (change.at(middle)[axis] / glm::dot(slope, slope));
+    return from.at(still)[axis];
+}
+
+// The largest tangent of a latitude of the box: parallels bend by it.
+double parallel_bend(const terrain::Placement& placement, const Box& local) {
+    double largest = 0.0;
+    for (const double x : {local.low.x, local.high.x}) {
+        for (const double y : {local.low.y, local.high.y}) {
+            const auto place = placement.geodetic_from_world({x, y, local.center().z});
+            largest = std::max(largest, place ? std::abs(std::tan(glm::radians(place->latitude)))
+                                              : far_away);
+        }
+    }
+    return largest;
+}
+
+// Of a column, a row and a metre of height, at most.
+glm::dvec3 metres_of(const terrain::Placement& placement, const Box& samples) {
+    constexpr int steps = 16;
+    constexpr double part = 0.5; // of a sample
+    glm::dvec3 metres(0.0, 0.0, placement.exaggeration());
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            const glm::dvec3 at(glm::dvec2(samples.low) + glm::dvec2(samples.size()) *
+                                                              glm::dvec2(i, j) /
+                                                              static_cast<double>(steps),
+                                samples.high.z);
+            const glm::dvec3 here = placement.world_from_sample(at);
+            for (int axis = 0; axis < 2; ++axis) {
+                glm::dvec3 beside = at;
+                beside[axis] += part;
+                const double way = glm::distance(placement.world_from_sample(beside), here);
+                metres[axis] = std::max(metres[axis], way / part);
+            }
+        }
+    }
+    return metres;
+}
+
+} // namespace
+
+// The rays of a block at a depth.
+struct CurvedRays::Fan {
+    double t = 0.0;
+    std::array<glm::dvec3, places.size()> samples{};
+    PictureRays::Vectors linear; // in the pixel of the picture
+    glm::dvec3 bend{0.0};        // between this and the samples, at most
+    Box box;
+};
+
+CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
+                       unsigned threads)
+    : local_(local_rays(camera, size, terrain.world_from_local, terrain.local)), terrain_(terrain),
+      depths_(depths_of(terrain.local, local_, has_eye(camera))),
+      metres_(metres_of(terrain.placement, terrain.samples)),
+      pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
+    width_ = whole * pixel_at(depths_.end);
+    make_polynomial(has_eye(camera));
+    const int rows = (size.y + block_side - 1) / block_side;
+    blocks_.resize(static_cast<std::size_t>(cols_ * rows));
+    parallel_for(
+        cols_ * rows,
+        [&](int index) {
+            const glm::ivec2 first = block_side * glm::ivec2(index % cols_, index / cols_);
+            blocks_[static_cast<std::size_t>(index)] = cut({first, glm::ivec2(block_side)});
+        },
+        {.threads = threads, .stop = {}, .progress = {}});
+    for (const std::vector<RayPiece>& pieces : blocks_) {
+        for (const RayPiece& piece : pieces) {
+            error_ = std::max(error_, piece.error);
+        }
+    }
+    error_ += share_of_map * chord_error;
+}
+
+void CurvedRays::make_polynomial(bool is_fan) {
+    const Box& local = terrain_.local;
+    const glm::dvec3 eye = is_fan ? local_.origin.first : local.center();
+    auto above = terrain_.placement.sample_from_world(eye);
+    if (!above) {
+        return;
+    }
+    const Box& samples = terrain_.samples;
+    const glm::dvec3 middle = terrain_.placement.world_from_sample(glm::dvec3(
+        glm::clamp(glm::dvec2(*above), glm::dvec2(samples.low), glm::dvec2(samples.high)),
+        samples.center().z));
+    double reach = 0.0;
+    for (const double x : {local.low.x, local.high.x}) {
+        for (const double y : {local.low.y, local.high.y}) {
+            reach = std::max(reach, glm::length(glm::dvec2(x, y) - glm::dvec2(middle)));
+        }
+    }
+    const double heights = terrain_.placement.exaggeration() * samples.size().z + width_;
+    for (int halvings = 0; halvings < 4 && !polynomial_; ++halvings) {
+        const double fall = reach * reach / earth_radius;
+        auto made = terrain::SamplePolynomial::create(terrain_.placement, middle,
+                                                      {reach, reach, heights + fall});
+        const bool fits =
+            made && (is_fan ? made->angle_from(eye) <= share_of_map * chord_error * pixel_.y
+                            : made->error() <= share_of_map * chord_error * pixel_.x);
+        if (fits) {
+            polynomial_ = std::move(made);
+        }
+        reach *= 0.5;
+    }
+}
+
+std::optional<glm::dvec3> CurvedRays::sample_at(glm::dvec2 pixel, double t) const {
+    const glm::dvec3 place = local_.origin.at(pixel) + t * local_.direction.at(pixel);
+    if (polynomial_) {
+        const glm::dvec3 inside = polynomial_->local(place);
+        const glm::dvec3 size = glm::abs(inside);
+        if (std::max({size.x, size.y, size.z}) <= 1.0) {
+            return polynomial_->at_local(inside);
+        }
+    }
+    return terrain_.placement.sample_from_world(place);
+}
+
+double CurvedRays::tolerance_at(double t) const {
+    return (1.0 - share_of_map) * chord_error * pixel_at(t);
+}
+
+double CurvedRays::pixel_at(double t) const {
+    return pixel_.x + pixel_.y * std::max(t, 0.0);
+}
+
+// Linear between the corners, halfway to the middle.
+std::optional<CurvedRays::Fan> CurvedRays::fan_at(const PixelBlock& block, double t) const {
+    Fan fan;
+    fan.t = t;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const auto sample = sample_at(glm::dvec2(block.first) + places[i], t);
+        if (!sample || glm::any(glm::isnan(*sample)) || glm::any(glm::isinf(*sample))) {
+            return std::nullopt;
+        }
+        fan.samples[i] = *sample;
+        fan.box.add(*sample);
+    }
+    const auto& at = fan.samples;
+    fan.linear.right = (at[1] - at[0] + at[3] - at[2]) / (2.0 * whole);
+    fan.linear.down = (at[2] - at[0] + at[3] - at[1]) / (2.0 * whole);
+    const glm::dvec3 middle = 0.5 * (0.25 * (at[0] + at[1] + at[2] + at[3]) + at[4]);
+    const glm::dvec2 pixel = glm::dvec2(block.first) + half;
+    fan.linear.first = middle - pixel.x * fan.linear.right - pixel.y * fan.linear.down;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::dvec3 found = fan.linear.at(glm::dvec2(block.first) + places[i]);
+        fan.bend = glm::max(fan.bend, glm::abs(found - at[i]));
+    }
+    return fan;
+}
+
+// Cuts the rays of a block.
+class CurvedRays::Pieces {
+public:
+    Pieces(const CurvedRays& rays, const PixelBlock& block)
+        : rays_(rays), block_(block), surface_(rays.terrain_.samples) {}
+
+    std::vector<RayPiece> run(Interval range) {
+        std::optional<Fan> from = rays_.fan_at(block_, range.begin);
+        length_ = first_length(range.begin);
+        was_above_ = from && is_inside(from->box);
+        while (range.begin < range.end && !is_done_) {
+            const double end = std::min(range.begin + length_, range.end);
+            const auto halfway = rays_.fan_at(block_, 0.5 * (range.begin + end));
+            auto to = rays_.fan_at(block_, end);
+            const bool is_known = from && halfway && to;
+            const double min_length = shortest(end);
+            const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
+            if (is_known ? advance(*from, *halfway, *to, is_shortest) : is_shortest) {
+                range.begin = end;
+                from = std::move(to);
+            }
+            length_ = std::max(is_known ? length_ : 0.5 * length_, min_length);
+        }
+        return std::move(pieces_);
+    }
+
+private:
+    [[nodiscard]] double first_length(double t) const {
+        return std::sqrt(8.0 * earth_radius * rays_.tolerance_at(std::max(t, 1.0)));
+    }
+    [[nodiscard]] static double shortest(double t) { return 1e-3 * (1.0 + std::abs(t)); }
+
+    // Whether all until `to` is done; else the length is shorter.
+    bool advance(const Fan& from, const Fan& halfway, const Fan& to, bool is_shortest) {
+        const glm::dvec3 chord = chord_of(from, halfway, to);
+        const glm::dvec3 bend = chord + glm::max(glm::max(from.bend, halfway.bend), to.bend);
+        Box box = from.box;
+        box.add(halfway.box);
+        box.add(to.box);
+        const glm::dvec3 room = 2.0 * bend;
+        box = {box.low - room, box.high + room};
+        const bool is_above = box.low.z > surface_.high.z;
+        if (is_above || is_beside(box)) {
+            was_above_ = was_above_ || is_above;
+            const bool rises =
+                halfway.box.low.z > from.box.low.z && to.box.low.z > halfway.box.low.z;
+            is_done_ = is_above && rises;
+            length_ *= 2.0;
+            return true;
+        }
+        if (was_above_ && box.high.z < surface_.low.z) {
+            is_done_ = true;
+            return true;
+        }
+        const double off = glm::length(chord * metres_) / rays_.tolerance_at(halfway.t);
+        if (off > 1.0 && !is_shortest) {
+            length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.2, 0.8);
+            return false;
+        }
+        add(from, to, chord, bend);
+        length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
+        return true;
+    }
+
+    // Between the chords of the rays and the rays halfway.
+    [[nodiscard]] static glm::dvec3 chord_of(const Fan& from, const Fan& halfway, const Fan& to) {
+        glm::dvec3 largest(0.0);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            const glm::dvec3 chord = 0.5 * (from.samples[i] + to.samples[i]);
+            largest = glm::max(largest, glm::abs(chord - halfway.samples[i]));
+        }
+        return largest;
+    }
+
+    // Pixels. A chord is off by 4 s (1 - s) times its middle at the part s of its length.
+    [[nodiscard]] double error_of(const Fan& from, const Fan& to, glm::dvec3 chord) const {
+        const double near = rays_.pixel_at(from.t);
+        const double far = rays_.pixel_at(to.t);
+        const double off = glm::length(chord * metres_);
+        const double of_fans =
+            std::max(glm::length(from.bend * metres_) / near, glm::length(to.bend * metres_) / far);
+        return std::min(off / near, 4.0 * off / (far - near)) + of_fans;
+    }
+
+    // Over or under the surface.
+    [[nodiscard]] bool is_inside(const Box& box) const {
+        return glm::all(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.low))) &&
+               glm::all(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.high)));
+    }
+
+    [[nodiscard]] bool is_beside(const Box& box) const {
+        return glm::any(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.low))) ||
+               glm::any(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.high)));
+    }
+
+    void add(const Fan& from, const Fan& to, glm::dvec3 chord, glm::dvec3 bend) {
+        RayPiece& piece = pieces_.emplace_back();
+        const auto change = change_of(from.linear, to.linear, to.t - from.t);
+        piece.rays.size = rays_.local_.size;
+        piece.rays.origin = at_zero(from.linear, change, from.t);
+        piece.rays.direction = change;
+        piece.rays.range = {from.t, to.t};
+        piece.rays.anchor = rays_.local_.anchor;
+        piece.box = from.box;
+        piece.box.add(to.box);
+        piece.box = {piece.box.low - 2.0 * bend, piece.box.high + 2.0 * bend};
+        piece.error = error_of(from, to, chord);
+        piece.from = {beginning_of(from.linear, change, block_, 0),
+                      beginning_of(from.linear, change, block_, 1)};
+    }
+
+    const CurvedRays& rays_;
+    const PixelBlock& block_;
+    const Box& surface_;
+    glm::dvec3 metres_ = rays_.metres_;
+    double length_ = 0.0;
+    bool was_above_ = false;
+    bool is_done_ = false;
+    std::vector<RayPiece> pieces_;
+};
+
+std::vector<RayPiece> CurvedRays::cut(const PixelBlock& block) const {
+    const glm::dvec2 middle = glm::dvec2(block.first) + half;
+    const Interval depths{std::max(local_.range.begin, local_.anchor),
+                          std::min(local_.range.end, depths_.end + width_)};
+    const Box wider{terrain_.local.low - width_, terrain_.local.high + width_};
+    const auto range =
+        intersect({local_.origin.at(middle), local_.direction.at(middle)}, wider, depths);
+    return range ? Pieces(*this, block).run(*range) : std::vector<RayPiece>();
+}
+
+bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
+                const terrain::Placement& placement, const Box& local) {
+    const PictureRays rays = local_rays(camera, size, world_from_local, local);
+    const glm::dvec2 pixel(view::metres_a_pixel(camera, size));
+    const double depth = depths_of(local, rays, has_eye(camera)).end;
+    const double width = pixel.x + pixel.y * std::max(depth, 0.0);
+    // The middle of a block above the chord between its sides, and beside that of a parallel.
+    const double off =
+        (1.0 + parallel_bend(placement, local)) * whole * whole * width / (8.0 * earth_radius);
+    // Rays far beside the terrain have no samples.
+    constexpr double largest_part = 0.25; // of the terrain
+    const glm::dvec3 extent = local.size();
+    return off <= largest_error && whole * width <= largest_part * std::max(extent.x, extent.y);
+}
+
+} // namespace reljef::cast

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/cast/beam.h"
+#include "engine/cast/block_kernel.h"
+#include "engine/cast/picture_rays.h"
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/terrain/field/min_max_pyramid.h"
+#include "engine/terrain/field/placement.h"
+#include "engine/terrain/field/sample_polynomial.h"
+
+namespace reljef::cast {
+
+/// The rays of a block of pixels between two depths, straight in samples.
+struct RayPiece {
+    PictureRays rays;   ///< over the range, for the pixels of the block
+    double error = 0.0; ///< how far these are off at checked places, pixels
+    Box box;            ///< around them, samples and metres of height
+    /// They pass a line between samples at most once, from the side on which this place is. May be
+    /// infinite.
+    glm::dvec2 from{0.0};
+};
+
+/// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
+/// of a block of pixels are cut into pieces, each so short that its chords have no visible error.
+class CurvedRays {
+public:
+    struct Terrain {
+        terrain::Placement placement;
+        glm::dmat4 world_from_local{1.0};
+        Box local;   ///< around the surface, metres
+        Box samples; ///< the same in samples and metres of height
+    };
+
+    /// `threads`: 0: one per hardware thread. Preconditions: an invertible transform, a placement
+    /// on the ellipsoid.
+    CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
+               unsigned threads);
+
+    /// Front to back. They cover all of the surface that the block may show.
+    [[nodiscard]] std::span<const RayPiece> pieces(const PixelBlock& block) const {
+        const glm::ivec2 at = block.first / block_side;
+        return blocks_[static_cast<std::size_t>(at.y * cols_ + at.x)];
+    }
+    /// How far the rays are off at the checked places, pixels: their chords, their differences from
+    /// rays that are linear in the pixel, and the map.
+    [[nodiscard]] double error() const { return error_; }
+
+    [[nodiscard]] const PictureRays& local() const { return local_; }
+
+private:
+    struct Fan;
+    class Pieces;
+
+    void make_polynomial(bool is_fan);
+    [[nodiscard]] std::vector<RayPiece> cut(const PixelBlock& block) const;
+    [[nodiscard]] std::optional<glm::dvec3> sample_at(glm::dvec2 pixel, double t) const;
+    [[nodiscard]] std::optional<Fan> fan_at(const PixelBlock& block, double t) const;
+    [[nodiscard]] double tolerance_at(double t) const; // of chords, metres
+    [[nodiscard]] double pixel_at(double t) const;     // metres
+
+    PictureRays local_;
+    Terrain terrain_;
+    Interval depths_;        // of the surface
+    glm::dvec3 metres_{1.0}; // of a column, a row and a metre of height, at most
+    std::optional<terrain::SamplePolynomial> polynomial_;
+    glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
+    double width_ = 0.0;    // of a block at the farthest surface, metres
+    int cols_;              // of blocks
+    std::vector<std::vector<RayPiece>> blocks_;
+    double error_ = 0.0;
+};
+
+/// Whether blocks of pixels show so little of the terrain and the curved Earth that their rays are
+/// linear in the pixel.
+bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
+                const terrain::Placement& placement, const Box& local);
+
+} // namespace reljef::cast
