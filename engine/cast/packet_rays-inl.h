@@ -1,5 +1,5 @@
-// Rays of a packet of pixels, one in each lane, and where they may begin: a beam in each lane.
-// Included once for each instruction set.
+// Rays of a packet of pixels, one in each lane, and the beams that find their starts. Included once
+// for each instruction set.
 #if defined(RELJEF_PACKET_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_RAYS_INL_H
 #undef RELJEF_PACKET_RAYS_INL_H
