@@ -129,9 +129,10 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
     width_ = whole * pixel_at(depths_.end);
     make_polynomial(has_eye(camera));
     const int rows = (size.y + block_side - 1) / block_side;
-    blocks_.resize(static_cast<std::size_t>(cols_ * rows));
+    const int count = cols_ * rows;
+    blocks_.resize(static_cast<std::size_t>(count));
     parallel_for(
-        cols_ * rows,
+        count,
         [&](int index) {
             const glm::ivec2 first = block_side * glm::ivec2(index % cols_, index / cols_);
             blocks_[static_cast<std::size_t>(index)] = cut({first, glm::ivec2(block_side)});
@@ -235,13 +236,13 @@ public:
         while (range.begin < range.end && !is_done_) {
             const double end = std::min(range.begin + length_, range.end);
             const auto halfway = rays_.fan_at(block_, 0.5 * (range.begin + end));
-            auto to = rays_.fan_at(block_, end);
+            const auto to = rays_.fan_at(block_, end);
             const bool is_known = from && halfway && to;
             const double min_length = shortest(end);
             const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
             if (is_known ? advance(*from, *halfway, *to, is_shortest) : is_shortest) {
                 range.begin = end;
-                from = std::move(to);
+                from = to;
             }
             length_ = std::max(is_known ? length_ : 0.5 * length_, min_length);
         }

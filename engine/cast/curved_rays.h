@@ -47,7 +47,8 @@ public:
     /// Front to back. They cover all of the surface that the block may show.
     [[nodiscard]] std::span<const RayPiece> pieces(const PixelBlock& block) const {
         const glm::ivec2 at = block.first / block_side;
-        return blocks_[static_cast<std::size_t>(at.y * cols_ + at.x)];
+        const int index = at.y * cols_ + at.x;
+        return blocks_[static_cast<std::size_t>(index)];
     }
     /// How far the rays are off at the checked places, pixels: their chords, their differences from
     /// rays that are linear in the pixel, and the map.

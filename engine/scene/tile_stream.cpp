@@ -295,7 +295,7 @@ void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock
         made = make(tile, content, before);
     }
     if (with_cones && !stopped) {
-        made = with_cones_over(made.tile != nullptr ? std::move(made) : before);
+        made = with_cones_over(made.tile != nullptr ? made : before);
     }
     lock.lock();
     note_cones(made);

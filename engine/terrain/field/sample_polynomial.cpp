@@ -15,7 +15,8 @@ constexpr int side = SamplePolynomial::horizontal_degree + 1;
 constexpr int layers = SamplePolynomial::vertical_degree + 1;
 
 std::size_t index_of(int i, int j, int k) {
-    return static_cast<std::size_t>((i * side + j) * layers + k);
+    const int index = (i * side + j) * layers + k;
+    return static_cast<std::size_t>(index);
 }
 
 // The Chebyshev points in (-1, 1); the middle one of an odd number is 0 exactly.
