@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -131,67 +130,9 @@ public:
 private:
     void add_pieces() {
         const std::span<const RayPiece> pieces = placed_.curve->pieces(block_);
-        Box all;
-        for (const RayPiece& piece : pieces) {
-            all.add(piece.box);
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            add(0, pieces[i].rays, i == 0 ? 0U : begin_wall);
         }
-        std::vector<std::size_t> near;
-        for (std::size_t i = 0; i < placed_.tiles.size(); ++i) {
-            if (meet(placed_.tiles[i].box, all)) {
-                near.push_back(i);
-            }
-        }
-        for (const RayPiece& piece : pieces) {
-            std::vector<std::size_t> met;
-            std::copy_if(near.begin(), near.end(), std::back_inserter(met),
-                         [&](std::size_t i) { return meet(placed_.tiles[i].box, piece.box); });
-            sort_front_to_back(met, piece.from);
-            for (const std::size_t i : met) {
-                const PlacedTile& tile = placed_.tiles[i];
-                add(i, in_samples(piece.rays, tile.scale, tile.by),
-                    &piece == &pieces.front() ? 0U : begin_wall);
-            }
-        }
-    }
-
-    // Rays pass below a tile without a hit, but then they are below the next one, too.
-    [[nodiscard]] static bool meet(const Box& tile, const Box& rays) {
-        return tile.low.x <= rays.high.x && rays.low.x <= tile.high.x &&
-               tile.low.y <= rays.high.y && rays.low.y <= tile.high.y && rays.low.z <= tile.high.z;
-    }
-
-    // Each time one before which no ray passes another.
-    void sort_front_to_back(std::vector<std::size_t>& met, glm::dvec2 from) const {
-        for (auto next = met.begin(); next != met.end(); ++next) {
-            const auto first = std::find_if(next, met.end(), [&](std::size_t one) {
-                return std::none_of(next, met.end(), [&](std::size_t other) {
-                    return other != one &&
-                           passes_first(placed_.tiles[other].box, placed_.tiles[one].box, from);
-                });
-            });
-            if (first != met.end()) {
-                std::rotate(next, first, first + 1);
-            }
-        }
-    }
-
-    // Whether a ray may pass `a` and then `b`, which lie side by side. See RayPiece::from.
-    [[nodiscard]] static bool passes_first(const Box& a, const Box& b, glm::dvec2 from) {
-        constexpr double rounding = 1e-6; // samples
-        bool is_first = false;
-        for (int axis = 0; axis < 2; ++axis) {
-            const bool is_low = a.high[axis] <= b.low[axis] + rounding;
-            const bool is_high = b.high[axis] <= a.low[axis] + rounding;
-            if (!is_low && !is_high) {
-                continue;
-            }
-            const double line = is_low ? a.high[axis] : a.low[axis];
-            if ((from[axis] <= line) != is_low) {
-                return false;
-            }
-            is_first = true;
-        }
-        return is_first;
     }
 
     const PlacedTiles& placed_;

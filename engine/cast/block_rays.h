@@ -25,18 +25,14 @@ struct PlacedTile {
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
     PixelBlock seen; ///< no other pixel shows it
-    /// With PlacedTiles::curve, instead of `rays`, which have its anchor: sample of the tile =
-    /// scale · sample of the curve + by.
-    glm::dvec2 scale{1.0};
-    glm::dvec2 by{0.0};
-    Box box = {}; ///< around it, samples of the curve and metres of height
 };
 
 /// The tiles of a picture, front to back. All rays have the same anchor.
 struct PlacedTiles {
     std::vector<PlacedTile> tiles;
     bool has_walls = false;
-    std::shared_ptr<const CurvedRays> curve; ///< not null: on the ellipsoid, in any order
+    /// Not null: of the only tile, which is on the ellipsoid, instead of PlacedTile::rays.
+    std::shared_ptr<const CurvedRays> curve;
 };
 
 /// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays

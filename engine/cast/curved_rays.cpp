@@ -53,26 +53,6 @@ PictureRays::Vectors change_of(const PictureRays::Vectors& from, const PictureRa
             (to.down - from.down) / length};
 }
 
-// See RayPiece::from, along one axis. `from`: where rays of the block begin.
-double beginning_of(const PictureRays::Vectors& from, const PictureRays::Vectors& change,
-                    const PixelBlock& block, int axis) {
-    double low = far_away;
-    double high = -far_away;
-    for (const glm::dvec2 place : places) {
-        const double way = change.at(glm::dvec2(block.first) + place)[axis];
-        low = std::min(low, way);
-        high = std::max(high, way);
-    }
-    if (low >= 0.0 || high <= 0.0) {
-        return low >= 0.0 ? -far_away : far_away;
-    }
-    // All rays come from where those are that stay at their line.
-    const glm::dvec2 slope(change.right[axis], change.down[axis]);
-    const glm::dvec2 middle = glm::dvec2(block.first) + half;
-    const glm::dvec2 still = middle - slope * (change.at(middle)[axis] / glm::dot(slope, slope));
-    return from.at(still)[axis];
-}
-
 // The largest tangent of a latitude of the box: parallels bend by it.
 double parallel_bend(const terrain::Placement& placement, const Box& local) {
     double largest = 0.0;
@@ -282,7 +262,7 @@ private:
             length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.2, 0.8);
             return false;
         }
-        add(from, to, chord, bend);
+        add(from, to, chord);
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
     }
@@ -318,7 +298,7 @@ private:
                glm::any(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.high)));
     }
 
-    void add(const Fan& from, const Fan& to, glm::dvec3 chord, glm::dvec3 bend) {
+    void add(const Fan& from, const Fan& to, glm::dvec3 chord) {
         RayPiece& piece = pieces_.emplace_back();
         const auto change = change_of(from.linear, to.linear, to.t - from.t);
         piece.rays.size = rays_.local_.size;
@@ -326,12 +306,7 @@ private:
         piece.rays.direction = change;
         piece.rays.range = {from.t, to.t};
         piece.rays.anchor = rays_.local_.anchor;
-        piece.box = from.box;
-        piece.box.add(to.box);
-        piece.box = {piece.box.low - 2.0 * bend, piece.box.high + 2.0 * bend};
         piece.error = error_of(from, to, chord);
-        piece.from = {beginning_of(from.linear, change, block_, 0),
-                      beginning_of(from.linear, change, block_, 1)};
     }
 
     const CurvedRays& rays_;

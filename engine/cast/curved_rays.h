@@ -22,10 +22,6 @@ namespace reljef::cast {
 struct RayPiece {
     PictureRays rays;   ///< over the range, for the pixels of the block
     double error = 0.0; ///< how far these are off at checked places, pixels
-    Box box;            ///< around them, samples and metres of height
-    /// They pass a line between samples at most once, from the side on which this place is. May be
-    /// infinite.
-    glm::dvec2 from{0.0};
 };
 
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those

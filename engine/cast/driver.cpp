@@ -368,9 +368,7 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
                                                 (curve != nullptr ? curve->error() : 0.0));
     }
     if (is_streamed) {
-        PlacedTiles placed = streamed_.place(list, rays, {options_.threads, paints}, stats);
-        placed.curve = curve;
-        return placed;
+        return streamed_.place(list, rays, {options_.threads, paints}, stats);
     }
     PlacedTiles placed;
     placed.curve = curve;
@@ -379,7 +377,6 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
     tile.tile = &tile_of(*node, stats);
     tile.rays = rays;
     tile.seen = {{0, 0}, list.size};
-    tile.box = bounds;
     if (paints) {
         tile.paint = levels_of(*node, view::light_on(list, world_from_local), stats).paint();
         tile.paint.longest_texels =

@@ -174,8 +174,8 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
     const scene::TileBuilder& builder = any.terrain->stream->maker();
     const terrain::Placement& overview = any.terrain->surface->placement();
     const glm::dvec2 zero = builder.from_overview(glm::dvec2(0.0));
-    const glm::dvec2 scale = builder.from_overview(glm::dvec2(1.0)) - zero;
-    const PictureRays on_terrain = in_samples(rays, scale, zero);
+    const PictureRays on_terrain =
+        in_samples(rays, builder.from_overview(glm::dvec2(1.0)) - zero, zero);
     const glm::dvec2 from = beginning_of(list, on_terrain);
     const terrain::TileTree& tree = builder.tree();
     const glm::dvec2 last = builder.sample(tree.root(), tree.cells(tree.root()));
@@ -203,9 +203,6 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
                 glm::dvec3(builder.on_overview(piece.first + piece.step * glm::dvec2(piece.cells)),
                            tile.tile->total().high));
             tile.seen = seen.of(box);
-            tile.box = box;
-            tile.scale = scale / piece.step;
-            tile.by = (zero - piece.first) / piece.step;
             if (options.paints) {
                 tile.paint = content.levels->paint(glm::vec2(piece.vertex));
                 tile.paint.longest_texels = longest_texels(list, tile.paint, metres * piece.step);

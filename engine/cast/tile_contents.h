@@ -16,7 +16,7 @@
 
 namespace reljef::cast {
 
-/// What rays need of the streamed tiles of a terrain: made at first sight, kept while
+/// What rays need of the streamed tiles of a terrain on a plane: made at first sight, kept while
 /// they are drawn.
 class TileContents {
 public:
