@@ -42,7 +42,7 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    const bool needs_plane = view.technique && scene::needs_plane(view.technique->id());
+    const bool needs_plane = view.technique && scene::is_faster_on_plane(view.technique->id());
     if (!options.placement && (needs_plane || view.rays == RayUse::only)) {
         options.placement = terrain::PlacementKind::plane; // all that it draws of any size
     }
@@ -54,7 +54,7 @@ std::optional<std::string> plane_note(const scene::TerrainSurface& surface,
                                       const SourceOptions& choice, const SceneOptions& view,
                                       const io::SceneDescription& description) {
     const bool is_chosen = choice.placement || description.placement;
-    const bool needs_plane = view.technique && scene::needs_plane(view.technique->id());
+    const bool needs_plane = view.technique && scene::is_faster_on_plane(view.technique->id());
     if (view.rays != RayUse::only || is_chosen || needs_plane ||
         !surface.heightfield().georeference) {
         return std::nullopt;

@@ -14,6 +14,7 @@
 #include "engine/scene/graph/terrain_light.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/ray_course.h"
 
 namespace reljef::view {
 
@@ -68,6 +69,7 @@ struct ReliefDraw {
     /// above them. Where they overlap, the finest is the surface, so that rays find ground beside
     /// the picture, too. Empty: the samples of the terrain's surface.
     std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
+    std::optional<RayCourse> course; ///< on the ellipsoid
 };
 
 struct MeshDraw {

@@ -64,6 +64,10 @@ bool is_flat(const scene::TerrainNode& terrain) {
     return scene::geometry_of(terrain.material.technique.id()) == scene::Geometry::flat;
 }
 
+bool is_on_ellipsoid(const scene::TerrainNode& terrain) {
+    return terrain.surface->placement().kind() == terrain::PlacementKind::ellipsoid;
+}
+
 bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
@@ -161,7 +165,13 @@ private:
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (scene::searches_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
-        } else if (!add_streamed(terrain, world_from_local)) {
+        } else {
+            add_polygons(terrain, world_from_local);
+        }
+    }
+
+    void add_polygons(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (!add_streamed(terrain, world_from_local)) {
             add_tiles(terrain, world_from_local);
         }
     }
@@ -181,8 +191,16 @@ private:
 
     void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
-        ReliefDraw draw{
-            &terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds)), {}};
+        ReliefDraw draw{&terrain,
+                        world_from_local,
+                        glm::length(away_from(list_.camera.eye, bounds)),
+                        {},
+                        course_over(terrain, world_from_local)};
+        if (is_on_ellipsoid(terrain) && !draw.course) {
+            ++list_.stats.reliefs_as_triangles;
+            add_polygons(terrain, world_from_local);
+            return;
+        }
         bool is_seen = frustum_.may_see(bounds);
         if (has_streamed_tiles(terrain)) {
             const TileSelection choice = select_streamed(terrain, world_from_local);
@@ -199,6 +217,20 @@ private:
         } else {
             ++list_.stats.skipped.nodes_outside_frustum;
         }
+    }
+
+    [[nodiscard]] std::optional<RayCourse> course_over(const scene::TerrainNode& terrain,
+                                                       const glm::dmat4& world_from_local) const {
+        if (!is_on_ellipsoid(terrain)) {
+            return std::nullopt;
+        }
+        const scene::TerrainSurface& surface = *terrain.surface;
+        const Grid<float>& heights = surface.heightfield().heights;
+        const terrain::MinMax range = surface.pyramid().total();
+        Box samples;
+        samples.add({0.0, 0.0, range.low});
+        samples.add({heights.cols() - 1.0, heights.rows() - 1.0, range.high});
+        return ray_course(list_.camera, list_.size, world_from_local, surface.placement(), samples);
     }
 
     // Requests and counts the tiles of a stream.

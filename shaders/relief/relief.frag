@@ -65,6 +65,10 @@ void write_place(vec2 place, float height, float depth) {
 }
 #endif
 
+#ifdef CURVED
+#include "relief/curved_search.glsl"
+#endif
+
 // Entry of the ray into the box, as a negative multiple of `along`; in perspective behind the near plane.
 float entry_before(vec3 point, vec3 direction) {
     vec3 away = vec3(equal(direction, vec3(0.0)));
@@ -124,6 +128,14 @@ bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
 }
 
 void main() {
+#ifdef CURVED
+    float part;
+    vec2 place;
+    if (!find_on_curve(part, place)) {
+        discard;
+    }
+    vec3 relative = part * back;
+#else
     vec3 along = mix(view_forward.xyz, back, perspective);
     vec3 direction = space_from_relative * along;
     vec3 leave = space_from_relative * back + eye_in_space;
@@ -147,6 +159,7 @@ void main() {
     float way = part;
 #endif
     vec3 relative = back + entry * (1.0 - way) * along;
+#endif
 #ifdef WRITE_DEPTH
     vec4 clip = clip_from_relative * vec4(relative, 1.0);
     gl_FragDepth = clip.z / clip.w;

@@ -122,6 +122,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     found = found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
 #endif
 #ifndef TILE
+    ends_above = over >= 0.0;
     if (!found && (skips || at < 1.0)) {
         found = find_rest(start, span, skips ? 0.0 : at, part, place);
     }

@@ -2,6 +2,18 @@
 // bracketed secant method (Risser, Shah and Pattanaik 2006).
 #define EQUAL_STEPS
 
+#ifdef CURVED
+vec2 curve_range; // the parts of the curve that are searched
+
+vec3 ray_at(vec3 start, vec3 span, float part) {
+    return curve_at(mix(curve_range.x, curve_range.y, part));
+}
+#else
+vec3 ray_at(vec3 start, vec3 span, float part) {
+    return start + part * span;
+}
+#endif
+
 float steps_for(vec3 span) {
 #ifdef VIEW_STEPS
     float upright = abs(normalize(span * metres_per_unit).z);
@@ -16,7 +28,7 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
 #if defined(BISECT)
     for (float i = 0.0; i < bisection_steps; ++i) {
         float middle = 0.5 * (part + low_part);
-        vec3 p = start + middle * span;
+        vec3 p = ray_at(start, span, middle);
         if (p.z < height_at(p.xy)) {
             low_part = middle;
         } else {
@@ -28,7 +40,7 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
     float rounds = secant_steps - 1.0;
     for (float i = 0.0; i < rounds; ++i) {
         float guess = mix(part, low_part, over / (over - under));
-        vec3 p = start + guess * span;
+        vec3 p = ray_at(start, span, guess);
         float above = p.z - height_at(p.xy);
         if (above < 0.0) {
             low_part = guess;
@@ -53,7 +65,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     bool found = false;
     for (float i = 1.0; i <= n; ++i) {
         float next = i / n;
-        vec3 p = start + next * span;
+        vec3 p = ray_at(start, span, next);
         float now = p.z - height_at(p.xy);
         if (now < 0.0 && before >= 0.0) {
             under = now;
@@ -64,6 +76,6 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         before = now;
     }
     part = found ? narrowed(start, span, at, before, at + 1.0 / n, under) : 1.0;
-    place = start.xy + part * span.xy;
+    place = ray_at(start, span, part).xy;
     return found;
 }

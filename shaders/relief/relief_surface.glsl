@@ -10,7 +10,12 @@ vec3 metres_per_unit = vec3(1.0); // of the search space at this fragment
 bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
 #include "frame/relief_block.glsl"
+#ifdef CURVED
+#include "relief/curved_rays.glsl"
+vec3 metres_per_unit = space_scale.xyz; // along this fragment's ray
+#else
 #define metres_per_unit space_scale.xyz
+#endif
 #endif
 
 #ifdef LAYERS

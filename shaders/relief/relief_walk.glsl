@@ -36,6 +36,8 @@ Course course_of(vec3 span) {
                   vec2(span.x != 0.0 ? 0.0 : 2.0, span.y != 0.0 ? 0.0 : 2.0), span.z < 0.0);
 }
 
+bool ends_above = true; // the surface: the last ray without a hit
+
 // Whether the walk would not end.
 bool is_endless(vec3 start, vec3 span);
 ivec2 first_cell(inout vec3 start);
@@ -108,6 +110,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             inside = move_on(exits, course.forward, start, walk);
         }
     }
+    ends_above = above;
     return false;
 }
 #endif

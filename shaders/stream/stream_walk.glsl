@@ -91,6 +91,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             inside = move_on(exits, course.forward, start, walk);
         }
     }
+    ends_above = above;
     return false;
 }
 

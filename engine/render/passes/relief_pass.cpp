@@ -1,6 +1,7 @@
 #include "engine/render/passes/frame_context.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/matrix.hpp>
 
@@ -18,8 +19,12 @@ bool is_streamed(const view::ReliefDraw& draw) {
     return !draw.tiles.empty();
 }
 
-std::uint32_t streamed_feature(const view::ReliefDraw& draw) {
-    return is_streamed(draw) ? feature_streamed : 0U;
+std::uint32_t surface_features(const view::ReliefDraw& draw) {
+    return (is_streamed(draw) ? feature_streamed : 0U) | (draw.course ? feature_curved : 0U);
+}
+
+bool draws_beams(const view::ReliefDraw& draw) {
+    return has_beams(draw.terrain->material.technique) && !draw.course;
 }
 
 const ReliefSpace& space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
@@ -70,6 +75,23 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
     program.set(uniforms.samples_a_cell, static_cast<float>(tiles.space.samples_a_cell));
 }
 
+CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space,
+                         const view::DrawList& list) {
+    const double chord_error =
+        view::max_chord_error * view::metres_a_pixel(list.camera, list.size).y;
+    CourseBlock block{
+        .unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative)),
+        .course_eye =
+            glm::vec4(glm::vec3((course.eye - space.sample_of_origin) / space.samples_per_unit),
+                      std::sqrt(course.curvature / (2.0 * chord_error))),
+        .course_terms = {}};
+    for (std::size_t term = 0; term < view::RayCourse::term_count; ++term) {
+        block.course_terms[term] =
+            glm::vec4(glm::vec3(course.terms[term] / space.samples_per_unit), 0.0F);
+    }
+    return block;
+}
+
 void set_heights(gl::Program& program, const FrameContext& frame, const view::ReliefDraw& draw) {
     if (is_streamed(draw)) {
         set_streamed_heights(program, frame.residency.relief_tiles().tiles(draw));
@@ -80,7 +102,7 @@ void set_heights(gl::Program& program, const FrameContext& frame, const view::Re
 
 Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
     DrawState& state = frame.state;
-    auto program = state.use({ShaderKind::beams, streamed_feature(draw)});
+    auto program = state.use({ShaderKind::beams, surface_features(draw)});
     if (!program) {
         return program.error();
     }
@@ -160,7 +182,12 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     }
     set_heights(program, frame, draw);
     set_space(program, frame.list.camera, space, draw.world_from_local);
-    if (has_beams(technique)) {
+    if (draw.course) {
+        if (auto set = frame.state.set(course_block(*draw.course, space, frame.list)); !set) {
+            return set;
+        }
+    }
+    if (draws_beams(draw)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
@@ -174,13 +201,13 @@ Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw
     const scene::Technique& technique = draw.terrain->material.technique;
     DrawState& state = frame.state;
     frame.no_vertices.bind();
-    if (has_beams(technique)) {
+    if (draws_beams(draw)) {
         if (auto drawn = draw_beams(frame, draw); !drawn) {
             return drawn;
         }
     }
     auto program = state.use({ShaderKind::relief, frame.features | technique_features(technique) |
-                                                      streamed_feature(draw)});
+                                                      surface_features(draw)});
     if (!program) {
         return program.error();
     }

@@ -45,7 +45,6 @@ Grid<float> halved(const Grid<float>& fine) {
 
 ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     const terrain::Placement& placement = surface.placement();
-    check(placement.kind() == terrain::PlacementKind::plane, "a relief over the curved Earth");
     const Grid<float>& heights = surface.heightfield().heights;
     const terrain::MinMax total = surface.pyramid().total();
     ReliefSpace space;
@@ -53,11 +52,37 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     space.lowest = total.low;
     space.range = total.high > total.low ? static_cast<double>(total.high) - total.low : 1.0;
     space.box.high = {heights.cols() - 1.0, heights.rows() - 1.0, 1.0};
+    if (placement.kind() == terrain::PlacementKind::ellipsoid) {
+        space.samples_per_unit = {1.0, 1.0, space.range};
+        space.sample_of_origin = {0.0, 0.0, space.lowest};
+        place_curved_space(space, placement);
+        return space;
+    }
     place_space(space, [&](glm::dvec3 place) {
         return placement.world_from_sample(
             {place.x, place.y, space.lowest + space.range * place.z});
     });
     return space;
+}
+
+void place_curved_space(ReliefSpace& space, const terrain::Placement& placement) {
+    const auto sample = [&](glm::dvec3 place) {
+        return space.sample_of_origin + place * space.samples_per_unit;
+    };
+    const glm::dvec3 middle = space.box.center();
+    const glm::dvec3 origin = placement.world_from_sample(sample(middle));
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 beside = middle;
+        beside[axis] += 1.0;
+        space.metres_per_unit[axis] = static_cast<float>(
+            glm::distance(placement.world_from_sample(sample(beside)), origin));
+    }
+    space.box.low.z = -margin;
+    space.box.high.z = 1.0 + margin;
+    const glm::dvec3 low = sample(space.box.low);
+    const glm::dvec3 high = sample(space.box.high);
+    space.local_box = terrain::placed_bounds(placement, glm::dvec2(low), glm::dvec2(high),
+                                             {low.z, high.z});
 }
 
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local) {

@@ -14,23 +14,28 @@
 
 namespace reljef::render {
 
-/// The search space of a surface over a plane: x column, y row, z height from 0 (lowest) to 1
-/// (highest). An affine image of the local frame.
+/// The search space of a surface: x column, y row, z height from 0 (lowest) to 1 (highest).
 struct ReliefSpace {
+    // Over a plane, an affine image of the local frame.
     glm::dmat3 space_from_local{1.0}; ///< directions
     glm::dvec3 space_of_origin{0.0};  ///< the local origin in the space
+    // On the ellipsoid, of the surface's samples (column, row, height in true metres).
+    glm::dvec3 samples_per_unit{1.0};
+    glm::dvec3 sample_of_origin{0.0};
     glm::vec3 metres_per_unit{1.0F};  ///< along each axis, exaggeration included
     double lowest = 0.0;              ///< metres
     double range = 1.0;               ///< metres, > 0
     Box box;                          ///< the samples and heights with a margin, in the space
     Box local_box;                    ///< the same in local metres
 };
-/// Precondition: the placement is plane.
 ReliefSpace relief_space(const scene::TerrainSurface& surface);
 
 /// Sets the axes and the boxes. `local`: local metres of a place in the space, affine. The columns
 /// and rows of the box are those of the samples.
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local);
+
+/// The same on the ellipsoid, from the samples of the space.
+void place_curved_space(ReliefSpace& space, const terrain::Placement& placement);
 
 /// A mip chain of maximum heights, in [0,1] of the range: level n covers 2^n × 2^n cells. The sides
 /// of level 0 are powers of two; texels beyond the cells are 0.

@@ -62,12 +62,16 @@ terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
     return range;
 }
 
-// Local metres of a terrain's samples. Rows that close it at a pole count like all others.
+// Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close it at a pole
+// count like all others.
 struct SamplePlaces {
     SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
         : exaggeration(builder.overview().placement().exaggeration()) {
         const glm::dvec2 first = glm::min(glm::dvec2(1.0), 0.25 * last_sample);
         const glm::dvec2 second = last_sample - first;
+        const glm::dvec2 first_on_overview = builder.on_overview(first);
+        overview_a_sample = (builder.on_overview(second) - first_on_overview) / (second - first);
+        overview_origin = first_on_overview - first * overview_a_sample;
         const auto local = [&](glm::dvec2 sample) {
             return glm::dvec2(builder.overview().placement().world_from_sample(
                 {builder.on_overview(sample), 0.0}));
@@ -76,9 +80,18 @@ struct SamplePlaces {
         origin = local(first) - first * metres_a_sample;
     }
 
+    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const {
+        return overview_origin + sample * overview_a_sample;
+    }
+    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const {
+        return (sample - overview_origin) / overview_a_sample;
+    }
+
     double exaggeration;
     glm::dvec2 metres_a_sample{1.0};
     glm::dvec2 origin{0.0};
+    glm::dvec2 overview_a_sample{1.0};
+    glm::dvec2 overview_origin{0.0};
 };
 
 // Repeats the last column and row up to the full size.
@@ -188,7 +201,8 @@ Result<void> upload_lit(gl::TextureArray& array, int layer, const Image& lit,
 
 } // namespace
 
-StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm::dvec3 eye) {
+StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm::dvec3 eye,
+                             const std::optional<view::RayCourse>& course) {
     const terrain::TileTree& tree = builder.tree();
     const int samples_in_tree = 1 << builder.level_of_samples(); // of the tree, per sample
     StreamedSpace made;
@@ -198,10 +212,11 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     const glm::dvec2 last_sample =
         glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
     const SamplePlaces places(builder, last_sample);
-    const glm::dvec2 eye_cell =
-        (glm::dvec2(eye) - places.origin) / places.metres_a_sample / made.samples_a_cell;
-    made.origin =
-        glm::ivec2(glm::clamp(glm::floor(eye_cell), glm::dvec2(0.0), glm::dvec2(made.last_cell)));
+    const glm::dvec2 eye_sample =
+        course ? places.from_overview(glm::dvec2(course->eye))
+               : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
+    made.origin = glm::ivec2(glm::clamp(glm::floor(eye_sample / made.samples_a_cell),
+                                        glm::dvec2(0.0), glm::dvec2(made.last_cell)));
     made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
 
     ReliefSpace& space = made.space;
@@ -210,6 +225,14 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     space.range = range.high > range.low ? static_cast<double>(range.high) - range.low : 1.0;
     space.box.low = glm::dvec3(-glm::dvec2(made.origin), 0.0);
     space.box.high = glm::dvec3(last_sample / made.samples_a_cell - glm::dvec2(made.origin), 1.0);
+    if (course) {
+        space.samples_per_unit =
+            glm::dvec3(made.samples_a_cell * places.overview_a_sample, space.range);
+        space.sample_of_origin =
+            glm::dvec3(places.on_overview(made.origin_sample), space.lowest);
+        place_curved_space(space, builder.overview().placement());
+        return made;
+    }
     place_space(space, [&](glm::dvec3 place) {
         const glm::dvec2 sample = made.origin_sample + glm::dvec2(place) * made.samples_a_cell;
         return glm::dvec3(places.origin + sample * places.metres_a_sample,
@@ -244,7 +267,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Relief
     stream.owner = source;
     stream.drawn = frame_;
     const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
-    stream.resident.space = streamed_space(source->maker(), draw.tiles, eye);
+    stream.resident.space = streamed_space(source->maker(), draw.tiles, eye, draw.course);
     const std::vector<Drawn> tiles = placed(stream, draw);
     auto done = prepare_heights(stream, tiles, stats);
     done = done ? prepare_search(stream, tiles, technique, stats) : done;

@@ -25,10 +25,10 @@ struct StreamedSpace {
     glm::dvec2 origin_sample{0.0}; ///< of the terrain
     double samples_a_cell = 1.0;
 };
-/// `eye`: local metres. Precondition: a placement over a plane.
+/// `eye`: local metres. `course`: of the view rays on the ellipsoid; empty over a plane.
 StreamedSpace streamed_space(const scene::TileBuilder& builder,
                              std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
-                             glm::dvec3 eye);
+                             glm::dvec3 eye, const std::optional<view::RayCourse>& course);
 
 /// A stream's tiles for rays. Each tile has the same layer in all arrays; see stream_tiles.glsl.
 struct ResidentReliefTiles {

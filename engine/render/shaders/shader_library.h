@@ -63,6 +63,7 @@ enum ShaderFeature : std::uint32_t {
     feature_layers = 1U << 22U, ///< relief search: solids between layers
     feature_multisampled = 1U << 23U,
     feature_streamed = 1U << 24U, ///< relief over the tiles of a stream
+    feature_curved = 1U << 25U,   ///< relief on the ellipsoid: view rays are bent
 };
 
 struct ShaderVariant {

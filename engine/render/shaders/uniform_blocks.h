@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/render/shaders/bindings.h"
@@ -68,5 +69,18 @@ static_assert(offsetof(DetailBlock, seen_pixels) == 4 * 16);
 static_assert(sizeof(DetailBlock) == 5 * 16);
 inline constexpr BlockLayout DetailBlock::layout{"DetailBlock", bindings::detail_block_binding,
                                                  sizeof(DetailBlock)};
+
+struct CourseBlock {
+    using mat4 = glm::mat4;
+    using vec4 = glm::vec4;
+    static const BlockLayout layout;
+#include "shaders/frame/course_block.inc"
+};
+static_assert(offsetof(CourseBlock, unit_from_relative) == 0);
+static_assert(offsetof(CourseBlock, course_eye) == 64);
+static_assert(offsetof(CourseBlock, course_terms) == 64 + 16);
+static_assert(sizeof(CourseBlock) == 64 + 35 * 16);
+inline constexpr BlockLayout CourseBlock::layout{"CourseBlock", bindings::course_block_binding,
+                                                 sizeof(CourseBlock)};
 
 } // namespace reljef::render

@@ -31,8 +31,13 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
                "tiles go on";
     }
     const bool is_bent = surface.placement().kind() != terrain::PlacementKind::plane;
-    return needs_plane(technique.id()) && is_bent
-               ? "placement ellipsoid found, plane was expected; polygons draws both"
+    if (is_bent && needs_plane(technique.id())) {
+        return "placement ellipsoid found, plane was expected; relief draws both";
+    }
+    const bool turns_rays = technique.options.shadow || technique.options.smooth_edges;
+    return is_bent && searches_surface(technique.id()) && turns_rays
+               ? "placement ellipsoid found with option 'shadow' or 'edges', plane was expected; "
+                 "without them it draws both"
                : std::string_view();
 }
 

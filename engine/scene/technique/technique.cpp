@@ -146,7 +146,11 @@ bool searches_layers(TechniqueId id) {
 }
 
 bool needs_plane(TechniqueId id) {
-    return searches_surface(id) || id == TechniqueId::prewarp;
+    return id == TechniqueId::prewarp;
+}
+
+bool is_faster_on_plane(TechniqueId id) {
+    return searches_surface(id) || needs_plane(id);
 }
 
 bool is_two_sided(const Technique& technique) {

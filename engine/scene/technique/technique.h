@@ -42,6 +42,9 @@ bool searches_layers(TechniqueId id);
 
 /// Whether it draws surfaces over a plane only, none on the ellipsoid.
 bool needs_plane(TechniqueId id);
+/// Whether a georeferenced terrain is put on a plane for it unless the ellipsoid is requested: its
+/// rays are straight there.
+bool is_faster_on_plane(TechniqueId id);
 
 /// Whether it shows the back of a mesh, too.
 bool is_two_sided(const Technique& technique);

@@ -175,6 +175,10 @@ glm::dvec3 SamplePolynomial::at_local(glm::dvec3 local) const {
     return sample;
 }
 
+glm::dvec3 SamplePolynomial::coefficient(int i, int j, int k) const {
+    return coefficients_[index_of(i, j, k)];
+}
+
 double SamplePolynomial::error() const {
     return std::max_element(checks_.begin(), checks_.end(),
                             [](const Check& a, const Check& b) { return a.error < b.error; })

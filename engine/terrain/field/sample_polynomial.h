@@ -47,11 +47,8 @@ public:
     [[nodiscard]] glm::dvec3 middle() const { return middle_; }
     /// To a place relative to the box from one relative to its middle, metres.
     [[nodiscard]] const glm::dmat3& local_from_offset() const { return local_from_offset_; }
-    /// Of x^i·y^j·z^k in the local place: [(i·(horizontal_degree + 1) + j)·(vertical_degree + 1) +
-    /// k].
-    [[nodiscard]] const std::array<glm::dvec3, term_count>& coefficients() const {
-        return coefficients_;
-    }
+    /// Of x^i·y^j·z^k in the local place. Precondition: no power above its degree.
+    [[nodiscard]] glm::dvec3 coefficient(int i, int j, int k) const;
 
     /// In the whole box, and in a sixteenth of it around the middle: on lattices between the
     /// points of interpolation, to the corners.

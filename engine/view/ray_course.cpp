@@ -1,0 +1,225 @@
+#include "engine/view/ray_course.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/terrain/field/sample_polynomial.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::view {
+namespace {
+
+using terrain::SamplePolynomial;
+
+constexpr int degree = 4;
+
+struct Monomial {
+    int x = 0;
+    int y = 0;
+    int z = 0;
+};
+
+constexpr std::array<Monomial, RayCourse::term_count> monomials = [] {
+    std::array<Monomial, RayCourse::term_count> all{};
+    std::size_t count = 0;
+    for (int total = 1; total <= degree; ++total) {
+        for (int x = total; x >= 0; --x) {
+            for (int y = total - x; y >= 0; --y) {
+                all[count++] = {x, y, total - x - y};
+            }
+        }
+    }
+    return all;
+}();
+
+double power(double base, int exponent) {
+    double product = 1.0;
+    for (int i = 0; i < exponent; ++i) {
+        product *= base;
+    }
+    return product;
+}
+
+double binomial(int n, int k) {
+    double ways = 1.0;
+    for (int i = 1; i <= k; ++i) {
+        ways = ways * (n - k + i) / i;
+    }
+    return ways;
+}
+
+// Of a polynomial of degree 4, the coefficient around `origin`.
+glm::dvec3 shifted_term(const SamplePolynomial& polynomial, Monomial term, glm::dvec3 origin) {
+    glm::dvec3 sum(0.0);
+    for (int i = term.x; i <= degree; ++i) {
+        for (int j = term.y; i + j <= degree; ++j) {
+            const int last = std::min(degree - i - j, SamplePolynomial::vertical_degree);
+            for (int k = term.z; k <= last; ++k) {
+                const double ways =
+                    binomial(i, term.x) * binomial(j, term.y) * binomial(k, term.z);
+                const glm::dvec3 whole = polynomial.coefficient(i, j, k);
+                sum += ways * power(origin.x, i - term.x) * power(origin.y, j - term.y) *
+                       power(origin.z, k - term.z) * whole;
+            }
+        }
+    }
+    return sum;
+}
+
+// Places of the surface, at its lowest and its highest.
+std::vector<glm::dvec3> checked_samples(const Box& samples) {
+    constexpr int steps = 8;
+    std::vector<glm::dvec3> places;
+    for (int row = 0; row <= steps; ++row) {
+        for (int col = 0; col <= steps; ++col) {
+            for (int end = 0; end <= 1; ++end) {
+                const glm::dvec3 part(static_cast<double>(col) / steps,
+                                      static_cast<double>(row) / steps, end);
+                places.push_back(samples.low + part * samples.size());
+            }
+        }
+    }
+    return places;
+}
+
+// Sides along east, north and up of the middle, metres.
+struct Frame {
+    glm::dvec3 middle{0.0};
+    glm::dmat3 axes{1.0};
+
+    Frame(const terrain::Placement& placement, glm::dvec3 at) : middle(at) {
+        const glm::dvec3 up = placement.up(at);
+        const glm::dvec3 north = placement.north(at);
+        axes = {glm::cross(north, up), north, up};
+    }
+    [[nodiscard]] Box around(const std::vector<glm::dvec3>& places) const {
+        Box box;
+        for (const glm::dvec3 place : places) {
+            box.add(glm::transpose(axes) * (place - middle));
+        }
+        return box;
+    }
+};
+
+std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& placement,
+                                                  const std::vector<glm::dvec3>& places) {
+    const Frame first(placement, places.front());
+    const Frame frame(placement, first.middle + first.axes * first.around(places).center());
+    const Box box = frame.around(places);
+    constexpr double min_half_size = 1.0; // metres
+    const glm::dvec3 half_size =
+        glm::max(glm::max(-box.low, box.high), glm::dvec3(min_half_size));
+    return SamplePolynomial::create(placement, frame.middle, half_size);
+}
+
+// Of the second derivatives of a place, along any unit direction in metres; 1/metre.
+double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 metres) {
+    const glm::dvec3 at = course.unit_from_relative * relative;
+    std::array<glm::dmat3, 3> hessians{};
+    for (std::size_t term = 0; term < monomials.size(); ++term) {
+        const std::array<int, 3> powers{monomials[term].x, monomials[term].y, monomials[term].z};
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) {
+                std::array<int, 3> left = powers;
+                double factor = left[static_cast<std::size_t>(a)]--;
+                factor *= left[static_cast<std::size_t>(b)]--;
+                if (factor == 0.0) {
+                    continue;
+                }
+                const double value =
+                    factor * power(at.x, left[0]) * power(at.y, left[1]) * power(at.z, left[2]);
+                for (int axis = 0; axis < 3; ++axis) {
+                    hessians[static_cast<std::size_t>(axis)][a][b] +=
+                        value * course.terms[term][axis];
+                }
+            }
+        }
+    }
+    double square = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::dmat3 along = glm::transpose(course.unit_from_relative) *
+                                 hessians[static_cast<std::size_t>(axis)] *
+                                 course.unit_from_relative;
+        for (int column = 0; column < 3; ++column) {
+            square += metres[axis] * metres[axis] * glm::dot(along[column], along[column]);
+        }
+    }
+    return std::sqrt(square);
+}
+
+// World metres of a step of each coordinate of a sample.
+glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
+    const glm::dvec3 here = placement.world_from_sample(sample);
+    glm::dvec3 metres(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 beside = sample;
+        beside[axis] += 1.0;
+        metres[axis] = glm::distance(placement.world_from_sample(beside), here);
+    }
+    return metres;
+}
+
+} // namespace
+
+glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
+    const glm::dvec3 at = unit_from_relative * relative;
+    glm::dvec3 sum = eye;
+    for (std::size_t term = 0; term < monomials.size(); ++term) {
+        const auto [x, y, z] = monomials[term];
+        sum += power(at.x, x) * power(at.y, y) * power(at.z, z) * terms[term];
+    }
+    return sum;
+}
+
+std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
+                                    const glm::dmat4& world_from_local,
+                                    const terrain::Placement& placement, const Box& samples) {
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        return std::nullopt;
+    }
+    const glm::dmat4 local_from_world = glm::inverse(world_from_local);
+    const glm::dvec3 eye(local_from_world * glm::dvec4(camera.eye, 1.0));
+    std::vector<glm::dvec3> places;
+    const std::vector<glm::dvec3> checked = checked_samples(samples);
+    for (const glm::dvec3 sample : checked) {
+        places.push_back(placement.world_from_sample(sample));
+    }
+    places.push_back(eye);
+    const auto polynomial = polynomial_around(placement, places);
+    const auto eye_sample = placement.sample_from_world(eye);
+    if (!polynomial || !eye_sample) {
+        return std::nullopt;
+    }
+
+    RayCourse course;
+    const glm::dvec3 origin = polynomial->local(eye);
+    for (std::size_t term = 0; term < monomials.size(); ++term) {
+        course.terms[term] = shifted_term(*polynomial, monomials[term], origin);
+    }
+    // The polynomial's columns, which are continuous all around the Earth.
+    const auto around = placement.columns_all_around();
+    course.eye = *eye_sample;
+    if (around) {
+        course.eye.x += *around * std::round((polynomial->at(eye).x - eye_sample->x) / *around);
+    }
+    course.unit_from_relative = polynomial->local_from_offset() * glm::dmat3(local_from_world);
+    const glm::dmat3 world_turn(world_from_local);
+    for (std::size_t i = 0; i < checked.size(); ++i) {
+        const glm::dvec3 relative = world_turn * (places[i] - eye);
+        const glm::dvec3 found = placement.world_from_sample(course.sample(relative));
+        const double distance = glm::distance(places[i], eye);
+        if (distance > 0.0) { // at the eye it is exact
+            course.error = std::max(course.error, glm::distance(found, places[i]) / distance);
+        }
+        course.curvature = std::max(
+            course.curvature, curvature_at(course, relative, metres_at(placement, checked[i])));
+    }
+    const double pixel = metres_a_pixel(camera, size).y;
+    return course.error <= max_course_error * pixel ? std::optional(course) : std::nullopt;
+}
+
+} // namespace reljef::view

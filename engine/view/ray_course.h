@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/terrain/field/placement.h"
+
+namespace reljef::view {
+
+/// The view rays over a terrain on the ellipsoid, in its samples, where they are bent: the place at
+/// eye + direction is a polynomial of degree 4 in the direction. So along a ray it is one in the
+/// part of the ray, whose coefficients are precise in floats near the eye.
+struct RayCourse {
+    /// Monomials x^i·y^j·z^k of degree 1 to 4: by degree, then falling i, then falling j.
+    static constexpr std::size_t term_count = 34;
+
+    glm::dvec3 eye{0.0}; ///< its col, row, height in true metres
+    /// To the polynomial's directions from world metres: about 1 across the terrain.
+    glm::dmat3 unit_from_relative{1.0};
+    std::array<glm::dvec3, term_count> terms{}; ///< col, row, height in true metres
+    /// Of rays in samples, at most, 1/metre. A chord between the distances a and b from the eye is
+    /// seen beside the ray by at most (sqrt(b) - sqrt(a))^2 / 2 of it, in radians.
+    double curvature = 0.0;
+    /// Of the polynomial: largest angle between a checked place of the surface and the one found,
+    /// seen from the eye, radians.
+    double error = 0.0;
+
+    /// Of a place from the eye, in world metres.
+    [[nodiscard]] glm::dvec3 sample(glm::dvec3 relative) const;
+};
+
+/// Pixels by which the polynomial may be wrong: a geoid takes about 0.015, the rest less than 0.001
+/// within two degrees around the eye.
+inline constexpr double max_course_error = 0.05;
+/// Pixels by which the chords of a ray may be.
+inline constexpr double max_chord_error = 0.005;
+
+/// For the surface within `samples`: columns, rows and heights in true metres. Empty if no
+/// polynomial is precise enough: for parallel rays, eyes far above large terrains, and near poles.
+/// Preconditions: an invertible transform, a placement on the ellipsoid.
+std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
+                                    const glm::dmat4& world_from_local,
+                                    const terrain::Placement& placement, const Box& samples);
+
+} // namespace reljef::view
