@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -59,8 +60,7 @@ glm::dvec3 shifted_term(const SamplePolynomial& polynomial, Monomial term, glm::
         for (int j = term.y; i + j <= degree; ++j) {
             const int last = std::min(degree - i - j, SamplePolynomial::vertical_degree);
             for (int k = term.z; k <= last; ++k) {
-                const double ways =
-                    binomial(i, term.x) * binomial(j, term.y) * binomial(k, term.z);
+                const double ways = binomial(i, term.x) * binomial(j, term.y) * binomial(k, term.z);
                 const glm::dvec3 whole = polynomial.coefficient(i, j, k);
                 sum += ways * power(origin.x, i - term.x) * power(origin.y, j - term.y) *
                        power(origin.z, k - term.z) * whole;
@@ -111,8 +111,7 @@ std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& plac
     const Frame frame(placement, first.middle + first.axes * first.around(places).center());
     const Box box = frame.around(places);
     constexpr double min_half_size = 1.0; // metres
-    const glm::dvec3 half_size =
-        glm::max(glm::max(-box.low, box.high), glm::dvec3(min_half_size));
+    const glm::dvec3 half_size = glm::max(glm::max(-box.low, box.high), glm::dvec3(min_half_size));
     return SamplePolynomial::create(placement, frame.middle, half_size);
 }
 
@@ -163,6 +162,57 @@ glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
     return metres;
 }
 
+// Metres from an eye to the farthest ground that the curved Earth does not hide, at most.
+double horizon_of(double eye_height, terrain::HeightRange heights) {
+    constexpr double max_radius = 6.4e6; // of curvature: 6,399,594 m at the poles of WGS 84
+    const auto tangent = [&](double height) {
+        return std::sqrt(std::max(0.0, 2.0 * max_radius * (height - heights.low)) +
+                         std::pow(std::max(0.0, height - heights.low), 2.0));
+    };
+    return tangent(eye_height) + tangent(heights.high);
+}
+
+// The part of the samples within the horizon; all of them around a pole and across the end of
+// columns that go all around the Earth.
+Box within_horizon(const Box& samples, const terrain::Placement& placement, glm::dvec3 eye,
+                   glm::dvec3 eye_sample) {
+    const auto position = placement.geodetic_from_world(eye);
+    const double exaggeration = placement.exaggeration();
+    const double reach = horizon_of(exaggeration * eye_sample.z,
+                                    {exaggeration * samples.low.z, exaggeration * samples.high.z});
+    constexpr double min_metres_a_degree = 110'000.0; // along a meridian
+    if (!position || 90.0 - std::abs(position->latitude) < reach / min_metres_a_degree) {
+        return samples;
+    }
+    const Frame frame(placement, eye);
+    const auto around = placement.columns_all_around();
+    Box seen;
+    constexpr int directions = 32;
+    // The circle lies within the polygon around it.
+    const double radius = reach / std::cos(std::numbers::pi / directions);
+    for (int i = 0; i < directions; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / directions;
+        const glm::dvec3 way(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+        auto sample = placement.sample_from_world(eye + frame.axes * way);
+        if (!sample) {
+            return samples;
+        }
+        if (around) {
+            sample->x -= *around * std::round((sample->x - eye_sample.x) / *around);
+        }
+        seen.add(*sample);
+    }
+    if (around && (seen.low.x < samples.low.x || seen.high.x > samples.high.x)) {
+        return samples;
+    }
+    Box part = samples;
+    for (int axis = 0; axis < 2; ++axis) {
+        part.low[axis] = std::max(samples.low[axis], seen.low[axis]);
+        part.high[axis] = std::min(samples.high[axis], seen.high[axis]);
+    }
+    return part;
+}
+
 } // namespace
 
 glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
@@ -183,19 +233,27 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
     }
     const glm::dmat4 local_from_world = glm::inverse(world_from_local);
     const glm::dvec3 eye(local_from_world * glm::dvec4(camera.eye, 1.0));
+    const auto eye_sample = placement.sample_from_world(eye);
+    if (!eye_sample) {
+        return std::nullopt;
+    }
+    const Box seen = within_horizon(samples, placement, eye, *eye_sample);
+    if (seen.low.x >= seen.high.x || seen.low.y >= seen.high.y) {
+        return std::nullopt;
+    }
     std::vector<glm::dvec3> places;
-    const std::vector<glm::dvec3> checked = checked_samples(samples);
+    const std::vector<glm::dvec3> checked = checked_samples(seen);
     for (const glm::dvec3 sample : checked) {
         places.push_back(placement.world_from_sample(sample));
     }
     places.push_back(eye);
     const auto polynomial = polynomial_around(placement, places);
-    const auto eye_sample = placement.sample_from_world(eye);
-    if (!polynomial || !eye_sample) {
+    if (!polynomial) {
         return std::nullopt;
     }
 
     RayCourse course;
+    course.samples = seen;
     const glm::dvec3 origin = polynomial->local(eye);
     for (std::size_t term = 0; term < monomials.size(); ++term) {
         course.terms[term] = shifted_term(*polynomial, monomials[term], origin);

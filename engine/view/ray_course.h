@@ -19,6 +19,7 @@ namespace reljef::view {
 /// eye + direction is a polynomial of degree 4 in the direction. So along a ray it is one in the
 /// part of the ray, whose coefficients are precise in floats near the eye.
 struct RayCourse {
+    Box samples; ///< the part of the surface within the horizon; true metres
     /// Monomials x^i·y^j·z^k of degree 1 to 4: by degree, then falling i, then falling j.
     static constexpr std::size_t term_count = 34;
 
@@ -39,7 +40,7 @@ struct RayCourse {
 
 /// Pixels by which the polynomial may be wrong: a geoid takes about 0.015, the rest less than 0.001
 /// within two degrees around the eye.
-inline constexpr double max_course_error = 0.05;
+inline constexpr double max_course_error = 0.1;
 /// Pixels by which the chords of a ray may be.
 inline constexpr double max_chord_error = 0.005;
 

@@ -131,6 +131,21 @@ with_coarser(const scene::TerrainNode& terrain, std::span<const TileSelection::D
     return tiles;
 }
 
+// The samples of the overview over some tiles, and all its heights.
+Box samples_of(const scene::TerrainNode& terrain, std::span<const TileSelection::Drawn> drawn) {
+    const scene::TileBuilder& builder = terrain.stream->maker();
+    const terrain::MinMax range = terrain.surface->pyramid().total();
+    Box samples;
+    for (const auto& [tile, distance, error] : drawn) {
+        const auto add = [&](glm::ivec2 vertex, double height) {
+            samples.add(glm::dvec3(builder.on_overview(builder.sample(tile->id, vertex)), height));
+        };
+        add({0, 0}, range.low);
+        add(builder.tree().cells(tile->id), range.high);
+    }
+    return samples;
+}
+
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
@@ -165,13 +180,9 @@ private:
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (scene::searches_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
-        } else {
-            add_polygons(terrain, world_from_local);
-        }
-    }
-
-    void add_polygons(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        if (!add_streamed(terrain, world_from_local)) {
+        } else if (!has_streamed_tiles(terrain) ||
+                   !add_streamed(terrain, world_from_local,
+                                 select_streamed(terrain, world_from_local))) {
             add_tiles(terrain, world_from_local);
         }
     }
@@ -191,46 +202,56 @@ private:
 
     void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
-        ReliefDraw draw{&terrain,
-                        world_from_local,
-                        glm::length(away_from(list_.camera.eye, bounds)),
-                        {},
-                        course_over(terrain, world_from_local)};
-        if (is_on_ellipsoid(terrain) && !draw.course) {
-            ++list_.stats.reliefs_as_triangles;
-            add_polygons(terrain, world_from_local);
-            return;
-        }
+        ReliefDraw draw{
+            &terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds)), {}, {}};
         bool is_seen = frustum_.may_see(bounds);
+        std::optional<TileSelection> choice;
         if (has_streamed_tiles(terrain)) {
-            const TileSelection choice = select_streamed(terrain, world_from_local);
-            if (choice.has_root) {
-                draw.tiles = with_coarser(terrain, choice.drawn);
-                is_seen = !choice.drawn.empty();
+            choice = select_streamed(terrain, world_from_local);
+            if (choice->has_root) {
+                draw.tiles = with_coarser(terrain, choice->drawn);
+                is_seen = !choice->drawn.empty();
             } else if (needs_cones(terrain) && terrain.cones == nullptr) {
                 add_tiles(terrain, world_from_local); // meanwhile
                 return;
             }
         }
-        if (is_seen) {
-            list_.reliefs.push_back(std::move(draw));
-        } else {
+        if (!is_seen) {
             ++list_.stats.skipped.nodes_outside_frustum;
+            return;
         }
+        if (is_on_ellipsoid(terrain)) {
+            const bool is_cut = choice && choice->has_root;
+            draw.course =
+                ray_course(list_.camera, list_.size, world_from_local, terrain.surface->placement(),
+                           is_cut ? samples_of(terrain, choice->drawn)
+                                  : seen_samples(terrain, world_from_local));
+            if (!draw.course) {
+                ++list_.stats.reliefs_as_triangles;
+                if (!choice || !add_streamed(terrain, world_from_local, std::move(*choice))) {
+                    add_tiles(terrain, world_from_local);
+                }
+                return;
+            }
+        }
+        list_.reliefs.push_back(std::move(draw));
     }
 
-    [[nodiscard]] std::optional<RayCourse> course_over(const scene::TerrainNode& terrain,
-                                                       const glm::dmat4& world_from_local) const {
-        if (!is_on_ellipsoid(terrain)) {
-            return std::nullopt;
-        }
-        const scene::TerrainSurface& surface = *terrain.surface;
-        const Grid<float>& heights = surface.heightfield().heights;
-        const terrain::MinMax range = surface.pyramid().total();
+    // The samples of a surface in memory that may be visible.
+    [[nodiscard]] Box seen_samples(const scene::TerrainNode& terrain,
+                                   const glm::dmat4& world_from_local) const {
+        const Frustum frustum = frustum_.in_local(world_from_local);
+        const terrain::MinMax range = terrain.surface->pyramid().total();
         Box samples;
-        samples.add({0.0, 0.0, range.low});
-        samples.add({heights.cols() - 1.0, heights.rows() - 1.0, range.high});
-        return ray_course(list_.camera, list_.size, world_from_local, surface.placement(), samples);
+        for (const auto& tile : terrain.surface->tiles()) {
+            if (frustum.may_see(tile->bounds)) {
+                const glm::ivec2 first =
+                    terrain::tile_cells * glm::ivec2(tile->id.col, tile->id.row);
+                samples.add(glm::dvec3(glm::dvec2(first), range.low));
+                samples.add(glm::dvec3(glm::dvec2(first + tile->cells), range.high));
+            }
+        }
+        return samples;
     }
 
     // Requests and counts the tiles of a stream.
@@ -246,12 +267,9 @@ private:
         return choice;
     }
 
-    // False if the overview is drawn: without a stream, and before its root is loaded.
-    bool add_streamed(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
-        if (!has_streamed_tiles(terrain)) {
-            return false;
-        }
-        TileSelection choice = select_streamed(terrain, world_from_local);
+    // False if the overview is drawn: before the root of the stream is loaded.
+    bool add_streamed(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local,
+                      TileSelection choice) {
         TileDraw draw = draw_of(terrain);
         auto coarseness = coarseness_of(terrain, list_, world_from_local, false);
         const double bound = bound_of(coarseness);

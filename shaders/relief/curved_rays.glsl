@@ -70,12 +70,12 @@ float end_of_chord(Chords chords, float i) {
     return root * root;
 }
 
-// The parts of a chord in the search space; the second is smaller if there are none.
+// The parts of a chord in the visible search space; the second is smaller if there are none.
 vec2 parts_inside(vec3 start, vec3 span) {
     vec3 still = vec3(equal(span, vec3(0.0)));
     vec3 inverse = 1.0 / (span + still * 1e-30); // a border away from it: infinitely far
-    vec3 low = (box_begin.xyz - start) * inverse;
-    vec3 high = (box_end.xyz - start) * inverse;
+    vec3 low = (course_begin.xyz - start) * inverse;
+    vec3 high = (course_end.xyz - start) * inverse;
     vec3 first = min(low, high);
     vec3 last = max(low, high);
     return vec2(max(max(first.x, first.y), max(first.z, 0.0)),

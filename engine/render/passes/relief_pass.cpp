@@ -32,9 +32,27 @@ const ReliefSpace& space_of(const FrameContext& frame, const view::ReliefDraw& d
                              : frame.residency.relief(draw).space;
 }
 
-ReliefBlock relief_block(const ReliefSpace& space) {
-    return {.box_low = glm::vec4(glm::vec3(space.local_box.low), 0.0F),
-            .box_high = glm::vec4(glm::vec3(space.local_box.high), 0.0F),
+// With the heights of the search space.
+Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
+    const double lowest = space.sample_of_origin.z;
+    const double range = space.samples_per_unit.z;
+    return {{course.samples.low.x, course.samples.low.y, lowest + range * space.box.low.z},
+            {course.samples.high.x, course.samples.high.y, lowest + range * space.box.high.z}};
+}
+
+Box local_box(const view::ReliefDraw& draw, const ReliefSpace& space) {
+    if (!draw.course) {
+        return space.local_box;
+    }
+    const Box visible = visible_samples(*draw.course, space);
+    return terrain::placed_bounds(draw.terrain->surface->placement(), glm::dvec2(visible.low),
+                                  glm::dvec2(visible.high), {visible.low.z, visible.high.z});
+}
+
+ReliefBlock relief_block(const view::ReliefDraw& draw, const ReliefSpace& space) {
+    const Box local = local_box(draw, space);
+    return {.box_low = glm::vec4(glm::vec3(local.low), 0.0F),
+            .box_high = glm::vec4(glm::vec3(local.high), 0.0F),
             .box_begin = glm::vec4(glm::vec3(space.box.low), 0.0F),
             .box_end = glm::vec4(glm::vec3(space.box.high), 0.0F),
             .space_scale = glm::vec4(space.metres_per_unit, 0.0F),
@@ -77,14 +95,18 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
 
 CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space,
                          const view::DrawList& list) {
+    const auto in_space = [&](glm::dvec3 sample) {
+        return (sample - space.sample_of_origin) / space.samples_per_unit;
+    };
+    const Box visible = visible_samples(course, space);
     const double chord_error =
         view::max_chord_error * view::metres_a_pixel(list.camera, list.size).y;
-    CourseBlock block{
-        .unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative)),
-        .course_eye =
-            glm::vec4(glm::vec3((course.eye - space.sample_of_origin) / space.samples_per_unit),
-                      std::sqrt(course.curvature / (2.0 * chord_error))),
-        .course_terms = {}};
+    CourseBlock block{.unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative)),
+                      .course_eye = glm::vec4(glm::vec3(in_space(course.eye)),
+                                              std::sqrt(course.curvature / (2.0 * chord_error))),
+                      .course_begin = glm::vec4(glm::vec3(in_space(visible.low)), 0.0F),
+                      .course_end = glm::vec4(glm::vec3(in_space(visible.high)), 0.0F),
+                      .course_terms = {}};
     for (std::size_t term = 0; term < view::RayCourse::term_count; ++term) {
         block.course_terms[term] =
             glm::vec4(glm::vec3(course.terms[term] / space.samples_per_unit), 0.0F);
@@ -109,7 +131,7 @@ Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw)
     const ReliefSpace& space = space_of(frame, draw);
     state.set_wireframe(false);
     set_heights(**program, frame, draw);
-    if (auto set = state.set(relief_block(space)); !set) {
+    if (auto set = state.set(relief_block(draw, space)); !set) {
         return set;
     }
     set_beams(**program, space,
@@ -191,7 +213,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
-    if (auto set = frame.state.set(relief_block(space)); !set) {
+    if (auto set = frame.state.set(relief_block(draw, space)); !set) {
         return set;
     }
     return frame.state.set(technique_block(technique, reference_height(technique)));

@@ -74,15 +74,11 @@ void place_curved_space(ReliefSpace& space, const terrain::Placement& placement)
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 beside = middle;
         beside[axis] += 1.0;
-        space.metres_per_unit[axis] = static_cast<float>(
-            glm::distance(placement.world_from_sample(sample(beside)), origin));
+        space.metres_per_unit[axis] =
+            static_cast<float>(glm::distance(placement.world_from_sample(sample(beside)), origin));
     }
     space.box.low.z = -margin;
     space.box.high.z = 1.0 + margin;
-    const glm::dvec3 low = sample(space.box.low);
-    const glm::dvec3 high = sample(space.box.high);
-    space.local_box = terrain::placed_bounds(placement, glm::dvec2(low), glm::dvec2(high),
-                                             {low.z, high.z});
 }
 
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local) {

@@ -22,11 +22,11 @@ struct ReliefSpace {
     // On the ellipsoid, of the surface's samples (column, row, height in true metres).
     glm::dvec3 samples_per_unit{1.0};
     glm::dvec3 sample_of_origin{0.0};
-    glm::vec3 metres_per_unit{1.0F};  ///< along each axis, exaggeration included
-    double lowest = 0.0;              ///< metres
-    double range = 1.0;               ///< metres, > 0
-    Box box;                          ///< the samples and heights with a margin, in the space
-    Box local_box;                    ///< the same in local metres
+    glm::vec3 metres_per_unit{1.0F}; ///< along each axis, exaggeration included
+    double lowest = 0.0;             ///< metres
+    double range = 1.0;              ///< metres, > 0
+    Box box;                         ///< the samples and heights with a margin, in the space
+    Box local_box;                   ///< the same in local metres, over a plane
 };
 ReliefSpace relief_space(const scene::TerrainSurface& surface);
 

@@ -62,8 +62,8 @@ terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
     return range;
 }
 
-// Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close it at a pole
-// count like all others.
+// Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close
+// it at a pole count like all others.
 struct SamplePlaces {
     SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
         : exaggeration(builder.overview().placement().exaggeration()) {
@@ -212,9 +212,9 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     const glm::dvec2 last_sample =
         glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
     const SamplePlaces places(builder, last_sample);
-    const glm::dvec2 eye_sample =
-        course ? places.from_overview(glm::dvec2(course->eye))
-               : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
+    const glm::dvec2 eye_sample = course
+                                      ? places.from_overview(glm::dvec2(course->eye))
+                                      : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
     made.origin = glm::ivec2(glm::clamp(glm::floor(eye_sample / made.samples_a_cell),
                                         glm::dvec2(0.0), glm::dvec2(made.last_cell)));
     made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
@@ -228,8 +228,7 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     if (course) {
         space.samples_per_unit =
             glm::dvec3(made.samples_a_cell * places.overview_a_sample, space.range);
-        space.sample_of_origin =
-            glm::dvec3(places.on_overview(made.origin_sample), space.lowest);
+        space.sample_of_origin = glm::dvec3(places.on_overview(made.origin_sample), space.lowest);
         place_curved_space(space, builder.overview().placement());
         return made;
     }

@@ -19,12 +19,11 @@ constexpr std::array<std::string_view, 11> file_names{
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
 constexpr std::array<std::string_view, 26> feature_names{
-    "LIT",    "FOG",         "HIT",         "EXACT",        "PARALLAX",
-    "BISECT", "SECANT",      "LIMITED",     "ITERATED",     "VIEW_STEPS",
-    "FADE",   "HARD_SHADOW", "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",
-    "WARPED", "CONE",        "NORMAL_MAP",  "BUMP",         "EMBOSS",
-    "WRAP",   "BEAMS",       "LAYERS",      "MULTISAMPLED", "STREAMED",
-    "CURVED"};
+    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED",
+    "STREAMED",    "CURVED"};
 static_assert(std::bit_width(std::uint32_t{feature_curved}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
@@ -182,7 +181,8 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
 std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
     const bool anywhere =
         search == feature_exact || search == feature_cone || search == feature_secant;
-    return anywhere && (features & (feature_fade | feature_curved)) == 0 ? features & feature_beams : 0U;
+    return anywhere && (features & (feature_fade | feature_curved)) == 0 ? features & feature_beams
+                                                                         : 0U;
 }
 
 std::uint32_t lighting_of(std::uint32_t features) {
