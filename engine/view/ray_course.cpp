@@ -115,6 +115,25 @@ std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& plac
     return SamplePolynomial::create(placement, frame.middle, half_size);
 }
 
+// Of a symmetric matrix, the largest absolute eigenvalue; by the trigonometric solution of its cubic.
+double norm(const glm::dmat3& matrix) {
+    const double mean = (matrix[0][0] + matrix[1][1] + matrix[2][2]) / 3.0;
+    const glm::dmat3 rest = matrix - glm::dmat3(mean);
+    double squares = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        squares += glm::dot(rest[column], rest[column]);
+    }
+    const double size = std::sqrt(squares / 6.0);
+    if (size == 0.0) {
+        return std::abs(mean);
+    }
+    const double cosine = std::clamp(0.5 * glm::determinant(rest / size), -1.0, 1.0);
+    const double angle = std::acos(cosine) / 3.0;
+    const double largest = mean + 2.0 * size * std::cos(angle);
+    const double smallest = mean + 2.0 * size * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
+    return std::max(std::abs(largest), std::abs(smallest));
+}
+
 // Of the second derivatives of a place, along any unit direction in metres; 1/metre.
 double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 metres) {
     const glm::dvec3 at = course.unit_from_relative * relative;
@@ -140,12 +159,10 @@ double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 met
     }
     double square = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const glm::dmat3 along = glm::transpose(course.unit_from_relative) *
+        const double bend = norm(glm::transpose(course.unit_from_relative) *
                                  hessians[static_cast<std::size_t>(axis)] *
-                                 course.unit_from_relative;
-        for (int column = 0; column < 3; ++column) {
-            square += metres[axis] * metres[axis] * glm::dot(along[column], along[column]);
-        }
+                                 course.unit_from_relative);
+        square += metres[axis] * metres[axis] * bend * bend;
     }
     return std::sqrt(square);
 }

@@ -51,23 +51,59 @@ Curve curve_along(vec3 relative) {
 }
 #undef TERM
 
+vec3 curve_bend_at(float part) {
+    return 2.0 * curve.terms[1] + part * (6.0 * curve.terms[2] + part * 12.0 * curve.terms[3]);
+}
+
 // Chords of equal length in the square root of the distance are seen beside the curve by equal angles
-// (view/ray_course.h).
+// (view/ray_course.h). Their ends lie beyond the curve by half of that, so that their middles do not.
 struct Chords {
     float first; // square root of the part
     float stride;
     float count;
 };
 
-Chords chords_from(float begin, float metres) {
-    float first = sqrt(begin);
-    float count = max(ceil((1.0 - first) * sqrt(metres) * course_eye.w), 1.0);
-    return Chords(first, (1.0 - first) / count, count);
+// `share`: of the number that keeps the error.
+Chords chords_between(vec2 range, float metres, float share) {
+    float first = sqrt(range.x);
+    float way = max(sqrt(range.y) - first, 0.0);
+    float count = max(ceil(way * sqrt(metres) * share * course_eye.w), 1.0);
+    return Chords(first, way / count, count);
 }
 
 float end_of_chord(Chords chords, float i) {
     float root = chords.first + i * chords.stride;
     return root * root;
+}
+
+vec3 place_of_end(Chords chords, float part) {
+    return curve_at(part) - 0.25 * chords.stride * chords.stride * part * curve_bend_at(part);
+}
+
+// The parts between which a ray may be among the heights of the search space; the second is smaller if it is
+// not. Heights along a ray are convex, so tangents lie below them, and chords above.
+vec2 falling_range(float begin) {
+    vec2 range = vec2(begin, 1.0);
+    for (int i = 0; i < 3; ++i) {
+        float over = curve_at(range.x).z - course_end.z;
+        float slope = curve_slope_at(range.x).z;
+        if (over > 0.0) {
+            range.x = slope < 0.0 ? range.x - over / slope : 2.0;
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        float over = curve_at(range.y).z - course_end.z;
+        float slope = curve_slope_at(range.y).z;
+        range.y -= over > 0.0 && slope > 0.0 ? over / slope : 0.0;
+    }
+    for (int i = 0; i < 2; ++i) {
+        float over = curve_at(range.x).z - course_begin.z;
+        float under = curve_at(range.y).z - course_begin.z;
+        if (over > 0.0 && under < 0.0) {
+            range.y = mix(range.x, range.y, over / (over - under));
+        }
+    }
+    return range;
 }
 
 // The parts of a chord in the visible search space; the second is smaller if there are none.
@@ -82,7 +118,7 @@ vec2 parts_inside(vec3 start, vec3 span) {
                 min(min(last.x, last.y), min(last.z, 1.0)));
 }
 
-// The parts of the ray between which it is in the search space.
+// The parts of the ray between which it is in the visible search space.
 vec2 range_inside(Chords chords) {
     vec2 range = vec2(2.0, 0.0);
     float before = chords.first * chords.first;

@@ -22,11 +22,11 @@ void fade_curve(vec3 span) {
 #if defined(EXACT) || defined(CONE)
 bool find_in_chords(Chords chords, out float part, out vec2 place) {
     float before = chords.first * chords.first;
-    vec3 start = curve_at(before);
+    vec3 start = place_of_end(chords, before);
     begins_above = false;
     for (float i = 1.0; i <= chords.count; ++i) {
         float next = end_of_chord(chords, i);
-        vec3 end = curve_at(next);
+        vec3 end = place_of_end(chords, next);
         vec3 span = end - start;
         vec2 inside = parts_inside(start, span);
         if (inside.x < inside.y) {
@@ -64,24 +64,28 @@ bool find_at_reference(vec2 range, out float part, out vec2 place) {
 bool find_on_curve(out float part, out vec2 place) {
     curve = curve_along(back);
     float metres = length(back);
-    Chords chords = chords_from(clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0), metres);
-#if !defined(EXACT) && !defined(CONE) || defined(FADE)
-    vec2 range = range_inside(chords);
-    if (range.x > range.y) {
-        return false;
-    }
+    float begin = clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0);
+    vec2 range = falling_range(begin);
+#if defined(EXACT) || defined(CONE)
+    bool is_inside = range.x <= range.y;
+#else
+    const float share_of_chords = 0.125; // enough for the ends of the range
+    range = range_inside(chords_between(range, metres, share_of_chords));
+    bool is_inside = range.x <= range.y;
+#endif
     vec3 way = curve_at(range.y) - curve_at(range.x);
     set_metres(way, (range.y - range.x) * metres);
 #ifdef FADE
     fade_curve(way);
-    range = range_inside(chords);
-    if (range.x > range.y) {
+    range = falling_range(begin);
+    is_inside = is_inside && range.x <= range.y;
+    way = curve_at(range.y) - curve_at(range.x);
+#endif
+    if (!is_inside) {
         return false;
     }
-#endif
-#endif
 #if defined(EXACT) || defined(CONE)
-    return find_in_chords(chords, part, place);
+    return find_in_chords(chords_between(range, metres, 1.0), part, place);
 #elif defined(PARALLAX)
     return find_at_reference(range, part, place);
 #else

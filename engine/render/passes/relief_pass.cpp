@@ -103,7 +103,7 @@ CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space
         view::max_chord_error * view::metres_a_pixel(list.camera, list.size).y;
     CourseBlock block{.unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative)),
                       .course_eye = glm::vec4(glm::vec3(in_space(course.eye)),
-                                              std::sqrt(course.curvature / (2.0 * chord_error))),
+                                              std::sqrt(course.curvature / (4.0 * chord_error))),
                       .course_begin = glm::vec4(glm::vec3(in_space(visible.low)), 0.0F),
                       .course_end = glm::vec4(glm::vec3(in_space(visible.high)), 0.0F),
                       .course_terms = {}};
