@@ -372,8 +372,12 @@ void Viewer::leave() {
 
 namespace {
 
-/// What the title says of a frame that may be farther off than its error bound.
+/// What the title says of a frame that shows triangles for a technique, or may be farther off than
+/// its error bound.
 std::string error_text(const view::FrameStats& stats, const scene::Technique& technique) {
+    if (stats.reliefs_as_triangles > 0) {
+        return " - triangles, rays are bent too much here";
+    }
     if (scene::error_bound(technique) > 0.0 && stats.tiles_unproven > 0) {
         return " - error unproven";
     }

@@ -114,6 +114,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
     }
     times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
     stats_ = *stats;
+    frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
     note_kept_error(scene);
     return device_.renderer().read_color();
 }
@@ -127,6 +128,7 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
         return drawn.error();
     }
     stats_ = drawn->stats;
+    frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
     note_kept_error(scene);
     return std::move(drawn->hits);
 }
@@ -177,6 +179,13 @@ std::vector<std::string> DeviceFrames::error_notes() const {
             "the errors of {} tiles are estimates, and pixels may be farther off than the error "
             "bound: 'reljef index' proves them, except near voids",
             max_unproven_));
+    }
+    if (frames_as_triangles_ > 0) {
+        notes.push_back(fmt::format(
+            "{} of the pictures show triangles instead of the technique: on the ellipsoid its rays "
+            "are bent too much from far above, near poles, and without perspective; --placement "
+            "plane shows it",
+            frames_as_triangles_));
     }
     return notes;
 }

@@ -87,6 +87,7 @@ private:
     view::FrameStats stats_;
     std::optional<FramesOver> over_;
     int max_unproven_ = 0;                             // tiles of a frame with an error bound
+    int frames_as_triangles_ = 0;                      // whose technique could not be drawn
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 

@@ -115,7 +115,8 @@ std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& plac
     return SamplePolynomial::create(placement, frame.middle, half_size);
 }
 
-// Of a symmetric matrix, the largest absolute eigenvalue; by the trigonometric solution of its cubic.
+// Of a symmetric matrix, the largest absolute eigenvalue; by the trigonometric solution of its
+// cubic.
 double norm(const glm::dmat3& matrix) {
     const double mean = (matrix[0][0] + matrix[1][1] + matrix[2][2]) / 3.0;
     const glm::dmat3 rest = matrix - glm::dmat3(mean);
@@ -159,9 +160,9 @@ double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 met
     }
     double square = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-        const double bend = norm(glm::transpose(course.unit_from_relative) *
-                                 hessians[static_cast<std::size_t>(axis)] *
-                                 course.unit_from_relative);
+        const double bend =
+            norm(glm::transpose(course.unit_from_relative) *
+                 hessians[static_cast<std::size_t>(axis)] * course.unit_from_relative);
         square += metres[axis] * metres[axis] * bend * bend;
     }
     return std::sqrt(square);

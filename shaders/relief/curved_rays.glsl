@@ -8,7 +8,8 @@ struct Curve {
     vec3 terms[4]; // of the powers 1 to 4 of the part
 };
 
-Curve curve; // of this fragment's ray
+// Of this fragment's ray.
+Curve curve = Curve(vec3(0.0), vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)));
 
 vec3 curve_at(float part) {
     return curve.eye +

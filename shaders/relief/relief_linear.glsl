@@ -3,7 +3,7 @@
 #define EQUAL_STEPS
 
 #ifdef CURVED
-vec2 curve_range; // the parts of the curve that are searched
+vec2 curve_range = vec2(0.0, 1.0); // the parts of the curve that are searched
 
 vec3 ray_at(vec3 start, vec3 span, float part) {
     return curve_at(mix(curve_range.x, curve_range.y, part));

@@ -30,15 +30,21 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
         return "option 'border' found, none was expected: a terrain ends at its border, detail "
                "tiles go on";
     }
-    const bool is_bent = surface.placement().kind() != terrain::PlacementKind::plane;
-    if (is_bent && needs_plane(technique.id())) {
+    if (surface.placement().kind() == terrain::PlacementKind::plane) {
+        return {};
+    }
+    if (needs_plane(technique.id())) {
         return "placement ellipsoid found, plane was expected; relief draws both";
     }
-    const bool turns_rays = technique.options.shadow || technique.options.smooth_edges;
-    return is_bent && searches_surface(technique.id()) && turns_rays
-               ? "placement ellipsoid found with option 'shadow' or 'edges', plane was expected; "
-                 "without them it draws both"
-               : std::string_view();
+    // These follow straight rays from the surface.
+    if (technique.options.shadow && searches_surface(technique.id())) {
+        return "option 'shadow' found with placement ellipsoid, plane was expected; without the "
+               "option, the terrain's light has shadows";
+    }
+    if (technique.options.smooth_edges && searches_surface(technique.id())) {
+        return "option 'edges' found with placement ellipsoid, plane was expected";
+    }
+    return {};
 }
 
 std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::Tile& samples) {

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "engine/core/bilinear.h"
+#include "engine/truth/draw.h"
+#include "engine/truth/geometric_error.h"
+#include "tests/render/made_scene.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::test {
+
+/// Mountains and valleys, 2 to 70 samples wide.
+inline Grid<float> mountains(int side) {
+    return made_heights(side, side, [](int col, int row) {
+        return 900.0 + 500.0 * std::sin(0.09 * col) * std::cos(0.07 * row) +
+               120.0 * std::sin(0.5 * col + 0.3 * row) + 30.0 * std::sin(1.9 * col - 1.1 * row);
+    });
+}
+
+/// Where a terrain of mountains lies on the Earth.
+struct EarthPlace {
+    double latitude = 45.0; ///< of its first sample
+    double step = 0.001;    ///< degrees
+    double turn = 0.0;      ///< degrees
+    double exaggeration = 1.0;
+    double longitude = 7.0;
+    terrain::PlacementKind placement = terrain::PlacementKind::ellipsoid;
+};
+
+/// A terrain that is looked at on the ellipsoid.
+struct EarthStage {
+    static constexpr int side = 257; ///< samples
+
+    scene::Scene scene;
+    scene::Node* terrain = nullptr;
+    scene::Node* camera = nullptr;
+
+    explicit EarthStage(const EarthPlace& place) {
+        terrain =
+            &add_terrain(scene,
+                         geographic_heightfield(mountains(side), place.latitude, place.longitude,
+                                                place.step, place.turn),
+                         {}, {.placement = place.placement, .exaggeration = place.exaggeration});
+        camera = &scene.add_camera({});
+    }
+
+    [[nodiscard]] const scene::TerrainSurface& surface() const { return surface_of(*terrain); }
+    [[nodiscard]] glm::dvec3 world(glm::dvec3 sample) const {
+        return surface().placement().world_from_sample(sample);
+    }
+    void set(const scene::Technique& technique) {
+        terrain->get<scene::TerrainNode>()->material.technique = technique;
+    }
+    void look(const scene::Camera& at) { *camera->get<scene::Camera>() = at; }
+
+    /// From `above` metres over a sample, to a place on the ground.
+    void look(glm::dvec2 from, double above, glm::dvec2 to) {
+        const auto height = [&](glm::dvec2 sample) {
+            return terrain::bilinear_height(
+                surface().heightfield().heights.view(),
+                glm::clamp(sample, glm::dvec2(0.0), glm::dvec2(side - 1.0)));
+        };
+        scene::Camera at;
+        at.eye = world({from, height(from) + above});
+        at.target = world({to, height(to)});
+        at.near = 0.01;
+        look(at);
+    }
+
+    [[nodiscard]] truth::GeometricErrors errors(const HitBuffer& shown) const {
+        const truth::SurfaceView view{surface().heightfield().heights.view(), surface().placement(),
+                                      terrain->world_from_local(), scene.camera()};
+        return must(truth::geometric_errors(
+            view, shown, must(truth::draw_hits(scene, glm::ivec2(shown.cols(), shown.rows())))));
+    }
+};
+
+} // namespace reljef::test

@@ -1,0 +1,101 @@
+// Relief techniques on the ellipsoid, where view rays are bent in samples.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tests/render/driver_fixture.h"
+#include "tests/render/earth_stage.h"
+
+namespace reljef::render {
+namespace {
+
+using test::EarthPlace;
+using test::EarthStage;
+
+class CurvedReliefGlTest : public DriverGlTest {
+protected:
+    static view::DrawnHits hits(EarthStage& stage, const std::string& technique) {
+        Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
+        stage.set(test::must(scene::parse_technique(technique)));
+        return test::must(driver.draw_hits(view::select(stage.scene, size)));
+    }
+
+    static void expect_true(EarthStage& stage, const std::string& technique,
+                            const std::string& name, double most = 0.05) {
+        const view::DrawnHits shown = hits(stage, technique);
+        ASSERT_EQ(shown.stats.reliefs_as_triangles, 0) << name;
+        const truth::GeometricErrors found = stage.errors(shown.hits);
+        ASSERT_TRUE(found.reprojection.distribution) << name;
+        EXPECT_GT(found.reprojection.distribution->count, shown.hits.size() / 50) << name;
+        // Where the truth of a pixel is not stable, the next ridge may be hit.
+        EXPECT_LE(found.wrong + found.holes + found.reprojection.unbounded,
+                  shown.hits.size() / 1000)
+            << name << ": " << found.wrong << " wrong, " << found.holes << " holes, "
+            << found.reprojection.unbounded;
+        EXPECT_LT(found.reprojection.distribution->p99, most) << name;
+    }
+};
+
+TEST_F(CurvedReliefGlTest, ExactAndConeShowTheTrueFirstHit) {
+    for (const double latitude : {45.0, 0.1, -60.0, 85.0}) {
+        for (const double above : {3.0, 30.0, 3e3, 2e4}) {
+            EarthStage stage({.latitude = latitude, .turn = latitude > 0.0 ? 20.0 : 0.0});
+            stage.look({120.3, 201.7}, above, {140.0, 40.0});
+            for (const char* const technique : {"exact", "cone:n=1024,step=0"}) {
+                expect_true(stage, technique,
+                            fmt::format("{} at {}, {} m above", technique, latitude, above),
+                            above < 10.0 ? 0.3 : 0.05); // columns and rows are single floats
+            }
+        }
+    }
+}
+
+TEST_F(CurvedReliefGlTest, ExactShowsTheTrueFirstHitAcrossTheAntimeridian) {
+    EarthStage stage({.latitude = 30.0, .step = 0.004, .longitude = 179.5});
+    stage.look({130.3, 240.7}, 2e3, {120.0, 10.0});
+    expect_true(stage, "exact", "antimeridian");
+}
+
+TEST_F(CurvedReliefGlTest, ExactShowsTheTrueFirstHitOfExaggeratedGround) {
+    EarthStage stage({.step = 0.004, .exaggeration = 5.0});
+    stage.look({130.3, 240.7}, 2e3, {120.0, 10.0});
+    expect_true(stage, "exact", "exaggerated");
+}
+
+// As wrong as over a plane.
+TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
+    EarthStage bent({.latitude = 45.0});
+    EarthStage plane({.latitude = 45.0, .placement = terrain::PlacementKind::plane});
+    for (const char* const technique :
+         {"parallax", "parallax-limited", "parallax-iterated", "steep", "relief", "interval", "pom",
+          "cone", "exact:fade=0.2..1", "relief:fade=0.2..1", "relief:steps=12..48"}) {
+        double wrong_on_plane = 0.0;
+        double wrong = 0.0;
+        for (const double above : {100.0, 3e3}) {
+            for (EarthStage* const stage : {&plane, &bent}) {
+                stage->look({120.3, 230.7}, above, {140.0, 40.0});
+                const view::DrawnHits shown = hits(*stage, technique);
+                ASSERT_EQ(shown.stats.reliefs_as_triangles, 0);
+                const truth::GeometricErrors found = stage->errors(shown.hits);
+                (stage == &bent ? wrong : wrong_on_plane) +=
+                    static_cast<double>(found.wrong + found.holes);
+            }
+        }
+        EXPECT_LE(wrong, 1.1 * wrong_on_plane + 100.0) << technique;
+        EXPECT_GE(wrong, 0.8 * wrong_on_plane - 100.0) << technique;
+    }
+}
+
+// Triangles stand in, and the frame says so.
+TEST_F(CurvedReliefGlTest, ViewsThatBendRaysTooMuchShowTriangles) {
+    EarthStage stage({.latitude = 89.9, .step = 0.01});
+    stage.look({120.3, 201.7}, 3e4, {140.0, 40.0});
+    const view::DrawnHits shown = hits(stage, "exact");
+    EXPECT_EQ(shown.stats.reliefs_as_triangles, 1);
+    EXPECT_GT(shown.stats.triangles, 1000U);
+}
+
+} // namespace
+} // namespace reljef::render

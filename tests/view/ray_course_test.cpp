@@ -1,0 +1,133 @@
+#include "engine/view/ray_course.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/view/draw_list.h"
+#include "tests/terrain/chance.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr glm::ivec2 size{1024, 768};
+constexpr int side = 1201;
+
+terrain::Placement placed(double latitude, double step, double longitude = 6.0) {
+    return test::placed(test::geographic_heightfield(Grid<float>(side, side, 0.0F), latitude,
+                                                     longitude, step, 10.0),
+                        1.5);
+}
+
+Box all_samples() {
+    return {{0.0, 0.0, -100.0}, {side - 1.0, side - 1.0, 4000.0}};
+}
+
+scene::Camera camera_at(glm::dvec3 eye) {
+    scene::Camera camera;
+    camera.eye = eye;
+    return camera;
+}
+
+// In a node that is turned and moved, too.
+TEST(RayCourse, FindsTheSamplesOfPlacesWithinItsError) {
+    const glm::dmat4 world_from_local =
+        glm::rotate(glm::translate(glm::dmat4(1.0), glm::dvec3(1e3, -2e3, 50.0)), 0.7,
+                    glm::dvec3(0.0, 0.0, 1.0));
+    test::Chance chance(3);
+    for (const double latitude : {1.0, 47.0, -35.0, 71.0}) {
+        const terrain::Placement placement = placed(latitude, 1.0 / 1200.0);
+        const glm::dvec3 local_eye =
+            placement.world_from_sample({300.0, 700.0, latitude > 40.0 ? 4500.0 : 1e4});
+        const glm::dvec3 eye(world_from_local * glm::dvec4(local_eye, 1.0));
+        const auto course =
+            ray_course(camera_at(eye), size, world_from_local, placement, all_samples());
+        ASSERT_TRUE(course) << latitude;
+        EXPECT_LT(glm::distance(placement.world_from_sample(course->eye), local_eye), 1e-6);
+        double worst = 0.0;
+        for (int i = 0; i < 3000; ++i) {
+            const glm::dvec3 part(chance.between(0, 1), chance.between(0, 1), chance.between(0, 1));
+            const glm::dvec3 sample = course->samples.low + part * course->samples.size();
+            const glm::dvec3 place = placement.world_from_sample(sample);
+            const glm::dvec3 relative = glm::dmat3(world_from_local) * (place - local_eye);
+            const glm::dvec3 found = placement.world_from_sample(course->sample(relative));
+            worst = std::max(worst, glm::distance(found, place) / glm::distance(place, local_eye));
+        }
+        EXPECT_LE(worst, 1.1 * course->error) << latitude;
+        EXPECT_GE(worst, 0.1 * course->error) << latitude;
+    }
+}
+
+// Between square roots of distances that are equally far apart.
+TEST(RayCourse, ChordsAreSeenBesideTheRayByNoMoreThanItsCurvatureSays) {
+    test::Chance chance(4);
+    for (const double latitude : {1.0, 47.0, 71.0, 84.0}) {
+        const terrain::Placement placement = placed(latitude, 1.0 / 4800.0);
+        const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 1000.0});
+        const auto course =
+            ray_course(camera_at(eye), size, glm::dmat4(1.0), placement, all_samples());
+        ASSERT_TRUE(course) << latitude;
+        double largest = 0.0;
+        for (int i = 0; i < 2000; ++i) {
+            const double angle = chance.between(0.0, 2.0 * std::numbers::pi);
+            const glm::dvec3 way(std::cos(angle), std::sin(angle), 0.0);
+            const double first = chance.between(0.0, 60.0);
+            const double second = first + chance.between(1.0, 20.0);
+            const double begin = first * first;
+            const double end = second * second;
+            const double at = chance.between(begin, end);
+            const glm::dvec3 chord =
+                glm::mix(course->sample(begin * way), course->sample(end * way),
+                         (at - begin) / (end - begin));
+            const double seen =
+                glm::distance(placement.world_from_sample(chord), eye + at * way) / at;
+            const double bound = 0.5 * course->curvature * (second - first) * (second - first);
+            EXPECT_LE(seen, 1.001 * bound + 1e-10);
+            largest = std::max(largest, seen / bound);
+        }
+        EXPECT_GT(largest, 0.3) << latitude;
+    }
+}
+
+TEST(RayCourse, HasAllSamplesWithinTheHorizon) {
+    const terrain::Placement placement = placed(60.0, 1.0 / 50.0);
+    const Box all{{0.0, 0.0, 0.0}, {side - 1.0, side - 1.0, 100.0}};
+    const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 50.0});
+    const auto course = ray_course(camera_at(eye), size, glm::dmat4(1.0), placement, all);
+    ASSERT_TRUE(course);
+    EXPECT_LT(course->samples.size().x, 150.0);
+    // 25 km and 36 km to where the ground of height 0 touches a ray.
+    constexpr double reach = 60e3;
+    const glm::dvec3 up = placement.up(eye);
+    for (int i = 0; i < 360; ++i) {
+        const double angle = glm::radians(static_cast<double>(i));
+        const glm::dvec3 north = placement.north(eye);
+        const glm::dvec3 way = std::cos(angle) * north + std::sin(angle) * glm::cross(north, up);
+        const auto sample = placement.sample_from_world(eye + reach * way);
+        ASSERT_TRUE(sample);
+        for (int axis = 0; axis < 2; ++axis) {
+            EXPECT_GE((*sample)[axis], course->samples.low[axis]);
+            EXPECT_LE((*sample)[axis], course->samples.high[axis]);
+        }
+    }
+}
+
+TEST(RayCourse, IsNoneWhereNoPolynomialIsPreciseOrRaysAreParallel) {
+    const terrain::Placement placement = placed(45.0, 1.0 / 1200.0);
+    const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 3000.0});
+    scene::Camera parallel = camera_at(eye);
+    parallel.projection = scene::ProjectionKind::orthographic;
+    EXPECT_FALSE(ray_course(parallel, size, glm::dmat4(1.0), placement, all_samples()));
+    const auto at_pole = placed(89.999, 1.0 / 1200.0);
+    EXPECT_FALSE(ray_course(camera_at(at_pole.world_from_sample({10.0, 10.0, 3000.0})), size,
+                            glm::dmat4(1.0), at_pole, all_samples()));
+    EXPECT_FALSE(ray_course(camera_at(placement.world_from_sample({600.0, 600.0, 1e7})), size,
+                            glm::dmat4(1.0), placement, all_samples()));
+}
+
+} // namespace
+} // namespace reljef::view
