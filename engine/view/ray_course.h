@@ -15,7 +15,7 @@
 
 namespace reljef::view {
 
-/// The view rays over a terrain on the ellipsoid, in its samples, where they are bent: the place at
+/// The view rays over a terrain on the ellipsoid. They are bent in its samples: the sample at
 /// eye + direction is a polynomial of degree 4 in the direction. So along a ray it is one in the
 /// part of the ray, whose coefficients are precise in floats near the eye.
 struct RayCourse {

@@ -11,6 +11,7 @@ uniform vec2 height_texel; // 1 / vertices of a tile
 #ifndef STREAMED
 layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
 uniform ivec2 last_cell;
+uniform ivec2 origin_cell;
 #endif
 uniform int top_level;
 // Search space; matrix · (1, x, y), with x and y as gl_FragCoord.
@@ -62,11 +63,12 @@ float max_height_in_block(ivec2 block, int level) {
 }
 #else
 bool is_outside(vec2 low, vec2 high) {
-    return any(greaterThan(low, vec2(last_cell) + 1.0)) || any(lessThan(high, vec2(0.0)));
+    vec2 origin = vec2(origin_cell);
+    return any(greaterThan(low, vec2(last_cell + 1) - origin)) || any(lessThan(high, -origin));
 }
 
 ivec2 cell_at(vec2 place) {
-    return ivec2(clamp(place, vec2(0.0), vec2(last_cell)));
+    return ivec2(clamp(floor(place) + vec2(origin_cell), vec2(0.0), vec2(last_cell)));
 }
 
 float max_height_in_block(ivec2 block, int level) {

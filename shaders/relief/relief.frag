@@ -42,16 +42,14 @@ uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
 #include "relief/relief_light.glsl"
-#ifdef STREAMED
 #ifdef HIT
 uniform vec4 origin_sample;   // xy: col, row of the search space's origin; zw: to be added
-uniform float samples_a_cell; // of the finest tiles
-#endif
+uniform float samples_a_cell; // of a terrain in memory, 1; of streamed tiles, of the finest
 #endif
 
 #include "frame/output.glsl"
 
-#if defined(HIT) && defined(STREAMED)
+#ifdef HIT
 // origin_sample plus the place as two floats (Knuth's two-sum).
 void write_place(vec2 place, float height, float depth) {
     vec2 offset = place * samples_a_cell; // exact: a power of two
@@ -66,18 +64,40 @@ void write_place(vec2 place, float height, float depth) {
 #endif
 
 #ifdef CURVED
-#include "relief/curved_search.glsl"
+#include "curved/curved_search.glsl"
 #endif
 
-// Entry of the ray into the box, as a negative multiple of `along`; in perspective behind the near plane.
-float entry_before(vec3 point, vec3 direction) {
+#ifndef CURVED
+// A ray in the search space, and the same relative to the eye.
+struct StraightRay {
+    vec3 start;
+    vec3 span;
+    vec3 relative_start;
+    vec3 relative_span;
+};
+
+// From its entry into the box, in perspective not before the near plane, to where it leaves.
+StraightRay ray_in_box(vec3 along) {
+    vec3 direction = space_from_relative * along;
+    vec3 leave = space_from_relative * back + eye_in_space;
+    if (gl_PrimitiveID == 2 || gl_PrimitiveID == 9) {
+        leave.z = box_begin.z; // through the bottom: exact, however small the relief is
+    }
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
-    vec3 first = min((box_begin.xyz - point) * inverse, (box_end.xyz - point) * inverse) - away * 3e38;
+    vec3 first = min((box_begin.xyz - leave) * inverse, (box_end.xyz - leave) * inverse) - away * 3e38;
     float nearest = max(max(first.x, first.y), first.z);
-    float begin = near_depth / dot(back, view_forward.xyz) - 1.0;
-    return min(perspective > 0.5 ? max(nearest, begin) : nearest, 0.0);
+    float begin = min(near_depth / dot(back, view_forward.xyz), 1.0);
+    if (perspective > 0.5 && nearest < begin - 1.0) { // from the eye: near it floats are precise
+        float rest = 1.0 - begin;
+        return StraightRay(eye_in_space + begin * direction, rest * direction, begin * along,
+                           rest * along);
+    }
+    float entry = min(nearest, 0.0);
+    return StraightRay(leave + entry * direction, -entry * direction, back + entry * along,
+                       -entry * along);
 }
+#endif
 
 #ifndef HIT
 // Mip level from derivatives, limited to an anisotropy of 8: over a silhouette the neighbours show another
@@ -137,14 +157,9 @@ void main() {
     vec3 relative = part * back;
 #else
     vec3 along = mix(view_forward.xyz, back, perspective);
-    vec3 direction = space_from_relative * along;
-    vec3 leave = space_from_relative * back + eye_in_space;
-    if (gl_PrimitiveID == 2 || gl_PrimitiveID == 9) {
-        leave.z = box_begin.z; // through the bottom: exact, however small the relief is
-    }
-    float entry = entry_before(leave, direction);
-    vec3 span = -entry * direction;
-    vec3 start = leave - span;
+    StraightRay ray = ray_in_box(along);
+    vec3 start = ray.start;
+    vec3 span = ray.span;
 #ifdef FADE
     vec2 ends = stretch(box_begin.z, box_end.z, start, span);
 #endif
@@ -158,7 +173,7 @@ void main() {
 #else
     float way = part;
 #endif
-    vec3 relative = back + entry * (1.0 - way) * along;
+    vec3 relative = ray.relative_start + way * ray.relative_span;
 #endif
 #ifdef WRITE_DEPTH
     vec4 clip = clip_from_relative * vec4(relative, 1.0);
@@ -166,12 +181,7 @@ void main() {
 #endif
 #ifdef HIT
     float height = height_span.x + height_span.y * height_at(place);
-#ifdef STREAMED
     write_place(place, height, dot(relative, view_forward.xyz));
-#else
-    hit = vec4(place, height, dot(relative, view_forward.xyz));
-    hit_low = vec2(0.0);
-#endif
 #else
     float metres = length(relative);
     float level = level_of(place, metres);

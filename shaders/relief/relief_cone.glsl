@@ -26,7 +26,7 @@ vec2 cones_at(vec2 place) {
     vec2 cones = texelFetch(cone_maps, ivec3(found.index, int(tile.layer)), 0).rg;
     return cones * (height_span.y * min(found.extent.x, found.extent.y));
 #else
-    return texelFetch(cone_map, ivec2(place), 0).rg;
+    return texelFetch(cone_map, ivec2(floor(place)) + origin_cell, 0).rg;
 #endif
 }
 

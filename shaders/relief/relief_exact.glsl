@@ -6,11 +6,11 @@ bool is_endless(vec3 start, vec3 span) {
 }
 
 ivec2 first_cell(inout vec3 start) {
-    return clamp(ivec2(start.xy), ivec2(0), last_cell);
+    return clamp(ivec2(floor(start.xy)) + origin_cell, ivec2(0), last_cell);
 }
 
 vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk) {
-    vec2 border = vec2((walk.block + forward) << walk.level);
+    vec2 border = vec2(((walk.block + forward) << walk.level) - origin_cell);
     return max((border - start.xy) * inverse, walk.part);
 }
 

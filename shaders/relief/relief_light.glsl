@@ -32,11 +32,12 @@ LitPlace lit_place(vec2 place, float level) {
 }
 #else
 vec2 texels_at(vec2 place) {
-    return (place * lit_from_sample.xy + lit_from_sample.zw) * vec2(textureSize(lit_map, 0));
+    return place * lit_from_sample.xy * vec2(textureSize(lit_map, 0)); // from the origin
 }
 
 LitPlace lit_place(vec2 place, float level) {
-    return LitPlace(place * lit_from_sample.xy + lit_from_sample.zw, level);
+    vec2 sample_place = place + vec2(origin_cell);
+    return LitPlace(sample_place * lit_from_sample.xy + lit_from_sample.zw, level);
 }
 #endif
 

@@ -5,13 +5,18 @@
 layout(binding = height_map_unit) uniform sampler2D height_map;
 #endif
 uniform vec2 height_texel; // 1 / samples
+#if defined(TILE)
+const ivec2 origin_cell = ivec2(0);
+#elif !defined(STREAMED)
+uniform ivec2 origin_cell; // at (0, 0) of the search space: near the eye, where floats are precise
+#endif
 #ifdef TILE
 vec3 metres_per_unit = vec3(1.0); // of the search space at this fragment
 bool is_off_tile(vec2 coordinate); // tile_surface.glsl
 #else
 #include "frame/relief_block.glsl"
 #ifdef CURVED
-#include "relief/curved_rays.glsl"
+#include "curved/curved_rays.glsl"
 vec3 metres_per_unit = space_scale.xyz; // along this fragment's ray
 #else
 #define metres_per_unit space_scale.xyz
@@ -49,7 +54,7 @@ float outward() {
 #include "stream/stream_tiles.glsl"
 #else
 float height_at(vec2 place) {
-    return textureLod(height_map, (place + 0.5) * height_texel, 0.0).r;
+    return textureLod(height_map, (place + vec2(origin_cell) + 0.5) * height_texel, 0.0).r;
 }
 #endif
 
@@ -68,10 +73,7 @@ bool begins_above = false;
 bool is_on_surface(vec2 place) {
 #ifdef TILE
     return !is_off_tile((place + 0.5) * height_texel);
-#elif defined(STREAMED)
-    return all(greaterThanEqual(place, box_begin.xy)) && all(lessThanEqual(place, box_end.xy));
 #else
-    vec2 last = vec2(textureSize(height_map, 0) - 1);
-    return all(greaterThanEqual(place, vec2(0.0))) && all(lessThanEqual(place, last));
+    return all(greaterThanEqual(place, box_begin.xy)) && all(lessThanEqual(place, box_end.xy));
 #endif
 }

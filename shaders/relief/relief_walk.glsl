@@ -91,7 +91,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
                 inside = move_on(exits, course.forward, start, walk);
             } else if (!reached) {
                 --walk.level;
-                vec2 middle = vec2((2 * walk.block + 1) << walk.level);
+                vec2 middle = vec2(((2 * walk.block + 1) << walk.level) - origin_cell);
                 vec2 p = start.xy + walk.part * span.xy;
                 walk.block = 2 * walk.block + ivec2(greaterThanEqual(p, middle));
             }
@@ -100,7 +100,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             float leave = min(min(exits.x, exits.y), 1.0);
             vec4 corners = textureGather(height_map, (vec2(walk.block) + 1.0) * height_texel);
             float found =
-                crossing(corners, start + walk.part * span - vec3(walk.block, 0.0),
+                crossing(corners, start + walk.part * span - vec3(walk.block - origin_cell, 0.0),
                          (leave - walk.part) * span, walk.part, leave, above);
             if (found <= 1.0) {
                 part = found;

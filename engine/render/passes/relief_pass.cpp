@@ -27,9 +27,27 @@ bool draws_beams(const view::ReliefDraw& draw) {
     return has_beams(draw.terrain->material.technique) && !draw.course;
 }
 
-const ReliefSpace& space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
-    return is_streamed(draw) ? frame.residency.relief_tiles().tiles(draw).space.space
-                             : frame.residency.relief(draw).space;
+// A draw's search space. Its origin is near the eye, where floats are precise.
+struct DrawnSpace {
+    ReliefSpace space;
+    glm::ivec2 origin{0};          // cell at (0, 0)
+    glm::dvec2 origin_sample{0.0}; // of the terrain
+    double samples_a_cell = 1.0;
+};
+
+DrawnSpace space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
+    if (is_streamed(draw)) {
+        const StreamedSpace& streamed = frame.residency.relief_tiles().tiles(draw).space;
+        return {streamed.space, streamed.origin, streamed.origin_sample, streamed.samples_a_cell};
+    }
+    const ReliefSpace& whole = frame.residency.relief(draw).space;
+    const glm::dvec3 eye =
+        draw.course ? draw.course->eye
+                    : whole.space_from_local * local_eye(frame.list.camera, draw.world_from_local) +
+                          whole.space_of_origin;
+    const glm::dvec2 origin = glm::clamp(glm::floor(glm::dvec2(eye)), glm::dvec2(whole.box.low),
+                                         glm::dvec2(whole.box.high) - 1.0);
+    return {moved_to(whole, origin), glm::ivec2(origin), origin, 1.0};
 }
 
 // With the heights of the search space.
@@ -59,6 +77,14 @@ ReliefBlock relief_block(const view::ReliefDraw& draw, const ReliefSpace& space)
             .height_span = glm::vec4(space.lowest, space.range, 1.0 / space.range, 0.0)};
 }
 
+void set_origin(gl::Program& program, const DrawnSpace& drawn) {
+    program.set(uniforms.origin_cell, drawn.origin);
+    const SplitPoint origin = split_into_floats(glm::dvec3(drawn.origin_sample, 0.0));
+    program.set(uniforms.origin_sample,
+                glm::vec4(origin.rounded.x, origin.rounded.y, origin.rest.x, origin.rest.y));
+    program.set(uniforms.samples_a_cell, static_cast<float>(drawn.samples_a_cell));
+}
+
 void set_own_heights(gl::Program& program, const ResidentRelief& relief) {
     relief.heights.bind(bindings::height_map_unit);
     if (relief.max_mipmap) {
@@ -86,11 +112,6 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
     program.set(uniforms.top_level, levels_of_tile + tiles.pages->levels() - 2);
     program.set(uniforms.height_texel, 1.0F / glm::vec2(tiles.heights->size()));
     program.set(uniforms.last_cell, tiles.space.last_cell);
-    program.set(uniforms.origin_cell, tiles.space.origin);
-    const SplitPoint origin = split_into_floats(glm::dvec3(tiles.space.origin_sample, 0.0));
-    program.set(uniforms.origin_sample,
-                glm::vec4(origin.rounded.x, origin.rounded.y, origin.rest.x, origin.rest.y));
-    program.set(uniforms.samples_a_cell, static_cast<float>(tiles.space.samples_a_cell));
 }
 
 CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space,
@@ -128,9 +149,11 @@ Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw)
     if (!program) {
         return program.error();
     }
-    const ReliefSpace& space = space_of(frame, draw);
+    const DrawnSpace drawn = space_of(frame, draw);
+    const ReliefSpace& space = drawn.space;
     state.set_wireframe(false);
     set_heights(**program, frame, draw);
+    set_origin(**program, drawn);
     if (auto set = state.set(relief_block(draw, space)); !set) {
         return set;
     }
@@ -197,12 +220,14 @@ float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& d
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::ReliefDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    const ReliefSpace& space = space_of(frame, draw);
+    const DrawnSpace drawn = space_of(frame, draw);
+    const ReliefSpace& space = drawn.space;
     if (!frame.hits) {
         bind_light(program, frame, draw);
         ++frame.state.stats().state_changes;
     }
     set_heights(program, frame, draw);
+    set_origin(program, drawn);
     set_space(program, frame.list.camera, space, draw.world_from_local);
     if (draw.course) {
         if (auto set = frame.state.set(course_block(*draw.course, space, frame.list)); !set) {

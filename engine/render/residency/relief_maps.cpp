@@ -65,6 +65,16 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     return space;
 }
 
+ReliefSpace moved_to(const ReliefSpace& space, glm::dvec2 origin) {
+    ReliefSpace moved = space;
+    const glm::dvec3 way(origin, 0.0);
+    moved.space_of_origin -= way;
+    moved.sample_of_origin += way * space.samples_per_unit;
+    moved.box.low -= way;
+    moved.box.high -= way;
+    return moved;
+}
+
 void place_curved_space(ReliefSpace& space, const terrain::Placement& placement) {
     const auto sample = [&](glm::dvec3 place) {
         return space.sample_of_origin + place * space.samples_per_unit;

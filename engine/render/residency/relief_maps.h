@@ -34,6 +34,9 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface);
 /// and rows of the box are those of the samples.
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local);
 
+/// The same space with its origin at a column and row.
+ReliefSpace moved_to(const ReliefSpace& space, glm::dvec2 origin);
+
 /// The same on the ellipsoid, from the samples of the space.
 void place_curved_space(ReliefSpace& space, const terrain::Placement& placement);
 

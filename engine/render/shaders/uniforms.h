@@ -38,7 +38,7 @@ struct Uniforms {
     gl::Uniform<glm::vec2> height_texel{"height_texel"};
     gl::Uniform<glm::ivec2> last_cell{"last_cell"};
     gl::Uniform<int> top_level{"top_level"};
-    // Of a streamed terrain: stream_tiles.glsl, relief.frag.
+    // Where its search space begins: relief_surface.glsl, stream_tiles.glsl, relief.frag.
     gl::Uniform<glm::ivec2> origin_cell{"origin_cell"};
     gl::Uniform<glm::vec4> origin_sample{"origin_sample"};
     gl::Uniform<float> samples_a_cell{"samples_a_cell"};

@@ -22,7 +22,8 @@ inline std::uint32_t possible_features(ShaderKind kind) {
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
-        return any | relief | feature_beams | feature_multisampled | feature_streamed;
+        return any | relief | feature_beams | feature_multisampled | feature_streamed |
+               feature_curved;
     case ShaderKind::beams:
         return any | feature_streamed;
     case ShaderKind::relief_mesh:

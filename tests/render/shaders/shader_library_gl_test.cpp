@@ -166,20 +166,22 @@ const std::vector<CompiledVariant>& compiled_variants() {
     return all;
 }
 
-// Offset of each member of shaders/frame/FILE, where all are vec4 and mat4.
+// Offset of each member of shaders/frame/FILE: floats, vec4, mat4, and arrays of vec4.
 std::map<std::string, int> member_offsets(std::string_view file) {
     const auto shaders = embedded_shaders();
     const auto found = std::find_if(shaders.begin(), shaders.end(),
                                     [&](const EmbeddedShader& s) { return s.name == file; });
     const std::string text(found == shaders.end() ? "" : found->text);
-    static const std::regex member(R"((float|vec4|mat4) (\w+);)");
+    static const std::regex member(R"((float|vec4|mat4) (\w+)(\[\d+\])?;)");
     std::map<std::string, int> offsets;
     int offset = 0;
     for (std::sregex_iterator match(text.begin(), text.end(), member), end; match != end; ++match) {
         const std::string type = match->str(1);
         offset = type == "float" ? offset : (offset + 15) / 16 * 16; // std140
-        offsets[match->str(2)] = offset;
-        offset += type == "float" ? 4 : type == "mat4" ? 64 : 16;
+        const std::string length = match->str(3);
+        offsets[match->str(2) + (length.empty() ? "" : "[0]")] = offset;
+        const int count = length.empty() ? 1 : std::stoi(length.substr(1));
+        offset += count * (type == "float" ? 4 : type == "mat4" ? 64 : 16);
     }
     return offsets;
 }
@@ -236,7 +238,8 @@ TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
         {"FrameBlock", member_offsets("frame/frame_block.inc")},
         {"TechniqueBlock", member_offsets("frame/technique_block.inc")},
         {"ReliefBlock", member_offsets("frame/relief_block.inc")},
-        {"DetailBlock", member_offsets("frame/detail_block.inc")}};
+        {"DetailBlock", member_offsets("frame/detail_block.inc")},
+        {"CourseBlock", member_offsets("frame/course_block.inc")}};
     std::set<std::string_view> seen;
     for (const CompiledVariant& variant : compiled_variants()) {
         std::map<std::string, int> expected;
