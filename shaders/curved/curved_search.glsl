@@ -20,22 +20,23 @@ void fade_curve(vec3 span) {
 #endif
 
 #if defined(EXACT) || defined(CONE)
-bool find_in_chords(Chords chords, out float part, out vec2 place) {
+// `above`: the ray comes from above the search space.
+bool find_in_chords(Chords chords, bool above, out float part, out vec2 place) {
     float before = chords.first * chords.first;
     vec3 start = place_of_end(chords, before);
-    begins_above = false;
     for (float i = 1.0; i <= chords.count; ++i) {
         float next = end_of_chord(chords, i);
         vec3 end = place_of_end(chords, next);
         vec3 span = end - start;
         vec2 inside = parts_inside(start, span);
         if (inside.x < inside.y) {
+            begins_above = above && inside.x <= 0.0;
             if (find_hit(start + inside.x * span, (inside.y - inside.x) * span, part, place)) {
                 part = mix(before, next, mix(inside.x, inside.y, part));
                 return true;
             }
-            begins_above = ends_above && inside.y >= 1.0;
         }
+        above = inside.x < inside.y && inside.y >= 1.0 && ends_above;
         before = next;
         start = end;
     }
@@ -85,7 +86,7 @@ bool find_on_curve(out float part, out vec2 place) {
         return false;
     }
 #if defined(EXACT) || defined(CONE)
-    return find_in_chords(chords_between(range, metres, 1.0), part, place);
+    return find_in_chords(chords_between(range, metres, 1.0), range.x > begin, part, place);
 #elif defined(PARALLAX)
     return find_at_reference(range, part, place);
 #else
