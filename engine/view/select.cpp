@@ -136,12 +136,13 @@ Box samples_of(const scene::TerrainNode& terrain, std::span<const TileSelection:
     const scene::TileBuilder& builder = terrain.stream->maker();
     const terrain::MinMax range = terrain.surface->pyramid().total();
     Box samples;
-    for (const auto& [tile, distance, error] : drawn) {
+    for (const TileSelection::Drawn& seen : drawn) {
+        const terrain::TreeTile tile = seen.tile->id;
         const auto add = [&](glm::ivec2 vertex, double height) {
-            samples.add(glm::dvec3(builder.on_overview(builder.sample(tile->id, vertex)), height));
+            samples.add(glm::dvec3(builder.on_overview(builder.sample(tile, vertex)), height));
         };
         add({0, 0}, range.low);
-        add(builder.tree().cells(tile->id), range.high);
+        add(builder.tree().cells(tile), range.high);
     }
     return samples;
 }
