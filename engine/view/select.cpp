@@ -222,20 +222,31 @@ private:
             return;
         }
         if (is_on_ellipsoid(terrain)) {
-            const bool is_cut = choice && choice->has_root;
-            draw.course =
-                ray_course(list_.camera, list_.size, world_from_local, terrain.surface->placement(),
-                           is_cut ? samples_of(terrain, choice->drawn)
-                                  : seen_samples(terrain, world_from_local));
-            if (!draw.course) {
-                ++list_.stats.reliefs_as_triangles;
-                if (!choice || !add_streamed(terrain, world_from_local, std::move(*choice))) {
-                    add_tiles(terrain, world_from_local);
-                }
-                return;
-            }
+            add_on_ellipsoid(std::move(draw), std::move(choice));
+        } else {
+            list_.reliefs.push_back(std::move(draw));
         }
-        list_.reliefs.push_back(std::move(draw));
+    }
+
+    void add_on_ellipsoid(ReliefDraw draw, std::optional<TileSelection> choice) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        const Box samples = choice && choice->has_root
+                                ? samples_of(terrain, choice->drawn)
+                                : seen_samples(terrain, draw.world_from_local);
+        if (samples.empty()) {
+            ++list_.stats.skipped.nodes_outside_frustum;
+            return;
+        }
+        draw.course = ray_course(list_.camera, list_.size, draw.world_from_local,
+                                 terrain.surface->placement(), samples);
+        if (draw.course) {
+            list_.reliefs.push_back(std::move(draw));
+            return;
+        }
+        ++list_.stats.reliefs_as_triangles;
+        if (!choice || !add_streamed(terrain, draw.world_from_local, std::move(*choice))) {
+            add_tiles(terrain, draw.world_from_local);
+        }
     }
 
     // The samples of a surface in memory that may be visible.
