@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -38,10 +39,11 @@ struct EarthStage {
     scene::Node* terrain = nullptr;
     scene::Node* camera = nullptr;
 
-    explicit EarthStage(const EarthPlace& place) {
+    explicit EarthStage(const EarthPlace& place) : EarthStage(place, mountains(side)) {}
+    EarthStage(const EarthPlace& place, Grid<float> heights) {
         terrain =
             &add_terrain(scene,
-                         geographic_heightfield(mountains(side), place.latitude, place.longitude,
+                         geographic_heightfield(std::move(heights), place.latitude, place.longitude,
                                                 place.step, place.turn),
                          {}, {.placement = place.placement, .exaggeration = place.exaggeration});
         camera = &scene.add_camera({});

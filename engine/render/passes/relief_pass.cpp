@@ -50,12 +50,17 @@ DrawnSpace space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
     return {moved_to(whole, origin), glm::ivec2(origin), origin, 1.0};
 }
 
-// With the heights of the search space.
+// With the heights of the search space, and what floats round of the heights of rays: a few units
+// of 2^-24 of the eye's. So rays begin above and end below thin surfaces, too.
 Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
+    constexpr double rounding = 0x1p-21;
     const double lowest = space.sample_of_origin.z;
     const double range = space.samples_per_unit.z;
-    return {{course.samples.low.x, course.samples.low.y, lowest + range * space.box.low.z},
-            {course.samples.high.x, course.samples.high.y, lowest + range * space.box.high.z}};
+    const double rounded = rounding * std::abs(course.eye.z - lowest);
+    return {
+        {course.samples.low.x, course.samples.low.y, lowest + range * space.box.low.z - rounded},
+        {course.samples.high.x, course.samples.high.y,
+         lowest + range * space.box.high.z + rounded}};
 }
 
 Box local_box(const view::ReliefDraw& draw, const ReliefSpace& space) {

@@ -75,6 +75,25 @@ TEST_F(CurvedReliefGlTest, ExactShowsTheTrueFirstHitOfExaggeratedGround) {
     expect_true(stage, "exact", "exaggerated");
 }
 
+// Floats of the eye's height are rounded by more than the surface is thick.
+TEST_F(CurvedReliefGlTest, FlatGroundHasNoHolesFromHighAbove) {
+    constexpr int side = EarthStage::side;
+    for (const float relief : {0.0F, 0.002F, 1.0F}) {
+        EarthStage stage({}, test::made_heights(side, side, [&](int col, int) {
+                             return 100.0 + (col % 7 == 3 ? 1.0 : 0.0) * relief;
+                         }));
+        for (const double above : {30.0, 14e3, 2e5}) {
+            stage.look({128.0, 128.0}, above, {129.0, 100.0});
+            for (const char* const technique : {"exact", "cone", "relief"}) {
+                const view::DrawnHits shown = hits(stage, technique);
+                ASSERT_EQ(shown.stats.reliefs_as_triangles, 0) << above;
+                EXPECT_LE(stage.errors(shown.hits).holes, 4U)
+                    << technique << ", " << relief << " m, from " << above << " m";
+            }
+        }
+    }
+}
+
 // As wrong as over a plane.
 TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
     EarthStage bent({.latitude = 45.0});
