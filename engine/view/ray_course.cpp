@@ -259,8 +259,9 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
     if (seen.low.x >= seen.high.x || seen.low.y >= seen.high.y) {
         return std::nullopt;
     }
-    std::vector<glm::dvec3> places;
     const std::vector<glm::dvec3> checked = checked_samples(seen);
+    std::vector<glm::dvec3> places;
+    places.reserve(checked.size() + 1);
     for (const glm::dvec3 sample : checked) {
         places.push_back(placement.world_from_sample(sample));
     }
