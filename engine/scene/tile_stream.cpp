@@ -316,6 +316,7 @@ TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
         const double coarse_texel = made.coarse_texel;
         static_cast<TileSummary&>(made) = maker_.summary(tile, *proof);
         made.coarse_texel = coarse_texel;
+        made.parts = content.parts;
     }
     Made now{std::make_shared<const TerrainTile>(std::move(made)),
              texels_shown(content.picture.texels)};

@@ -37,9 +37,10 @@ struct TileContent {
     bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
     bool is_finest = false;                ///< finer tiles would show nothing more
     bool is_proven = false;                ///< TileStreamOptions::find_proof holds for the heights
-    bool ends_proofs = false;              ///< the proofs are wrong: of no tile is one true
-    std::size_t bytes_read = 0;            ///< from files
-    std::vector<std::string> notes;        ///< new ones: each once in the stream's life
+    std::optional<terrain::PartShares> parts; ///< of that proof's error, if they are known
+    bool ends_proofs = false;                 ///< the proofs are wrong: of no tile is one true
+    std::size_t bytes_read = 0;               ///< from files
+    std::vector<std::string> notes;           ///< new ones: each once in the stream's life
 };
 
 /// What is proven of a tile; absent: nothing. Called from several threads.

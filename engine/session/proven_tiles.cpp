@@ -98,6 +98,9 @@ std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
     scene::TileContent content;
     content.bytes_read = found->bytes_read;
     content.is_proven = found->errors.empty() && found->proof.has_value();
+    if (content.is_proven && tile.level >= level_of_samples_) {
+        content.parts = found->parts;
+    }
     for (const io::FileError& error : found->errors) {
         content.errors.push_back({error.file.string(), error.message});
     }

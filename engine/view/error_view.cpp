@@ -128,10 +128,12 @@ PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
     pixels_per_metre_ = 0.5 * size.y / half_height;
 }
 
-// As above, with a visible A in the box and D = error · u. Over Az, the numerator is at most
-// |(ux, uy)| + |uz| tan(a), where a is A's angle from the middle of the picture. Where the vertical
-// turns by t, D changes by t · error, and this by at most t / cos(a). Az is at least A's distance
-// times cos(a).
+// As above, with a visible A in the box and D = error · u. Over Az, the numerator is
+//   |(ux, uy) - uz (Ax, Ay) / Az|,
+// at most |(ux, uy)| + |uz| tan(a), where a is A's angle from the middle of the picture. With the
+// box's middle M, |(Ax, Ay)/Az - (Mx, My)/Mz| is at most |A - M| / Az · |M| / Mz, which is smaller
+// if the box is. Where the vertical turns by t, D changes by t · error, and this by at most
+// t / cos(a). Az is at least A's distance times cos(a), and the box's depth.
 double PictureError::of(const Places& places) const {
     const double error = stretch_ * places.error;
     if (error == 0.0 || corner_angle_ == 0.0) {
@@ -149,14 +151,26 @@ double PictureError::of(const Places& places) const {
     }
     const glm::dvec3 up = glm::normalize(glm::dmat3(world_from_local_) * places.up);
     const glm::dvec2 across(glm::dot(axes_.right, up), glm::dot(axes_.up, up));
-    const double along = std::abs(glm::dot(axes_.forward, up));
+    const double along = glm::dot(axes_.forward, up);
     const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
-    const double depth = std::max(distance * std::cos(angle), near_);
-    const double depth_of_true_place = depth - error * (along + places.turn);
-    return depth_of_true_place > 0.0
-               ? pixels_per_metre_ * error / depth_of_true_place *
-                     (glm::length(across) + along * std::tan(angle) + places.turn / std::cos(angle))
-               : std::numeric_limits<double>::infinity();
+    const double depth_of_middle = glm::dot(axes_.forward, to_middle);
+    const double depth_of_box =
+        depth_of_middle - 0.5 * glm::dot(glm::abs(axes_.forward), bounds.size());
+    const double depth = std::max({distance * std::cos(angle), depth_of_box, near_});
+    const double depth_of_true_place = depth - error * (std::abs(along) + places.turn);
+    if (!(depth_of_true_place > 0.0)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    double moved = glm::length(across) + std::abs(along) * std::tan(angle);
+    if (depth_of_middle > 0.0) {
+        const glm::dvec2 middle =
+            glm::dvec2(glm::dot(axes_.right, to_middle), glm::dot(axes_.up, to_middle)) /
+            depth_of_middle;
+        const double beside = radius / depth * (distance_of_middle / depth_of_middle);
+        moved = std::min(moved, glm::length(across - along * middle) + std::abs(along) * beside);
+    }
+    return pixels_per_metre_ * error / depth_of_true_place *
+           (moved + places.turn / std::cos(angle));
 }
 
 std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,

@@ -63,6 +63,23 @@ std::size_t max_drawn_of(const scene::TerrainNode& terrain) {
                                                                     : fit;
 }
 
+// The largest share of a tile's error between two places in cells, which one block contains.
+double share_between(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec2 last) {
+    if (!tile.parts) {
+        return terrain::share_of(tile.block_shares, terrain::block_at(glm::ivec2(first)));
+    }
+    const glm::ivec2 low = glm::ivec2(first) / terrain::cells_per_error_part;
+    const glm::ivec2 high = (glm::ivec2(glm::ceil(last)) - 1) / terrain::cells_per_error_part;
+    std::uint8_t share = 0;
+    for (int row = low.y; row <= high.y; ++row) {
+        for (int col = low.x; col <= high.x; ++col) {
+            share = std::max(
+                share, tile.parts->at(static_cast<std::size_t>(row * terrain::error_parts + col)));
+        }
+    }
+    return share / 255.0;
+}
+
 // Heights of the finer tiles below a tile: of all samples, or expected.
 terrain::HeightRange range_below(const scene::TileSummary& tile, double errors) {
     if (tile.is_proven) {
@@ -234,33 +251,33 @@ StreamView::Part StreamView::with_box(const scene::TerrainTile& tile, glm::dvec2
     const glm::dvec2 end(tile.cells);
     const bool is_at_border =
         first.x <= 0.0 || first.y <= 0.0 || last.x >= end.x || last.y >= end.y;
-    const double share = terrain::share_of(tile.block_shares, terrain::block_at(glm::ivec2(first)));
+    const double share = share_between(tile, first, last);
     const double error = is_at_border ? share * tile.error / tile.placement->exaggeration() : 0.0;
     return {first, last,
             terrain::placed_bounds(*tile.placement, first, last,
                                    {drawn.low - error, drawn.high + error})};
 }
 
-double StreamView::largest_error_in(const scene::TerrainTile& tile, const Part& part,
-                                    double largest) const {
-    if (!may_show(part.box)) {
-        return largest;
-    }
-    const double share =
-        terrain::share_of(tile.block_shares, terrain::block_at(glm::ivec2(part.first)));
-    const double error = error_in(part.box, share * tile.error);
+double StreamView::error_of_part(const scene::TerrainTile& tile, const Part& part) const {
+    return error_in(part.box, share_between(tile, part.first, part.last) * tile.error);
+}
+
+// Parts that have shares of their own, and those that are wide for their distance.
+bool StreamView::is_divided(const Part& part) const {
     const glm::dvec2 size = part.last - part.first;
+    const double cells = std::max(size.x, size.y);
     const bool is_near = glm::length(part.box.size()) > near_parts * distance_to(part.box);
-    if (error <= largest || !is_near || std::max(size.x, size.y) <= smallest_part) {
-        return std::max(largest, error);
-    }
-    const glm::dvec2 middle = part.first + 0.5 * size;
-    for (const glm::dvec2 corner : {part.first, glm::dvec2(part.last.x, part.first.y),
-                                    glm::dvec2(part.first.x, part.last.y), part.last}) {
-        largest = largest_error_in(
-            tile, part_of(tile, glm::min(corner, middle), glm::max(corner, middle)), largest);
-    }
-    return largest;
+    return cells > terrain::cells_per_error_part || (is_near && cells > smallest_part);
+}
+
+std::array<StreamView::Part, 4> StreamView::quarters_of(const scene::TerrainTile& tile,
+                                                        const Part& part) {
+    const glm::dvec2 middle = part.first + 0.5 * (part.last - part.first);
+    const auto quarter = [&](glm::dvec2 corner) {
+        return part_of(tile, glm::min(corner, middle), glm::max(corner, middle));
+    };
+    return {quarter(part.first), quarter({part.last.x, part.first.y}),
+            quarter({part.first.x, part.last.y}), quarter(part.last)};
 }
 
 double StreamView::error_in(const Box& box, double error) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -68,10 +69,7 @@ public:
         double largest = 0.0;
         for (int row = 0; row < tile.blocks.rows(); ++row) {
             for (int col = 0; col < tile.blocks.cols(); ++col) {
-                const Part block = block_of(tile, {col, row});
-                if (!is_hidden(block.box)) {
-                    largest = largest_error_in(tile, block, largest);
-                }
+                largest = largest_error_in(tile, block_of(tile, {col, row}), largest, is_hidden);
             }
         }
         return largest;
@@ -102,9 +100,29 @@ private:
                          terrain::HeightRange drawn);
     [[nodiscard]] static Part part_of(const scene::TerrainTile& tile, glm::dvec2 first,
                                       glm::dvec2 last);
-    // Divides parts that are wide for their distance, as long as they may raise `largest`.
+    [[nodiscard]] double error_of_part(const scene::TerrainTile& tile, const Part& part) const;
+    [[nodiscard]] bool is_divided(const Part& part) const;
+    [[nodiscard]] static std::array<Part, 4> quarters_of(const scene::TerrainTile& tile,
+                                                         const Part& part);
+    // Divides parts as long as they may raise `largest`.
+    template <class IsHidden>
     [[nodiscard]] double largest_error_in(const scene::TerrainTile& tile, const Part& part,
-                                          double largest) const;
+                                          double largest, const IsHidden& is_hidden) const {
+        if (!may_show(part.box)) {
+            return largest;
+        }
+        const double error = error_of_part(tile, part);
+        if (error <= largest || is_hidden(part.box)) {
+            return largest;
+        }
+        if (!is_divided(part)) {
+            return error;
+        }
+        for (const Part& quarter : quarters_of(tile, part)) {
+            largest = largest_error_in(tile, quarter, largest, is_hidden);
+        }
+        return largest;
+    }
     [[nodiscard]] double relative_error(const scene::TileSummary& tile) const;
     [[nodiscard]] double pixels_per_metre(double distance) const;
 

@@ -27,7 +27,7 @@ using terrain::TreeTile;
 
 namespace {
 
-constexpr std::uint32_t index_version = 3; // increase when heights or errors change
+constexpr std::uint32_t index_version = 4; // increase when heights or errors change
 
 struct IndexHeader {
     std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
@@ -45,19 +45,22 @@ static_assert(sizeof(IndexHeader) == 48 && std::is_trivially_copyable_v<IndexHea
 struct ProofRecord {
     float low = 0.0F;
     float high = 0.0F;
-    float error = 0.0F;
     std::uint32_t has_voids = 0;
-    std::uint32_t seal = 0;                                    // 0: not written
-    terrain::BlockShares block_shares = terrain::whole_shares; // not at level 0
+    std::uint32_t seal = 0; // 0: not written
+    // Not at level 0:
+    float error = 0.0F;
+    terrain::BlockShares block_shares = terrain::whole_shares;
 };
 static_assert(sizeof(ProofRecord) == 36 && std::is_trivially_copyable_v<ProofRecord>);
 
 constexpr std::size_t bytes_of_proof(int level) {
-    return level > 0 ? sizeof(ProofRecord) : offsetof(ProofRecord, block_shares);
+    return level > 0 ? sizeof(ProofRecord) : offsetof(ProofRecord, error);
 }
 
 constexpr int side_of_heights = tree_tile_cells + 3;
 constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
+constexpr std::size_t bytes_of_parts = sizeof(terrain::PartShares);
+constexpr std::size_t floats_of_tile = floats_of_heights + bytes_of_parts / sizeof(float);
 constexpr int side_of_residuals = terrain::chunk_cells >> levels_per_chunk;
 constexpr std::size_t floats_of_residuals = std::size_t{2} * side_of_residuals * side_of_residuals;
 
@@ -165,8 +168,8 @@ ErrorIndex::ErrorIndex(const IndexSource& source, Descriptor file)
         end += count_of(level_tiles(tree_, level)) * bytes_of_proof(level);
     }
     for (int level = first_stored_level; level <= tree_.root().level; ++level) {
-        places_[static_cast<std::size_t>(level)].heights = end;
-        end += count_of(level_tiles(tree_, level)) * bytes_of_block(floats_of_heights);
+        places_[static_cast<std::size_t>(level)].tiles = end;
+        end += count_of(level_tiles(tree_, level)) * bytes_of_block(floats_of_tile);
     }
     interim_ = end;
     for (int level = levels_per_chunk; level < tree_.root().level; level += levels_per_chunk) {
@@ -250,10 +253,10 @@ std::uint64_t ErrorIndex::proof_at(TreeTile tile) const {
                bytes_of_proof(tile.level);
 }
 
-std::uint64_t ErrorIndex::heights_at(TreeTile tile) const {
-    return places_[static_cast<std::size_t>(tile.level)].heights +
+std::uint64_t ErrorIndex::tile_at(TreeTile tile) const {
+    return places_[static_cast<std::size_t>(tile.level)].tiles +
            index_in(level_tiles(tree_, tile.level), tile.col, tile.row) *
-               bytes_of_block(floats_of_heights);
+               bytes_of_block(floats_of_tile);
 }
 
 std::uint64_t ErrorIndex::residuals_at(Chunk chunk) const {
@@ -324,13 +327,17 @@ std::optional<TileProof> ErrorIndex::find(TreeTile tile) const {
                : std::nullopt;
 }
 
-std::optional<Grid<float>> ErrorIndex::heights(TreeTile tile) const {
+std::optional<ErrorIndex::StoredTile> ErrorIndex::stored(TreeTile tile) const {
     if (tile.level < first_stored_level || !has_level(tile.level)) {
         return std::nullopt;
     }
-    const auto block = read_block(heights_at(tile), floats_of_heights);
-    return block ? std::optional(grid_from(*block, tree_.cells(tile) + 3, side_of_heights))
-                 : std::nullopt;
+    const auto block = read_block(tile_at(tile), floats_of_tile);
+    if (!block) {
+        return std::nullopt;
+    }
+    StoredTile stored{grid_from(*block, tree_.cells(tile) + 3, side_of_heights)};
+    std::memcpy(stored.parts.data(), block->data() + floats_of_heights, bytes_of_parts);
+    return stored;
 }
 
 std::optional<terrain::Residuals> ErrorIndex::residuals(Chunk chunk) const {
@@ -367,9 +374,12 @@ Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<Ti
     for (int row = 0; row < tiles.rows(); ++row) {
         for (int col = 0; col < tiles.cols(); ++col) {
             const TileProof& proof = tiles(col, row);
-            ProofRecord record{proof.low,   proof.high,
-                               proof.error, proof.has_voids ? 1U : 0U,
-                               0,           level > 0 ? proof.block_shares : terrain::whole_shares};
+            ProofRecord record{
+                .low = proof.low, .high = proof.high, .has_voids = proof.has_voids ? 1U : 0U};
+            if (level > 0) {
+                record.error = proof.error;
+                record.block_shares = proof.block_shares;
+            }
             record.seal = seal_of(record, {level, first.x + col, first.y + row}, fingerprint_);
             std::memcpy(records.data() + size * static_cast<std::size_t>(col), &record, size);
         }
@@ -380,20 +390,21 @@ Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<Ti
     return {};
 }
 
-Result<void> ErrorIndex::write_heights(int level, glm::ivec2 first,
-                                       const terrain::ChunkLevel& made) {
+Result<void> ErrorIndex::write_tiles(int level, glm::ivec2 first, const terrain::ChunkLevel& made) {
     for (int row = 0; row < made.tiles.rows(); ++row) {
         for (int col = 0; col < made.tiles.cols(); ++col) {
             const TreeTile tile{level, first.x + col, first.y + row};
             const glm::ivec2 size = tree_.cells(tile) + 3;
-            std::vector<float> floats(floats_of_heights);
+            std::vector<float> floats(floats_of_tile);
+            std::memcpy(floats.data() + floats_of_heights, made.parts(col, row).data(),
+                        bytes_of_parts);
             const glm::ivec2 from = glm::ivec2(col, row) * tree_tile_cells + (made.border - 1);
             for (int y = 0; y < size.y; ++y) {
                 const auto heights = made.heights.row(from.y + y);
                 std::copy_n(heights.begin() + from.x, size.x,
                             floats.begin() + std::ptrdiff_t{y} * side_of_heights);
             }
-            if (auto written = write_block(heights_at(tile), std::move(floats)); !written) {
+            if (auto written = write_block(tile_at(tile), std::move(floats)); !written) {
                 return written;
             }
         }
@@ -414,7 +425,7 @@ Result<void> ErrorIndex::write(Chunk chunk, const terrain::ChunkProof& proof) {
         }
     };
     for_each_level([&](int level, glm::ivec2 corner, const terrain::ChunkLevel& made) {
-        return level >= first_stored_level ? write_heights(level, corner, made) : Result<void>();
+        return level >= first_stored_level ? write_tiles(level, corner, made) : Result<void>();
     });
     if (written && chunk.base + levels_per_chunk < tree_.root().level) {
         const terrain::Residuals& residuals = proof.levels.back().residuals;
@@ -459,9 +470,12 @@ std::vector<ErrorIndex::Level> ErrorIndex::levels() const {
 }
 
 std::uint64_t ErrorIndex::bytes_of_proofs() const {
-    return places_.size() > static_cast<std::size_t>(first_stored_level)
-               ? places_[first_stored_level].heights
-               : interim_;
+    std::uint64_t bytes = interim_;
+    for (int level = first_stored_level; level <= tree_.root().level; ++level) {
+        bytes -=
+            count_of(level_tiles(tree_, level)) * (bytes_of_block(floats_of_tile) - bytes_of_parts);
+    }
+    return bytes;
 }
 
 std::uint64_t ErrorIndex::bytes_of_heights() const {

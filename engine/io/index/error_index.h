@@ -50,9 +50,12 @@ public:
 
     /// Absent: unproven.
     [[nodiscard]] std::optional<terrain::TileProof> find(terrain::TreeTile tile) const;
-    /// At the vertices of a tile and one step around them; NaN: void. Absent below
-    /// first_stored_level.
-    [[nodiscard]] std::optional<Grid<float>> heights(terrain::TreeTile tile) const;
+    struct StoredTile {
+        Grid<float> heights;         ///< at the tile's vertices and one step around them; NaN: void
+        terrain::PartShares parts{}; ///< of its proof
+    };
+    /// Absent below first_stored_level.
+    [[nodiscard]] std::optional<StoredTile> stored(terrain::TreeTile tile) const;
     /// Whether nothing is left to write, apart from damage.
     [[nodiscard]] bool is_complete() const { return is_complete_; }
 
@@ -81,13 +84,13 @@ public:
 private:
     struct Place { // bytes from the start of the file
         std::uint64_t proofs = 0;
-        std::uint64_t heights = 0;
+        std::uint64_t tiles = 0;
         std::uint64_t residuals = 0; // of chunks whose highest level it is
     };
     ErrorIndex(const IndexSource& source, Descriptor file);
     [[nodiscard]] bool has_level(int level) const;
     [[nodiscard]] std::uint64_t proof_at(terrain::TreeTile tile) const;
-    [[nodiscard]] std::uint64_t heights_at(terrain::TreeTile tile) const;
+    [[nodiscard]] std::uint64_t tile_at(terrain::TreeTile tile) const;
     [[nodiscard]] std::uint64_t residuals_at(terrain::Chunk chunk) const;
     [[nodiscard]] bool read_at(std::uint64_t place, std::span<std::byte> bytes) const;
     Result<void> write_at(std::uint64_t place, std::span<const std::byte> bytes);
@@ -95,7 +98,7 @@ private:
                                                                std::size_t floats) const;
     Result<void> write_block(std::uint64_t place, std::vector<float> floats);
     Result<void> write_proofs(int level, glm::ivec2 first, const Grid<terrain::TileProof>& tiles);
-    Result<void> write_heights(int level, glm::ivec2 first, const terrain::ChunkLevel& made);
+    Result<void> write_tiles(int level, glm::ivec2 first, const terrain::ChunkLevel& made);
     [[nodiscard]] std::string header(bool is_complete) const;
     [[nodiscard]] Error error(const char* what) const;
 

@@ -62,11 +62,12 @@ bool add_heights(const terrain::TileTree& tree, const ErrorIndex& index, int lev
         glm::min((base.first + size - 1) / tree_tile_cells, level_tiles(tree, level) - 1);
     for (int row = base.first.y / tree_tile_cells; row <= last.y; ++row) {
         for (int col = base.first.x / tree_tile_cells; col <= last.x; ++col) {
-            const auto heights = index.heights({level, col, row});
-            if (!heights) {
+            const auto stored = index.stored({level, col, row});
+            if (!stored) {
                 return false;
             }
-            put(*heights, glm::ivec2(col, row) * tree_tile_cells - 1 - base.first, base.heights);
+            put(stored->heights, glm::ivec2(col, row) * tree_tile_cells - 1 - base.first,
+                base.heights);
         }
     }
     return true;
@@ -278,11 +279,12 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
     IndexedTile result;
     Grid<float> samples;
     if (tile.level >= ErrorIndex::first_stored_level) {
-        auto heights = index.heights(tile);
-        if (!heights) {
+        auto stored = index.stored(tile);
+        if (!stored) {
             return std::nullopt;
         }
-        result.heights = std::move(*heights);
+        result.heights = std::move(stored->heights);
+        result.parts = stored->parts;
     } else {
         const int border = terrain::sample_border(tile.level);
         const glm::ivec2 size =
@@ -307,11 +309,15 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
         result.heights = heights_from_samples(source.tree, tile, samples);
     }
     result.proof = index.find(tile);
-    const auto wrong = result.proof && result.errors.empty()
-                           ? contradiction(source.tree, tile, *result.proof, result.heights,
-                                           samples.empty() ? nullptr : &samples)
-                           : std::nullopt;
-    if (wrong) {
+    if (!result.proof || !result.errors.empty()) {
+        return result;
+    }
+    const terrain::ProofCheck check = check_proof(source.tree, tile, *result.proof, result.heights,
+                                                  samples.empty() ? nullptr : &samples);
+    if (check.parts) {
+        result.parts = *check.parts;
+    }
+    if (const auto& wrong = check.contradiction) {
         result.proof.reset();
         result.errors.push_back(
             {source.file,

@@ -30,6 +30,7 @@ Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions&
 struct IndexedTile {
     Grid<float> heights; ///< at its vertices and one step around them, metres; NaN: void
     std::optional<terrain::TileProof> proof; ///< absent: unproven
+    terrain::PartShares parts{};             ///< of the proof
     std::vector<FileError> errors;           ///< then the heights are unusable
     std::size_t bytes_read = 0;              ///< of samples
 };

@@ -5,7 +5,6 @@
 
 #include <glm/common.hpp>
 
-#include "engine/io/raster/sample_decoder.h"
 #include "engine/io/remote/read_scope.h"
 
 namespace reljef::io {
@@ -28,7 +27,7 @@ bool is_readable(GDALDataset& dataset, const IndexSource& source) {
     GDALRasterBand& band = *dataset.GetRasterBand(1);
     const GDALDataType type = band.GetRasterDataType();
     const TileFile& file = source.tiles.files().front();
-    return (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16) &&
+    return (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32) &&
            kind_of_values(dataset) == ValueKind::plain &&
            (band.GetMaskFlags() & GMF_PER_DATASET) == 0 &&
            height_encoding_of(file.path.string()) == HeightEncoding::none &&
@@ -49,6 +48,9 @@ void SampleWindow::copy_row(int row, std::span<float> heights) const {
         for (std::size_t i = 0; i < count; ++i) {
             into[i] = table[codes[i]];
         }
+    } else if (floats_ != nullptr) {
+        std::copy_n(floats_.get() + static_cast<std::size_t>(inside) * count, count,
+                    heights.begin() + before_.x);
     } else {
         const auto from = heights_.row(inside);
         std::transform(from.begin(), from.end(), heights.begin() + before_.x,
@@ -80,28 +82,44 @@ std::optional<SampleSource::Direct> SampleSource::open_direct(const IndexSource&
     if (!decoder) {
         return std::nullopt;
     }
-    GDALRasterBand& band = *(*dataset)->GetRasterBand(1);
-    Direct direct{std::move(*dataset),
-                  *first_pixel,
-                  band.GetRasterDataType() == GDT_Int16 ? GDT_Int16 : GDT_UInt16,
-                  {},
-                  {}};
+    const GDALDataType type = (*dataset)->GetRasterBand(1)->GetRasterDataType();
+    Direct direct{std::move(*dataset), *first_pixel, std::move(*decoder),
+                  type == GDT_Byte ? GDT_UInt16 : type};
+    if (type != GDT_Float32) {
+        add_codes(direct);
+    }
+    constexpr std::size_t max_contextual_codes = 2; // each is searched in all samples
+    return direct.contextual_codes.size() <= max_contextual_codes ? std::optional(std::move(direct))
+                                                                  : std::nullopt;
+}
+
+void SampleSource::add_codes(Direct& direct) {
+    GDALRasterBand& band = *direct.dataset->GetRasterBand(1);
     std::vector<float> heights(code_count);
     for (int code = 0; code < code_count; ++code) {
         double height = value_of(code, direct.type);
         const bool is_void = is_void_anywhere(height, band);
-        decoder->decode({&height, 1}, {}, {});
+        direct.decoder.decode({&height, 1}, {}, {});
         heights[static_cast<std::size_t>(code)] = static_cast<float>(height);
         if (std::isnan(height) && !is_void) {
             direct.contextual_codes.push_back(static_cast<std::uint16_t>(code));
         }
     }
     direct.height_of_code = std::make_shared<const std::vector<float>>(std::move(heights));
-    constexpr std::size_t max_contextual_codes = 2; // each is searched in all samples
-    return direct.contextual_codes.size() <= max_contextual_codes ? std::optional(std::move(direct))
-                                                                  : std::nullopt;
 }
 
+bool SampleSource::read_stored(glm::ivec2 first, glm::ivec2 size, void* values,
+                               const std::stop_token& stop) const {
+    const std::lock_guard lock(mutex_);
+    const ReadScope scope(stop);
+    const GdalMessages messages;
+    const bool read =
+        read_window(*direct_->dataset->GetRasterBand(1),
+                    {direct_->first_pixel + first, size, values, size, direct_->type});
+    return read && messages.errors() == 0 && !messages.has_lost_blocks();
+}
+
+// False: the other way tells why.
 bool SampleSource::read_direct(glm::ivec2 first, SampleWindow& window,
                                const std::stop_token& stop) const {
     if (!direct_) {
@@ -109,17 +127,14 @@ bool SampleSource::read_direct(glm::ivec2 first, SampleWindow& window,
     }
     const std::size_t count =
         static_cast<std::size_t>(window.size_.x) * static_cast<std::size_t>(window.size_.y);
+    if (direct_->type == GDT_Float32) {
+        window.floats_ = std::make_unique_for_overwrite<float[]>(count);
+        return read_stored(first, window.size_, window.floats_.get(), stop) &&
+               direct_->decoder.decode_floats({window.floats_.get(), count});
+    }
     window.codes_ = std::make_unique_for_overwrite<std::uint16_t[]>(count);
-    {
-        const std::lock_guard lock(mutex_);
-        const ReadScope scope(stop);
-        const GdalMessages messages;
-        const bool read = read_window(*direct_->dataset->GetRasterBand(1),
-                                      {direct_->first_pixel + first, window.size_,
-                                       window.codes_.get(), window.size_, direct_->type});
-        if (!read || messages.errors() > 0 || messages.has_lost_blocks()) {
-            return false; // the other way tells why
-        }
+    if (!read_stored(first, window.size_, window.codes_.get(), stop)) {
+        return false;
     }
     for (const std::uint16_t code : direct_->contextual_codes) {
         int found = 0;
@@ -150,6 +165,7 @@ SampleWindow SampleSource::read(glm::ivec2 first, glm::ivec2 size,
         window.heights_ = std::move(read.heights);
         window.errors_ = std::move(read.errors);
         window.codes_.reset();
+        window.floats_.reset();
     }
     return window;
 }

@@ -264,6 +264,43 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
     }
 }
 
+bool SampleDecoder::decode_floats(std::span<float> stored) const {
+    // A declared void and the lowest numbers, and those whose meaning is unknown; NaN equals none.
+    std::array<float, 3> voids{};
+    std::array<float, usual_voids.size()> unknown{};
+    voids.fill(std::numeric_limits<float>::quiet_NaN());
+    unknown.fill(std::numeric_limits<float>::quiet_NaN());
+    std::size_t known = 0;
+    if (nodata_) {
+        voids.at(known++) = static_cast<float>(*nodata_);
+    }
+    for (std::size_t i = 0; i < usual_.size(); ++i) {
+        const double value = usual_[i].value;
+        if (value == nodata_) {
+            continue;
+        }
+        (is_lowest(value) ? voids.at(known++) : unknown.at(i)) = static_cast<float>(value);
+    }
+    // Plain pointers and no branches: vector code.
+    float* const values = stored.data();
+    int found = 0;
+    for (std::size_t i = 0; i < stored.size(); ++i) {
+        for (const float value : unknown) {
+            found |= values[i] == value ? 1 : 0;
+        }
+    }
+    for (std::size_t i = 0; found == 0 && i < stored.size(); ++i) {
+        const double height = scale_ * static_cast<double>(values[i]) + offset_;
+        int is_void = std::abs(height) <= highest_height ? 0 : 1;
+        for (const float value : voids) {
+            is_void |= values[i] == value ? 1 : 0;
+        }
+        values[i] =
+            is_void != 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height);
+    }
+    return found == 0;
+}
+
 std::vector<double> SampleDecoder::isolated_voids(std::span<const double> stored) const {
     const auto is_height = [&](double value) {
         return std::abs(value) <= highest_height && value != nodata_ &&

@@ -51,6 +51,11 @@ public:
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
+    /// As decode() of plain values without a mask, but counts nothing. False, and then nothing is
+    /// decoded, if there are usual voids whose meaning depends on the whole file
+    /// (isolated_voids()).
+    [[nodiscard]] bool decode_floats(std::span<float> stored) const;
+
     /// Whether the value type can hold undeclared voids.
     [[nodiscard]] bool can_find_voids() const { return !usual_.empty() || floating_; }
 

@@ -51,6 +51,8 @@ struct TerrainTile : TileSummary {
     Image albedo;                 ///< edge to edge, at least one texel per vertex, sRGB
     Grid<terrain::MinMax> blocks; ///< of cells_per_block cells a side; smaller at the far sides
     bool of_overview = false;     ///< the heights are TileBuilder::overview_heights
+    /// Of `error`, if it is proven; absent: block_shares tell as much as is known.
+    std::optional<terrain::PartShares> parts;
     /// Over its heights, from 0 to 1; null until a view needs them.
     std::shared_ptr<const material::ConeMaps> cones;
 

@@ -10,18 +10,11 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/terrain/tree/level_residuals.h"
 #include "engine/terrain/tree/level_step.h"
 
 namespace reljef::terrain {
 namespace {
-
-LastCell last_cell(int last_sample, int level, int first_cell, int cells) {
-    const int step = 1 << level;
-    const int cut = (last_sample - 1) / step;
-    const int width = last_sample - cut * step;
-    const bool is_here = cut >= first_cell && cut < first_cell + cells && width < step;
-    return is_here ? LastCell{cut - first_cell, std::min(1.0, 0.5 * step / width)} : LastCell{};
-}
 
 /// Ranges of the base level's heights: of each tile, and the largest of all.
 class BaseRanges {
@@ -82,11 +75,13 @@ private:
     float largest_ = 0.0F;
 };
 
-using BlockErrors = std::array<float, std::tuple_size_v<BlockShares>>; // metres
+/// Metres, of the parts of a tile.
+using PartErrors = std::array<float, std::tuple_size_v<PartShares>>;
+using BlockErrors = std::array<float, std::tuple_size_v<BlockShares>>;
 
-/// The largest distance from the surface in each block of each tile.
-Grid<BlockErrors> block_errors(const Residuals& residuals, glm::ivec2 tiles) {
-    Grid<BlockErrors> blocks(tiles.x, tiles.y);
+/// The largest distance from the surface in each part of each tile.
+Grid<PartErrors> part_errors(const Residuals& residuals, glm::ivec2 tiles) {
+    Grid<PartErrors> parts(tiles.x, tiles.y);
     std::vector<float> errors(static_cast<std::size_t>(residuals.low.cols()));
     for (int row = 0; row < residuals.low.rows(); ++row) {
         const float* const low = residuals.low.row(row).data();
@@ -95,49 +90,74 @@ Grid<BlockErrors> block_errors(const Residuals& residuals, glm::ivec2 tiles) {
         for (std::size_t i = 0; i < errors.size(); ++i) {
             error[i] = higher(higher(error[i], -low[i]), high[i]);
         }
-        if (row % cells_per_error_block != cells_per_error_block - 1 &&
+        if (row % cells_per_error_part != cells_per_error_part - 1 &&
             row != residuals.low.rows() - 1) {
             continue;
         }
         for (int col = 0; col < residuals.low.cols(); ++col) {
-            const int block = row % tree_tile_cells / cells_per_error_block * error_blocks +
-                              col % tree_tile_cells / cells_per_error_block;
-            float& largest = blocks(col / tree_tile_cells,
-                                    row / tree_tile_cells)[static_cast<std::size_t>(block)];
+            const int part = row % tree_tile_cells / cells_per_error_part * error_parts +
+                             col % tree_tile_cells / cells_per_error_part;
+            float& largest =
+                parts(col / tree_tile_cells, row / tree_tile_cells)[static_cast<std::size_t>(part)];
             float& found = errors[static_cast<std::size_t>(col)];
             largest = higher(largest, std::exchange(found, 0.0F));
         }
     }
+    return parts;
+}
+
+BlockErrors block_errors(const PartErrors& parts) {
+    constexpr int parts_per_block = error_parts / error_blocks;
+    BlockErrors blocks{};
+    for (int i = 0; i < error_parts * error_parts; ++i) {
+        const int block =
+            i / error_parts / parts_per_block * error_blocks + i % error_parts / parts_per_block;
+        float& largest = blocks.at(static_cast<std::size_t>(block));
+        largest = higher(largest, parts.at(static_cast<std::size_t>(i)));
+    }
     return blocks;
 }
 
+/// Errors as shares of the largest one. `rounding`: metres, of each error.
+template <std::size_t count>
+std::array<std::uint8_t, count> shares_of(const std::array<float, count>& errors, float rounding,
+                                          float largest) {
+    std::array<std::uint8_t, count> shares{};
+    for (std::size_t i = 0; i < count && largest > 0.0F; ++i) {
+        const float share = std::ceil(255.0F * ((errors.at(i) + rounding) / largest));
+        shares.at(i) = static_cast<std::uint8_t>(std::min(share + 1.0F, 255.0F)); // the division
+    }
+    return shares;
+}
+
 /// `rounding`: metres, of each error.
-void set_errors(const BlockErrors& errors, float rounding, TileProof& tile) {
+PartShares set_errors(const PartErrors& errors, float rounding, TileProof& tile) {
     const float largest = *std::max_element(errors.begin(), errors.end());
     const bool is_exact = tile.low >= tile.high && largest == 0.0F; // means of equal heights
     tile.error = is_exact ? 0.0F : std::nextafter(largest + rounding, infinite);
-    std::transform(errors.begin(), errors.end(), tile.block_shares.begin(), [&](float error) {
-        const float share = is_exact ? 0.0F : std::ceil(255.0F * ((error + rounding) / tile.error));
-        return static_cast<std::uint8_t>(std::min(share + 1.0F, 255.0F)); // for the division
-    });
+    tile.block_shares = shares_of(block_errors(errors), rounding, tile.error);
+    return shares_of(errors, rounding, tile.error);
 }
 
-/// Tiles of a level from the tiles below it and from its residuals. `rounding`: metres.
-Grid<TileProof> tiles_of(const Grid<TileProof>& below, const Residuals& residuals, float rounding) {
-    Grid<TileProof> tiles((below.cols() + 1) / 2, (below.rows() + 1) / 2);
+/// Tiles of a level, and their parts, from the tiles below it and from its residuals. `rounding`:
+/// metres.
+void add_tiles(const Grid<TileProof>& below, float rounding, ChunkLevel& level) {
+    level.tiles = Grid<TileProof>((below.cols() + 1) / 2, (below.rows() + 1) / 2);
+    level.parts = Grid<PartShares>(level.tiles.cols(), level.tiles.rows());
     for (int row = 0; row < below.rows(); ++row) {
         for (int col = 0; col < below.cols(); ++col) {
-            TileProof& tile = tiles(col / 2, row / 2);
+            TileProof& tile = level.tiles(col / 2, row / 2);
             tile.low = lower(tile.low, below(col, row).low);
             tile.high = higher(tile.high, below(col, row).high);
             tile.has_voids = tile.has_voids || below(col, row).has_voids;
         }
     }
-    const Grid<BlockErrors> errors = block_errors(residuals, {tiles.cols(), tiles.rows()});
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        set_errors(errors.samples()[i], rounding, tiles.samples()[i]);
+    const Grid<PartErrors> errors =
+        part_errors(level.residuals, {level.tiles.cols(), level.tiles.rows()});
+    for (std::size_t i = 0; i < level.tiles.size(); ++i) {
+        level.parts.samples()[i] =
+            set_errors(errors.samples()[i], rounding, level.tiles.samples()[i]);
     }
-    return tiles;
 }
 
 void widen(Residuals& residuals, float rounding) {
@@ -147,16 +167,43 @@ void widen(Residuals& residuals, float rounding) {
     }
 }
 
-VertexRows rows_of(const Grid<float>& heights) {
-    return [&heights](int row, std::span<float> into) {
-        std::copy(heights.row(row).begin(), heights.row(row).end(), into.begin());
-    };
+// Of errors of a level, in units of the largest height, 2^-24 each for: shares along both axes (4
+// and 4: two products, their sum, and the share itself), the difference of heights (2), and its sum
+// with a residual (4).
+constexpr float rounding_of_errors = 14.0F / 16777216.0F;
+
+// Of heights of the next level, 2^-24 of the largest for each of nine sums.
+constexpr float rounding_per_level = 9.0F / 16777216.0F;
+
+/// The rows of a chunk's base, with their ranges.
+Grid<float> base_of(const ChunkInput& input, glm::ivec2 vertices, BaseRanges& ranges) {
+    Grid<float> base(vertices.x, vertices.y);
+    for (int row = 0; row < vertices.y; ++row) {
+        input.heights(row, base.row(row));
+        ranges.add(row, base.row(row), row == vertices.y - 1);
+    }
+    return base;
 }
 
-// Rounding of a step upwards, in units of the largest height: 2^-24 for each of three means (of two
-// heights, and of two such means), twice that for the difference of heights, and four times for the
-// sum of two differences.
-constexpr float rounding_per_level = 9.0F / 16777216.0F;
+/// A level of a chunk, `levels` above its base, without tiles. `finer`: the level below it.
+ChunkLevel level_above(const TileTree& tree, Chunk chunk, int levels, const Grid<float>& finer,
+                       const BorderedHeights& base, const Residuals* of_base) {
+    const glm::ivec2 corner = first_vertex(chunk);
+    const glm::ivec2 first = corner / (1 << levels);
+    const glm::ivec2 cells = chunk_size(tree, chunk) / (1 << levels);
+    ChunkLevel level;
+    level.heights = coarser_heights(finer);
+    level.border = (level.heights.rows() - cells.y - 1) / 2;
+    repeat_border(level.heights, first - level.border, level_cells(tree, chunk.base + levels));
+    const glm::ivec2 base_last = level_cells(tree, chunk.base) - corner;
+    const glm::ivec2 last = glm::ivec2(tree.cols(), tree.rows()) - 1 - corner * (1 << chunk.base);
+    level.residuals =
+        residuals_over(base, of_base, {level.heights, level.border},
+                       {coarser_axis(chunk.base, levels, cells.x, base_last.x, last.x),
+                        coarser_axis(chunk.base, levels, cells.y, base_last.y, last.y)},
+                       cells);
+    return level;
+}
 
 } // namespace
 
@@ -185,44 +232,31 @@ glm::ivec2 chunk_size(const TileTree& tree, Chunk chunk) {
 }
 
 ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& input) {
-    const glm::ivec2 last(tree.cols() - 1, tree.rows() - 1);
     const glm::ivec2 size = chunk_size(tree, chunk);
     const glm::ivec2 vertices = size + 1 + 2 * chunk_border;
     const glm::ivec2 base_tiles =
         glm::min(level_tiles(tree, chunk.base) - first_vertex(chunk) / tree_tile_cells,
                  glm::ivec2(chunk_cells / tree_tile_cells));
     BaseRanges ranges(base_tiles, vertices.x);
+    const Grid<float> base = base_of(input, vertices, ranges);
     ChunkProof proof;
-    FinerLevel finer{[&](int row, std::span<float> heights) {
-                         input.heights(row, heights);
-                         ranges.add(row, heights, row == vertices.y - 1);
-                     },
-                     vertices, input.residuals};
+    const Grid<float>* finer = &base;
     for (int i = 0; i < levels_per_chunk; ++i) {
-        const int level = chunk.base + i + 1;
-        const glm::ivec2 first = first_vertex(chunk) / (2 << i);
-        const glm::ivec2 cells = size / (2 << i);
-        const glm::ivec2 end = level_cells(tree, level);
-        const std::array cuts{last_cell(last.x, level, first.x, cells.x),
-                              last_cell(last.y, level, first.y, cells.y)};
         ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
-        made = coarser_level(finer, cells, glm::min(cells, end - first), cuts);
-        repeat_border(made.heights, first - made.border, end);
-        finer = {
-            rows_of(made.heights), {made.heights.cols(), made.heights.rows()}, &made.residuals};
+        made = level_above(tree, chunk, i + 1, *finer, {base, chunk_border}, input.residuals);
+        finer = &made.heights;
     }
     const Grid<TileProof>* below = input.tiles != nullptr ? input.tiles : &ranges.tiles();
     float largest = ranges.largest();
     for (const TileProof& tile : below->samples()) {
         largest = higher(higher(largest, tile.high), -tile.low);
     }
-    for (int i = 0; i < levels_per_chunk; ++i) {
-        ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
-        const float rounding = largest * rounding_per_level * static_cast<float>(i + 1);
-        made.tiles = tiles_of(*below, made.residuals, rounding);
+    const float rounding = largest * rounding_of_errors;
+    for (ChunkLevel& made : proof.levels) {
+        add_tiles(*below, rounding, made);
         below = &made.tiles;
     }
-    widen(proof.levels.back().residuals, largest * rounding_per_level * levels_per_chunk);
+    widen(proof.levels.back().residuals, rounding);
     proof.base = input.tiles != nullptr ? Grid<TileProof>() : std::move(ranges.tiles());
     return proof;
 }
@@ -245,6 +279,11 @@ Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float
 }
 
 namespace {
+
+/// Between two heights; one that has no share may be a void.
+float mixed(float a, float b, double share) {
+    return share == 1.0 ? b : static_cast<float>(glm::mix<double>(a, b, share));
+}
 
 /// Bilinear on a tile; vertices without a share may be voids.
 float surface_at(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
@@ -269,8 +308,21 @@ std::string found_text(const char* what, double found, double expected) {
 /// What a proof claims, as found in all samples of a tile.
 struct FoundInSamples {
     TileProof proof; // without errors
-    BlockErrors errors{};
+    PartErrors errors{};
 };
+
+// A sample between cells belongs to all of them.
+void add_error(glm::ivec2 from_first, int step, glm::ivec2 cells, float error, PartErrors& errors) {
+    const glm::ivec2 last = glm::min(from_first / step, cells - 1) / cells_per_error_part;
+    const glm::ivec2 first =
+        glm::min(glm::max(from_first - 1, glm::ivec2(0)) / step, cells - 1) / cells_per_error_part;
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
+            float& largest = errors.at(static_cast<std::size_t>(row * error_parts + col));
+            largest = higher(largest, error);
+        }
+    }
+}
 
 FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
                         const Grid<float>& samples) {
@@ -288,12 +340,17 @@ FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& 
             const float difference = height - surface_at(tree, tile, heights, {col, row});
             found.proof.low = lower(found.proof.low, height);
             found.proof.high = higher(found.proof.high, height);
-            const glm::ivec2 cell = (glm::ivec2(col, row) - first) / TileTree::step(tile);
-            float& error = found.errors.at(block_at(glm::min(cell, tree.cells(tile) - 1)));
-            error = higher(error, std::abs(difference));
+            add_error(glm::ivec2(col, row) - first, TileTree::step(tile), tree.cells(tile),
+                      std::abs(difference), found.errors);
         }
     }
     return found;
+}
+
+float rounding_of(const TileProof& proof) {
+    return proof.low > proof.high
+               ? 0.0F
+               : rounding_of_errors * higher(std::abs(proof.low), std::abs(proof.high));
 }
 
 /// Compares a proof with all samples of the tile.
@@ -308,11 +365,12 @@ std::optional<std::string> contradiction_of_samples(const TileProof& proof,
         return proof.has_voids ? "voids found, none were expected"
                                : "no voids found, some were expected";
     }
-    const float rounding = rounding_per_level * higher(std::abs(found.low), std::abs(found.high));
-    for (std::size_t i = 0; i < errors.size(); ++i) {
+    const float rounding = rounding_of(found);
+    const BlockErrors blocks = block_errors(errors);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
         const auto proven = static_cast<float>(proof.block_error(i));
-        if (errors[i] > proven + rounding) {
-            return found_text("an error", proven, errors[i]);
+        if (blocks.at(i) > proven + rounding) {
+            return found_text("an error", proven, blocks.at(i));
         }
     }
     return std::nullopt;
@@ -340,24 +398,26 @@ std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeT
 
 } // namespace
 
-std::optional<std::string> contradiction(const TileTree& tree, TreeTile tile,
-                                         const TileProof& proof, const Grid<float>& heights,
-                                         const Grid<float>* samples) {
+ProofCheck check_proof(const TileTree& tree, TreeTile tile, const TileProof& proof,
+                       const Grid<float>& heights, const Grid<float>* samples) {
     const bool is_void = proof.low == infinite && proof.high == -infinite;
     const bool is_range =
         std::isfinite(proof.low) && std::isfinite(proof.high) && proof.low <= proof.high;
     if (!is_void && !is_range) {
-        return fmt::format("heights from {} to {} m found, a range was expected", proof.low,
-                           proof.high);
+        return {fmt::format("heights from {} to {} m found, a range was expected", proof.low,
+                            proof.high),
+                {}};
     }
     if (!(proof.error >= 0.0F) || std::isinf(proof.error)) {
-        return found_text("an error", proof.error, 0.0);
+        return {found_text("an error", proof.error, 0.0), {}};
     }
-    if (samples != nullptr || tile.level == 0) {
-        return contradiction_of_samples(
-            proof, found_in(tree, tile, heights, samples != nullptr ? *samples : heights));
+    if (samples == nullptr && tile.level > 0) {
+        return {contradiction_of_vertices(tree, tile, proof, heights), {}};
     }
-    return contradiction_of_vertices(tree, tile, proof, heights);
+    const FoundInSamples found =
+        found_in(tree, tile, heights, samples != nullptr ? *samples : heights);
+    return {contradiction_of_samples(proof, found),
+            shares_of(found.errors, rounding_of(found.proof), proof.error)};
 }
 
 } // namespace reljef::terrain

@@ -20,9 +20,9 @@
 // away, so that a piece of the raster needs only a narrow border.
 //
 // Lattices are nested: the difference of two levels is bilinear in each cell of the finer one, and
-// extreme at its vertices. Going up, each cell keeps the range of the difference of its samples
-// from the surface. It is exact at the level above the samples. After that, the range of a coarser
-// cell joins those of its finer cells, each moved by the range of the difference of the two levels.
+// extreme at its vertices. Each cell of the first three levels has the exact range of the
+// difference of its samples from the surface. The next three levels move the ranges of the third by
+// the range of the difference of the two levels over each of its cells, and so on.
 
 namespace reljef::terrain {
 
@@ -45,6 +45,12 @@ inline std::size_t block_at(glm::ivec2 cell) {
     const glm::ivec2 block = cell / cells_per_error_block;
     return static_cast<std::size_t>(block.y) * error_blocks + static_cast<std::size_t>(block.x);
 }
+
+/// Parts along a side of a tile: finer blocks, for tiles that are loaded.
+inline constexpr int error_parts = 16;
+inline constexpr int cells_per_error_part = tree_tile_cells / error_parts;
+/// The error of each part in 255ths of the tile's error, row after row.
+using PartShares = std::array<std::uint8_t, error_parts * error_parts>;
 
 /// What is proven of a tile, true metres.
 struct TileProof {
@@ -111,6 +117,7 @@ struct ChunkLevel {
     Grid<float> heights; ///< NaN: void
     Residuals residuals; ///< of the cells
     Grid<TileProof> tiles;
+    Grid<PartShares> parts; ///< of the tiles
 };
 
 struct ChunkProof {
@@ -128,10 +135,16 @@ int sample_border(int level);
 /// samples around them; both repeat the raster's border.
 Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float> samples);
 
-/// Why a proof is not that of a tile with these heights (one step around it included); absent if
-/// nothing contradicts it. `samples`: as for heights_from_samples, or null.
-std::optional<std::string> contradiction(const TileTree& tree, TreeTile tile,
-                                         const TileProof& proof, const Grid<float>& heights,
-                                         const Grid<float>* samples = nullptr);
+/// What the heights of a tile say of its proof.
+struct ProofCheck {
+    /// Why it is not that of the tile; absent if nothing contradicts it.
+    std::optional<std::string> contradiction;
+    /// Of the proof's error, from the samples; absent without them.
+    std::optional<PartShares> parts;
+};
+/// `heights`: at the tile's vertices and one step around them. `samples`: as for
+/// heights_from_samples, or null.
+ProofCheck check_proof(const TileTree& tree, TreeTile tile, const TileProof& proof,
+                       const Grid<float>& heights, const Grid<float>* samples = nullptr);
 
 } // namespace reljef::terrain

@@ -171,8 +171,13 @@ TEST_F(IndexPass, NoSampleContradictsIt) {
         EXPECT_TRUE(read->errors.empty()) << read->errors.front().message;
         const Grid<float> samples = samples_of(tile, terrain.tree);
         EXPECT_EQ(read->heights, heights_from_samples(terrain.tree, tile, samples));
-        const auto wrong = contradiction(terrain.tree, tile, *read->proof, read->heights, &samples);
-        EXPECT_FALSE(wrong) << *wrong;
+        const terrain::ProofCheck check =
+            check_proof(terrain.tree, tile, *read->proof, read->heights, &samples);
+        EXPECT_FALSE(check.contradiction) << *check.contradiction;
+        for (std::size_t i = 0; i < read->parts.size(); ++i) {
+            constexpr int rounding = 2; // up twice: the share, and its division
+            EXPECT_GE(read->parts.at(i) + rounding, check.parts->at(i)) << tile.level << " " << i;
+        }
     }
 }
 
@@ -183,6 +188,28 @@ TEST_F(IndexPass, ReadsValuesOfAllTypesAlike) {
     ASSERT_TRUE(test::write(wavy_raster(GDT_Float32), raster()));
     ASSERT_TRUE(make_index(source(), {}));
     EXPECT_EQ(of_whole_numbers, proofs_of(source()));
+}
+
+TEST_F(IndexPass, FindsTheVoidsOfFloatsThatAreReadAsTheyAreStored) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const std::optional<double> declared : {std::optional(-9999.0), std::optional<double>()}) {
+        std::vector<std::vector<TileProof>> found;
+        for (const GDALDataType type : {GDT_Float32, GDT_Float64}) { // the latter by decode()
+            test::MadeRaster made = wavy_raster(type);
+            const std::array odd{-9999.0,   -32768.0,     -32767.0, infinite,
+                                 -infinite, std::nan(""), 2e8,      -2e8};
+            for (std::size_t i = 0; i < odd.size(); ++i) {
+                made.values[i * 70'001] = odd.at(i);
+            }
+            made.nodata = declared;
+            fs::remove(raster());
+            ASSERT_TRUE(test::write(made, raster()));
+            ASSERT_TRUE(make_index(source(), {}));
+            found.push_back(proofs_of(source()));
+        }
+        EXPECT_EQ(found[0], found[1]);
+        EXPECT_TRUE(found[0].front().has_voids);
+    }
 }
 
 TEST_F(IndexPass, StopsAndGoesOnWhereItStopped) {
@@ -242,7 +269,7 @@ TEST_F(IndexPass, FindsNonsenseBehindValidChecksums) {
         const auto index = ErrorIndex::open(terrain);
         const TileProof right = *(*index)->find(tile);
         const auto wrong = [&](TileProof proof) {
-            return contradiction(terrain.tree, tile, proof, heights).has_value();
+            return check_proof(terrain.tree, tile, proof, heights).contradiction.has_value();
         };
         EXPECT_FALSE(wrong(right));
         EXPECT_TRUE(wrong({right.low + 500.0F, right.high, right.error}));
