@@ -104,15 +104,12 @@ void DrawnGround::add(std::shared_ptr<const scene::TerrainTile> tile) {
                       static_cast<double>(TileTree::step(tile->id)), std::move(tile)});
 }
 
-glm::dvec2 DrawnGround::sample_of(glm::dvec2 place) const {
-    const auto sample =
-        builder_->overview().placement().sample_from_world(glm::dvec3(place, 0.0)).value();
-    return builder_->tree_sample(builder_->from_overview(glm::dvec2(sample)));
-}
-
-std::optional<HeightRange> DrawnGround::range(glm::dvec2 low, glm::dvec2 high) const {
-    const glm::dvec2 first = sample_of({low.x, high.y});
-    const glm::dvec2 end = sample_of({high.x, low.y});
+std::optional<HeightRange> DrawnGround::range(const terrain::SampleRectangle& samples) const {
+    const auto tree_sample = [&](glm::dvec2 sample) {
+        return builder_->tree_sample(builder_->from_overview(sample));
+    };
+    const glm::dvec2 first = tree_sample(samples.first);
+    const glm::dvec2 end = tree_sample(samples.last);
     if (!(first.x >= 0.0 && first.y >= 0.0 && end.x <= last_.x && end.y <= last_.y)) {
         return std::nullopt;
     }
@@ -192,27 +189,33 @@ bool NearerGround::hides(const Box& box, double along) {
 }
 
 std::optional<terrain::HeightRange> NearerGround::range_at_eye(const DrawnGround& ground) const {
-    const glm::dvec2 eye(view_->eye);
-    return ground.range(eye - view_->near, eye + view_->near);
+    const auto frame = terrain::EyeFrame::create(builder_.overview().placement(), view_->eye);
+    const auto samples = frame ? frame->samples_around(view_->near) : std::nullopt;
+    return samples ? ground.range(*samples) : std::nullopt;
 }
 
 void NearerGround::make_horizon() {
     was_made_ = true;
     const auto drawn = range_at_eye(ground_);
     const std::optional<double> highest = drawn ? std::optional(drawn->high) : under_eye_;
-    if (!highest || !(view_->eye.z - view_->near > *highest)) {
+    if (!highest) {
         return;
     }
+    const terrain::Placement& placement = builder_.overview().placement();
     const terrain::Heightfield& overview = builder_.overview().heightfield();
+    const terrain::MinMax range = builder_.overview().pyramid().total();
     const glm::dvec2 samples(overview.heights.cols(), overview.heights.rows());
-    const auto ground = [this](glm::dvec2 low, glm::dvec2 high) {
-        return ground_.range(low, high);
-    };
-    horizon_.emplace(ground,
-                     terrain::HorizonOptions{builder_.spacing(0),
-                                             glm::length(samples * overview.spacing),
-                                             sectors_of_tiles, stretch_growth_of_tiles},
-                     *view_);
+    const double exaggeration = placement.exaggeration();
+    horizon_ = terrain::Horizon::create(
+        placement,
+        [this](const terrain::SampleRectangle& rectangle) { return ground_.range(rectangle); },
+        {*highest, *highest},
+        {.first = builder_.spacing(0),
+         .last = glm::length(samples * overview.spacing),
+         .sectors = sectors_of_tiles,
+         .growth = stretch_growth_of_tiles,
+         .heights = {exaggeration * range.low, exaggeration * range.high}},
+        *view_);
 }
 
 } // namespace reljef::view

@@ -14,17 +14,18 @@
 
 namespace reljef::view {
 
-/// The ground that streamed tiles on a plane show together.
+/// The ground that streamed tiles show together.
 class DrawnGround {
 public:
-    /// Precondition: the terrain lies on a plane. The builder outlives this object.
+    /// The builder outlives this object.
     explicit DrawnGround(const scene::TileBuilder& builder);
 
     /// Precondition: the tile overlaps no other one.
     void add(std::shared_ptr<const scene::TerrainTile> tile);
 
-    /// As terrain::GroundRange, in local metres.
-    [[nodiscard]] std::optional<terrain::HeightRange> range(glm::dvec2 low, glm::dvec2 high) const;
+    /// As terrain::GroundRange, over samples of the overview.
+    [[nodiscard]] std::optional<terrain::HeightRange>
+    range(const terrain::SampleRectangle& samples) const;
 
 private:
     // Samples are those of the tree.
@@ -39,7 +40,6 @@ private:
         int part = -1;
         std::array<int, 4> children{-1, -1, -1, -1};
     };
-    [[nodiscard]] glm::dvec2 sample_of(glm::dvec2 place) const;
     [[nodiscard]] const Part* part_at(glm::dvec2 sample) const;
     [[nodiscard]] std::optional<terrain::HeightRange> range_within(glm::dvec2 first,
                                                                    glm::dvec2 end) const;
@@ -53,7 +53,7 @@ private:
 /// The ground of nearer tiles, which may hide farther tiles of the same stream.
 class NearerGround {
 public:
-    /// Without a view nothing hides anything. Precondition with a view: as DrawnGround.
+    /// Without a view nothing hides anything.
     NearerGround(const scene::TileBuilder& builder, const std::optional<terrain::HorizonView>& view,
                  const std::optional<terrain::EarthHorizon>& earth = std::nullopt);
     NearerGround(const NearerGround&) = delete;

@@ -116,11 +116,9 @@ StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& c
 void StreamView::find_horizon(glm::ivec2 size) {
     const auto root = stream_.recall(stream_.tree().root());
     const double errors = root && root->is_proven ? errors_of_horizon : errors_of_unproven_horizon;
-    auto view = horizon_view(camera_, size, world_from_local_, errors * max_error_);
+    horizon_ = horizon_view(camera_, size, world_from_local_, errors * max_error_);
     const scene::TerrainSurface& overview = builder().overview();
-    if (overview.placement().kind() == terrain::PlacementKind::plane) {
-        horizon_ = view;
-    } else if (view && root) {
+    if (horizon_ && root && overview.placement().kind() == terrain::PlacementKind::ellipsoid) {
         const terrain::HeightRange range = range_below(*root, errors_hidden);
         const double exaggeration = overview.placement().exaggeration();
         const double cell =
@@ -130,7 +128,7 @@ void StreamView::find_horizon(glm::ivec2 size) {
             overview.placement(),
             {overview.heightfield().heights.cols(), overview.heightfield().heights.rows()},
             {exaggeration * range.low - root->error, exaggeration * range.high + root->error}, cell,
-            *view);
+            *horizon_);
     }
 }
 

@@ -5,113 +5,260 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 // A ray that begins above the ground and is below it later has passed through it. A stretch is the
-// part of a sector between two radii a < b, with the lowest ground h above the eye. A ray of the
-// slope s (height over distance) crosses all of it and is below h at one end at least: if s b < h
-// for h < 0, else if s a < h.
+// part of a sector between two radii a < b, with the lowest ground h. A ray of the slope s (height
+// over distance) crosses all of it and is below h at one end at least if s is less than the slope
+// of a place there: on a plane if s b < h for h < 0, else if s a < h.
+//
+// On the Earth, distances are those along the surface of a ball. The smallest radius of curvature
+// of an ellipsoid with the axes a > b is b²/a. A ball of this radius that touches it from within
+// lies inside of it (Blaschke's rolling theorem), and the ball that is larger by h inside of all
+// places h above it. So what is inside of the larger ball is below ground that is higher than h.
+// The ball's centre is on the eye's vertical. A ray stays in a plane through that vertical.
 
 namespace reljef::terrain {
 namespace {
 
 constexpr double hides_nothing = -std::numeric_limits<double>::infinity();
 
+// Metres. There the ground is far below a ray from any mountain.
+constexpr double max_reach_on_earth = 1e6;
+// Degrees. On a geographic grid, a line of length L on the Earth is bent by L² tan(latitude) / (8
+// R) in samples: L/57 at 80 degrees for the longest stretch, a ninth of max_reach_on_earth.
+constexpr double max_latitude = 80.0;
+constexpr double bend_in_samples = 1.0 / 32.0;
+
 glm::dvec2 direction(double azimuth) {
     return {std::cos(azimuth), std::sin(azimuth)};
 }
 
-// `place` in the scene frame, metres.
-glm::dvec2 sample_of(glm::dvec2 place, glm::dvec2 last, glm::dvec2 spacing) {
-    return {0.5 * last.x + place.x / spacing.x, 0.5 * last.y - place.y / spacing.y};
+double radius_of_ball() {
+    const glm::dvec2 radii = geo::radii_of_earth();
+    return radii.y * radii.y / radii.x;
 }
 
 GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
                       const Placement& placement) {
     const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
-    return [=, &pyramid, spacing = heightfield.spacing, exaggeration = placement.exaggeration()](
-               glm::dvec2 low, glm::dvec2 high) -> std::optional<HeightRange> {
-        const glm::dvec2 first = sample_of({low.x, high.y}, last, spacing);
-        const glm::dvec2 end = sample_of({high.x, low.y}, last, spacing);
-        if (!(first.x >= 0.0 && first.y >= 0.0 && end.x <= last.x && end.y <= last.y)) {
+    return [=, &pyramid, exaggeration = placement.exaggeration()](
+               const SampleRectangle& samples) -> std::optional<HeightRange> {
+        if (!(samples.first.x >= 0.0 && samples.first.y >= 0.0 && samples.last.x <= last.x &&
+              samples.last.y <= last.y)) {
             return std::nullopt;
         }
         const glm::ivec2 last_cell(last - 1.0);
-        const MinMax range = pyramid.bounds(glm::min(glm::ivec2(first), last_cell),
-                                            glm::min(glm::ivec2(end), last_cell));
+        const MinMax range = pyramid.bounds(glm::min(glm::ivec2(samples.first), last_cell),
+                                            glm::min(glm::ivec2(samples.last), last_cell));
         return HeightRange{exaggeration * range.low, exaggeration * range.high};
     };
 }
 
 struct SeenBox {
-    double nearest = 0.0; // horizontal distance, metres
+    double nearest = 0.0; // along the ground, metres
     double azimuth = 0.0; // of the middle
     double before = 0.0;  // radians from the middle to the ends
     double after = 0.0;
     double slope = 0.0; // of the highest ray to the box
 };
 
-SeenBox seen_from(glm::dvec3 eye, const Box& box) {
-    const glm::dvec2 from(eye);
-    const glm::dvec2 low(box.low);
-    const glm::dvec2 high(box.high);
-    const glm::dvec2 center = 0.5 * (low + high) - from;
+std::array<glm::dvec3, 8> seen_corners(const EyeFrame& frame, const Box& box) {
+    std::array<glm::dvec3, 8> corners{};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners.at(i) = frame.seen({(i & 1U) == 0 ? box.low.x : box.high.x,
+                                    (i & 2U) == 0 ? box.low.y : box.high.y,
+                                    (i & 4U) == 0 ? box.low.z : box.high.z});
+    }
+    return corners;
+}
+
+// With the azimuths of a box within an angle `a` of its middle, a place p of it is at least
+// p · m from the eye's vertical, where m is the direction to the middle, and at most p · m /
+// cos(a). So its slope is at most z / (p · m) above the eye, and cos(a) times that below it. Both
+// are largest at corners.
+double highest_slope(std::span<const glm::dvec3> corners, const SeenBox& seen) {
+    const glm::dvec2 middle = direction(seen.azimuth);
+    const double cosine = std::max(std::cos(std::max(-seen.before, seen.after)), 0.0);
+    double slope = -std::numeric_limits<double>::infinity();
+    for (const glm::dvec3& corner : corners) {
+        const double along = glm::dot(glm::dvec2(corner), middle);
+        if (!(along > 0.0)) {
+            return std::numeric_limits<double>::infinity();
+        }
+        slope = std::max(slope, corner.z / along * (corner.z < 0.0 ? cosine : 1.0));
+    }
+    return slope;
+}
+
+SeenBox seen_from(const EyeFrame& frame, const Box& box) {
+    const std::array<glm::dvec3, 8> corners = seen_corners(frame, box);
+    const glm::dvec3 center = frame.seen(box.center());
+    Box around;
     SeenBox seen;
-    seen.nearest = glm::distance(from, glm::clamp(from, low, high));
     seen.azimuth = std::atan2(center.y, center.x);
+    double aside = std::numeric_limits<double>::infinity();
     double farthest = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        const glm::dvec2 corner =
-            glm::dvec2(i % 2 == 0 ? low.x : high.x, i < 2 ? low.y : high.y) - from;
+    for (const glm::dvec3& corner : corners) {
         const double turn =
             std::remainder(std::atan2(corner.y, corner.x) - seen.azimuth, 2.0 * std::numbers::pi);
         seen.before = std::min(seen.before, turn);
         seen.after = std::max(seen.after, turn);
-        farthest = std::max(farthest, glm::length(corner));
+        aside = std::min(aside, glm::dot(glm::dvec2(corner), direction(seen.azimuth)));
+        farthest = std::max(farthest, glm::length(glm::dvec2(corner)));
+        around.add(corner);
     }
-    const double top = box.high.z - eye.z;
-    const double distance = top > 0.0 ? seen.nearest : farthest;
-    seen.slope = distance > 0.0 ? top / distance : std::numeric_limits<double>::infinity();
+    const double to_bounds =
+        glm::length(glm::clamp(glm::dvec2(0.0), glm::dvec2(around.low), glm::dvec2(around.high)));
+    const double nearest = std::max(aside, to_bounds);
+    const double top = around.high.z;
+    const double distance = top > 0.0 ? nearest : farthest;
+    const double slope_of_top =
+        distance > 0.0 ? top / distance : std::numeric_limits<double>::infinity();
+    seen.slope = std::min(slope_of_top, highest_slope(corners, seen));
+    seen.nearest = frame.along(nearest, top);
     return seen;
 }
 
 } // namespace
 
-std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
-                                       const Placement& placement, const HorizonView& view) {
-    if (placement.kind() != PlacementKind::plane) {
+std::optional<EyeFrame> EyeFrame::create(const Placement& placement, glm::dvec3 eye) {
+    EyeFrame frame(placement);
+    frame.eye_ = eye;
+    if (placement.frame() == nullptr) {
+        frame.height_ = eye.z;
+        return frame;
+    }
+    const geo::Geodetic place = placement.frame()->geodetic_from_local(eye);
+    if (!(std::abs(place.latitude) <= max_latitude)) {
         return std::nullopt;
     }
+    const glm::dvec3 up = placement.up(eye);
+    const glm::dvec3 north = placement.north(eye);
+    frame.axes_ = glm::transpose(glm::dmat3(glm::cross(north, up), north, up));
+    frame.latitude_ = place.latitude;
+    frame.height_ = place.height;
+    frame.radius_ = radius_of_ball();
+    return frame;
+}
+
+double EyeFrame::max_reach() const {
+    return is_on_plane() ? std::numeric_limits<double>::infinity()
+                         : std::min(max_reach_on_earth,
+                                    glm::radians(max_latitude - std::abs(latitude_)) * radius_);
+}
+
+double EyeFrame::along(double aside, double above) const {
+    return is_on_plane() ? aside : radius_ * std::atan2(aside, radius_ + height_ + above);
+}
+
+double EyeFrame::slope_of(double along, double height) const {
+    if (is_on_plane()) {
+        return (height - height_) / along;
+    }
+    // Of the ball's centre, the place is so far along the eye's vertical and beside it. The
+    // difference of heights is kept apart: the rest is small.
+    const double angle = along / radius_;
+    const double half = std::sin(0.5 * angle);
+    const double above = height - height_ - 2.0 * (radius_ + height) * half * half;
+    return above / ((radius_ + height) * std::sin(angle));
+}
+
+std::optional<glm::dvec2> EyeFrame::sample_at(double azimuth, double along) const {
+    const double angle = is_on_plane() ? 0.0 : along / radius_;
+    const double aside = is_on_plane() ? along : radius_ * std::sin(angle);
+    const double half = std::sin(0.5 * angle);
+    const double above = -height_ - 2.0 * radius_ * half * half;
+    const glm::dvec3 seen(aside * direction(azimuth), above);
+    const auto sample = placement_.sample_from_world(eye_ + seen * axes_);
+    return sample && glm::all(glm::equal(*sample, *sample)) ? std::optional(glm::dvec2(*sample))
+                                                            : std::nullopt;
+}
+
+// The verticals of the ellipsoid turn by less than those of the ball: by their distance over a
+// radius of curvature, at most a²/b.
+double EyeFrame::drift(double along, double height) const {
+    if (is_on_plane()) {
+        return 0.0;
+    }
+    const glm::dvec2 radii = geo::radii_of_earth();
+    const double curvature = 1.0 / radius_ - radii.y / (radii.x * radii.x);
+    return along * curvature * height;
+}
+
+std::optional<SampleRectangle> EyeFrame::samples_around(double distance) const {
+    Box box;
+    for (int i = 0; i < 4; ++i) {
+        const auto sample =
+            sample_at((i + 0.5) * 0.5 * std::numbers::pi, std::numbers::sqrt2 * distance);
+        if (!sample) {
+            return std::nullopt;
+        }
+        box.add(glm::dvec3(*sample, 0.0));
+    }
+    // A distance of the eye's near plane is straight in samples, up to this part of it.
+    const glm::dvec2 more =
+        is_on_plane() ? glm::dvec2(0.0) : bend_in_samples * glm::dvec2(box.high - box.low);
+    return SampleRectangle{glm::dvec2(box.low) - more, glm::dvec2(box.high) + more};
+}
+
+std::optional<Horizon> Horizon::create(const Placement& placement, GroundRange ground,
+                                       const HeightRange& below, const HorizonOptions& reach,
+                                       const HorizonView& view) {
+    auto frame = EyeFrame::create(placement, view.eye);
+    const HeightRange zero = placement.zero_range();
+    if (!frame || !(frame->height() - view.near > zero.high + below.high)) {
+        return std::nullopt;
+    }
+    return Horizon(std::move(*frame), std::move(ground), reach, view, zero);
+}
+
+std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
+                                       const Placement& placement, const HorizonView& view) {
     GroundRange ground = ground_of(heightfield, pyramid, placement);
-    const glm::dvec2 eye(view.eye);
-    const auto below = ground(eye - view.near, eye + view.near);
-    if (!below || !(view.eye.z - view.near > below->high)) {
+    const auto frame = EyeFrame::create(placement, view.eye);
+    const auto under = frame ? frame->samples_around(view.near) : std::nullopt;
+    const auto below = under ? ground(*under) : std::nullopt;
+    if (!below) {
         return std::nullopt;
     }
     const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
     const glm::dvec2 spacing = heightfield.spacing;
-    return Horizon(std::move(ground), {std::max(spacing.x, spacing.y), glm::length(last * spacing)},
-                   view);
+    const MinMax total = pyramid.total();
+    HorizonOptions options{std::max(spacing.x, spacing.y), glm::length(last * spacing)};
+    options.heights = {placement.exaggeration() * total.low, placement.exaggeration() * total.high};
+    return create(placement, std::move(ground), *below, options, view);
 }
 
-Horizon::Horizon(GroundRange ground, const HorizonOptions& reach, const HorizonView& view)
-    : ground_(std::move(ground)), view_(view),
+Horizon::Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach,
+                 const HorizonView& view, HeightRange zero)
+    : frame_(std::move(frame)), ground_(std::move(ground)), view_(view), lowest_zero_(zero.low),
       sector_angle_(2.0 * std::numbers::pi / reach.sectors),
       sectors_(static_cast<std::size_t>(reach.sectors)) {
+    const double last = std::min(reach.last, frame_.max_reach());
+    // Between the eye and a place, a ray is below both by the sagitta of the arc at most.
+    const double sagitta = frame_.is_on_plane() ? 0.0 : last * last / (8.0 * radius_of_ball());
+    heights_apart_ = std::max({std::abs(frame_.height()), std::abs(reach.heights.low + zero.low),
+                               std::abs(reach.heights.high + zero.high)}) +
+                     sagitta;
     // The maximum is at 45 degrees.
     rectangle_growth_ =
         std::sqrt(2.0) * std::cos(0.25 * std::numbers::pi - 0.5 * sector_angle_) + 0x1p-10;
-    for (double radius = std::max(reach.first, view.near); radius < reach.growth * reach.last;
+    for (double radius = std::max(reach.first, view.near); radius < reach.growth * last;
          radius *= reach.growth) {
         radii_.push_back(radius);
     }
 }
 
 bool Horizon::hides(const Box& box) {
-    const SeenBox seen = seen_from(view_.eye, box);
+    const SeenBox seen = seen_from(frame_, box);
     // The last stretch that ends before the box begins.
     const double end = seen.nearest / rectangle_growth_;
     const auto stretch = std::upper_bound(radii_.begin(), radii_.end(), end) - radii_.begin() - 2;
@@ -146,27 +293,40 @@ double Horizon::steepest_before(int sector, std::size_t stretch) {
 
 // Empty if the ground does not cover the stretch.
 std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
-    // Where the tangent in the middle of the outer arc meets the sides.
-    const double outside = 1.0 / std::cos(0.5 * sector_angle_);
-    const glm::dvec2 right = direction(sector * sector_angle_);
-    const glm::dvec2 left = direction((sector + 1) * sector_angle_);
-    const double inner = radii_[stretch];
-    const double outer = radii_[stretch + 1];
-    const std::array corners{inner * right, inner * left, outside * outer * right,
-                             outside * outer * left};
-    glm::dvec2 low = corners[0];
-    glm::dvec2 high = corners[0];
-    for (const glm::dvec2 corner : corners) {
-        low = glm::min(low, corner);
-        high = glm::max(high, corner);
-    }
-    const glm::dvec2 eye(view_.eye);
-    const auto ground = ground_(eye + low, eye + high);
+    const auto samples = samples_of(sector, stretch);
+    const auto ground = samples ? ground_(*samples) : std::nullopt;
     if (!ground) {
         return std::nullopt;
     }
-    const double height = ground->low - view_.eye.z;
-    return height / (height < 0.0 ? outer : inner);
+    const double height = lowest_zero_ + ground->low;
+    return std::max(frame_.slope_of(radii_[stretch], height),
+                    frame_.slope_of(radii_[stretch + 1], height));
+}
+
+std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stretch) const {
+    // Where the tangent in the middle of the outer arc meets the sides.
+    const double outside = 1.0 / std::cos(0.5 * sector_angle_);
+    const double inner = radii_[stretch];
+    const double outer = outside * radii_[stretch + 1];
+    Box box;
+    for (const double azimuth : {sector * sector_angle_, (sector + 1) * sector_angle_}) {
+        for (const double along : {inner, outer}) {
+            const auto sample = frame_.sample_at(azimuth, along);
+            if (!sample) {
+                return std::nullopt;
+            }
+            box.add(glm::dvec3(*sample, 0.0));
+        }
+    }
+    const glm::dvec2 low(box.low);
+    const glm::dvec2 high(box.high);
+    if (frame_.is_on_plane()) {
+        return SampleRectangle{low, high};
+    }
+    const glm::dvec2 size = high - low;
+    const double drifted = frame_.drift(outer, heights_apart_) / (outer - inner);
+    const glm::dvec2 more = glm::dvec2((bend_in_samples + drifted) * std::max(size.x, size.y));
+    return SampleRectangle{low - more, high + more};
 }
 
 } // namespace reljef::terrain

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -21,27 +23,72 @@ struct HorizonView {
     double margin = 0.0; ///< radians, >= 0; occluders appear higher than hidden objects by this
 };
 
-/// Bounds of the ground (z, scene metres) over a rectangle (x and y, metres). Empty if the ground
-/// does not cover the rectangle. Bounds may be too wide.
-using GroundRange = std::function<std::optional<HeightRange>(glm::dvec2 low, glm::dvec2 high)>;
+/// A rectangle of samples of a placement.
+struct SampleRectangle {
+    glm::dvec2 first{0.0}; ///< the least column and row
+    glm::dvec2 last{0.0};
+};
+
+/// Bounds of the ground over a rectangle: scene metres above the plane or the ellipsoid, without
+/// a geoid's height. Empty if the ground does not cover the rectangle. Bounds may be too wide.
+using GroundRange = std::function<std::optional<HeightRange>(const SampleRectangle& samples)>;
 
 /// The part of the ground that a horizon uses.
 struct HorizonOptions {
     double first = 1.0;               ///< nearest distance, metres
-    double last = 1.0;                ///< farthest distance, metres
+    double last = 1.0;                ///< farthest distance, metres; at most 1000 km on the Earth
     int sectors = 256;                ///< of azimuth, >= 8
-    double growth = 1.0 + 1.0 / 16.0; ///< ratio of consecutive distances, > 1
+    double growth = 1.0 + 1.0 / 16.0; ///< ratio of consecutive distances, > 1, at most 9/8
+    HeightRange heights = {};         ///< of all ground that may hide or be hidden, as GroundRange
 };
 
-/// Conservative occlusion by ground on a plane, seen from an eye above it. For each sector of
-/// azimuth and each distance it holds the steepest slope that is certainly hidden, from the lowest
-/// height of each stretch. Stretches are evaluated on demand.
+/// An eye's vertical, and how the ground lies around it: on a plane, or outside of a ball that
+/// touches the ellipsoid from within below the eye.
+class EyeFrame {
+public:
+    /// Empty where the placement has no samples.
+    static std::optional<EyeFrame> create(const Placement& placement, glm::dvec3 eye);
+
+    /// Height of the eye, as GroundRange but with a geoid's height.
+    [[nodiscard]] double height() const { return height_; }
+    [[nodiscard]] bool is_on_plane() const { return radius_ == 0.0; }
+    /// How far along the ground lines are nearly straight in samples, metres.
+    [[nodiscard]] double max_reach() const;
+    /// From the eye, along its east, north and vertical.
+    [[nodiscard]] glm::dvec3 seen(glm::dvec3 local) const { return axes_ * (local - eye_); }
+    /// Metres along the ground to a place that is seen so far from the eye's vertical, and so far
+    /// above the eye.
+    [[nodiscard]] double along(double aside, double above) const;
+    /// Height over distance, as seen from the eye, of a place at a distance along the ground.
+    [[nodiscard]] double slope_of(double along, double height) const;
+    /// The sample at a distance along the ground; empty where there is none.
+    [[nodiscard]] std::optional<glm::dvec2> sample_at(double azimuth, double along) const;
+    /// The most that samples of places up to this far above or below the ground move, in metres.
+    [[nodiscard]] double drift(double along, double height) const;
+    /// Samples within a horizontal distance of the eye.
+    [[nodiscard]] std::optional<SampleRectangle> samples_around(double distance) const;
+
+private:
+    explicit EyeFrame(const Placement& placement) : placement_(placement) {}
+
+    Placement placement_;
+    glm::dvec3 eye_{0.0};
+    glm::dmat3 axes_{1.0};  // eye's axes from local ones
+    double latitude_ = 0.0; // degrees
+    double height_ = 0.0;
+    double radius_ = 0.0; // of the ball, metres; 0: a plane
+};
+
+/// Conservative occlusion by ground, seen from an eye above it. For each sector of azimuth and each
+/// distance it holds the steepest slope that is certainly hidden, from the lowest height of each
+/// stretch. Stretches are evaluated on demand.
 class Horizon {
 public:
-    /// Precondition: the eye is more than view.near above the ground.
-    Horizon(GroundRange ground, const HorizonOptions& reach, const HorizonView& view);
-    /// Empty on an ellipsoid, or if the eye is not more than view.near above the ground. The
-    /// pyramid outlives the horizon.
+    /// Empty if the eye is not more than view.near above the ground `below` it, and near poles.
+    static std::optional<Horizon> create(const Placement& placement, GroundRange ground,
+                                         const HeightRange& below, const HorizonOptions& reach,
+                                         const HorizonView& view);
+    /// The same of a heightfield in memory. The pyramid outlives the horizon.
     static std::optional<Horizon> create(const Heightfield& heightfield,
                                          const MinMaxPyramid& pyramid, const Placement& placement,
                                          const HorizonView& view);
@@ -51,11 +98,18 @@ public:
     [[nodiscard]] bool hides(const Box& box);
 
 private:
+    Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach,
+            const HorizonView& view, HeightRange zero);
+
     double steepest_before(int sector, std::size_t stretch);
     [[nodiscard]] std::optional<double> slope_of(int sector, std::size_t stretch) const;
+    [[nodiscard]] std::optional<SampleRectangle> samples_of(int sector, std::size_t stretch) const;
 
+    EyeFrame frame_;
     GroundRange ground_;
     HorizonView view_;
+    double lowest_zero_;            // metres: of a geoid
+    double heights_apart_;          // metres: the most between a ray and the eye's or the ground's
     double sector_angle_ = 0.0;     // radians
     double rectangle_growth_ = 1.0; // reach of a stretch's bounding rectangle over its radius
     std::vector<double> radii_;     // metres; stretch i lies between radii i and i + 1
