@@ -233,6 +233,10 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
     const glm::dvec2 spacing = heightfield.spacing;
     const MinMax total = pyramid.total();
     HorizonOptions options{std::max(spacing.x, spacing.y), glm::length(last * spacing)};
+    if (!frame->is_on_plane()) { // places on the Earth take longer
+        options.sectors /= 2;
+        options.growth = 1.0 + 2.0 * (options.growth - 1.0);
+    }
     options.heights = {placement.exaggeration() * total.low, placement.exaggeration() * total.high};
     return create(placement, std::move(ground), *below, options, view);
 }

@@ -150,7 +150,7 @@ TEST(Horizon, OnTheEarthAboutAsMuchIsHiddenAsOnAPlane) {
                           test::plane_heightfield(std::move(crests), earth.heightfield.spacing));
     const Count on_earth = count_hidden(earth, 60, 8);
     const Count on_plane = count_hidden(plane, 60, 8);
-    EXPECT_GT(on_earth.hidden, 0.9 * on_plane.hidden);
+    EXPECT_GT(on_earth.hidden, 0.8 * on_plane.hidden); // with half as many sectors
     RecordProperty("earth", on_earth.hidden);
     RecordProperty("plane", on_plane.hidden);
 }
@@ -161,7 +161,7 @@ TEST(Horizon, TheEarthLowersWhatHidesAndWhatIsHidden) {
     const Landscape land("crest", test::geographic_heightfield(
                                       test::made_heights(400, 200,
                                                          [](int col, int /*row*/) {
-                                                             return col >= 160 && col < 190 ? 500.0
+                                                             return col >= 160 && col < 220 ? 500.0
                                                                                             : 0.0;
                                                          }),
                                       46.0, 7.0, 0.005));
