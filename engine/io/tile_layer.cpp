@@ -170,6 +170,10 @@ public:
     void add(const LayerTile& tile, const ReadPlan& plan, const Grid<double>& values) {
         const double weight = plan.grid.step.x * plan.grid.step.y;
         const glm::dvec2 corner(tile.col, tile.row);
+        if (window_.reduction == 1 && plan.grid.step == glm::dvec2(1.0)) {
+            add_samples(cell_of(corner + plan.grid.origin - 0.5), values);
+            return;
+        }
         for (int row = 0; row < values.rows(); ++row) {
             for (int col = 0; col < values.cols(); ++col) {
                 const double value = values(col, row);
@@ -178,6 +182,23 @@ public:
                 if (!std::isnan(value) && inside(cell) && closed_(cell.x, cell.y) == 0) {
                     sum_(cell.x, cell.y) += weight * value;
                     weight_(cell.x, cell.y) += weight;
+                }
+            }
+        }
+    }
+    /// One sample a cell; `first`: the cell of the first one.
+    void add_samples(glm::ivec2 first, const Grid<double>& values) {
+        const glm::ivec2 low = glm::max(-first, glm::ivec2(0));
+        const glm::ivec2 high = glm::min(glm::ivec2(values.cols(), values.rows()),
+                                         glm::ivec2(window_.cols, window_.rows) - first);
+        for (int row = low.y; row < high.y; ++row) {
+            const auto from = values.row(row);
+            for (int col = low.x; col < high.x; ++col) {
+                const double value = from[static_cast<std::size_t>(col)];
+                const glm::ivec2 cell = first + glm::ivec2(col, row);
+                if (!std::isnan(value) && closed_(cell.x, cell.y) == 0) {
+                    sum_(cell.x, cell.y) += value;
+                    weight_(cell.x, cell.y) += 1.0;
                 }
             }
         }

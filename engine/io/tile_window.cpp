@@ -71,6 +71,20 @@ public:
                 glm::distance(at(col, row + (row + 1 < grid_.rows ? 1 : -1)), here)};
     }
 
+    /// Whether all samples lie on the layer's lattice, without a projection.
+    [[nodiscard]] bool are_on_lattice() const {
+        if (!controls_.empty()) {
+            return false;
+        }
+        const glm::dvec2 first = glm::round(at(0, 0));
+        const auto is_near = [&](int col, int row) { // the places are linear
+            const glm::dvec2 away = glm::abs(at(col, row) - first - glm::dvec2(col, row));
+            return std::max(away.x, away.y) < 0.5 * near_sample;
+        };
+        return is_near(0, 0) && is_near(grid_.cols - 1, 0) && is_near(0, grid_.rows - 1) &&
+               is_near(grid_.cols - 1, grid_.rows - 1);
+    }
+
     /// Lattice position of a sample; NaN if undefined.
     [[nodiscard]] glm::dvec2 at(int col, int row) const {
         if (controls_.empty()) {
@@ -218,6 +232,20 @@ bool has_gaps(const Grid<double>& heights) {
                        [](double height) { return std::isnan(height); });
 }
 
+/// Fills samples without a height from the cells that they lie on; `first`: of the first sample.
+void fill_with(const Grid<double>& cells, glm::ivec2 first, Grid<double>& heights) {
+    const glm::ivec2 low = glm::max(-first, glm::ivec2(0));
+    const glm::ivec2 high = glm::min(glm::ivec2(heights.cols(), heights.rows()),
+                                     glm::ivec2(cells.cols(), cells.rows()) - first);
+    for (int row = low.y; row < high.y; ++row) {
+        const auto into = heights.row(row);
+        for (int col = low.x; col < high.x; ++col) {
+            double& height = into[static_cast<std::size_t>(col)];
+            height = std::isnan(height) ? cells(first.x + col, first.y + row) : height;
+        }
+    }
+}
+
 /// `edges`: heights for samples near a tile's edge, where no layer has all surrounding cells.
 void fill_from(const TileLayer& layer, const LayerPoints& points, const TileContent& reading,
                const TileGrid& grid, TileWindow& result, Grid<double>& edges) {
@@ -226,6 +254,11 @@ void fill_from(const TileLayer& layer, const LayerPoints& points, const TileCont
         return;
     }
     const Grid<double> cells = read_cells(layer, window, reading, result.errors);
+    if (window.reduction == 1 && points.are_on_lattice()) {
+        const glm::dvec2 first = window.cell_from_lattice(glm::round(points.at(0, 0)));
+        fill_with(cells, glm::ivec2(first) - window.first, result.heights);
+        return;
+    }
     for (int row = 0; row < grid.rows; ++row) {
         for (int col = 0; col < grid.cols; ++col) {
             const glm::dvec2 cell =
