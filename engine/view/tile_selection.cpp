@@ -251,20 +251,8 @@ bool are_given_up(const scene::TileStream& stream, const std::vector<Candidate>&
            });
 }
 
-// If tiles are hidden, others can be finer than `coarse`, which fits with all of them. Requests
-// them and draws `coarse` meanwhile.
-TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double coarse_error,
-                             const StreamView& view, const scene::TerrainTile& root,
-                             const TileSelectionOptions& options) {
-    WalkLimits limits;
-    limits.max_relative_error = refine_within(view.max_drawn(), view, root, nearer).relative_error;
-    if (limits.max_relative_error >= coarse_error) {
-        return coarse;
-    }
-    TreeWalk walk(view, limits, options);
-    if (!walk.walk(root)) {
-        return coarse;
-    }
+// Draws and requests the tiles of a walk that found room for finer ones than `coarse`.
+TileSelection finer_or(TileSelection coarse, TreeWalk& walk, const StreamView& view) {
     std::set<terrain::TreeTile> used(coarse.used.begin(), coarse.used.end());
     used.insert(walk.used().begin(), walk.used().end());
     TileSelection finer = std::move(coarse);
@@ -275,6 +263,27 @@ TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double 
     finer.requested = by_urgency(walk.missing());
     finer.used.assign(used.begin(), used.end());
     return finer;
+}
+
+// If tiles are hidden, others can be finer than `coarse`, which fits with all of them. Requests
+// them and draws `coarse` meanwhile. Finer ground hides a little more or less than that of
+// `coarse`: if too much is seen, less is refined.
+TileSelection refined_behind(NearerGround& nearer, TileSelection coarse, double coarse_error,
+                             const StreamView& view, const scene::TerrainTile& root,
+                             const TileSelectionOptions& options) {
+    for (std::size_t eighths = 8; eighths >= 4; --eighths) {
+        WalkLimits limits;
+        limits.max_relative_error =
+            refine_within(view.max_drawn() * eighths / 8, view, root, nearer).relative_error;
+        if (limits.max_relative_error >= coarse_error) {
+            return coarse;
+        }
+        TreeWalk walk(view, limits, options);
+        if (walk.walk(root)) {
+            return finer_or(std::move(coarse), walk, view);
+        }
+    }
+    return coarse;
 }
 
 // What a walk without missing tiles draws.
@@ -326,6 +335,19 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
     }
 }
 
+std::shared_ptr<const scene::TerrainTile> finest_under_eye(const TileSelection& selection,
+                                                           const StreamView& view) {
+    std::shared_ptr<const scene::TerrainTile> finest;
+    for (const terrain::TreeTile id : selection.used) {
+        auto tile = view.stream().find(id);
+        if (tile != nullptr && view.along(tile->bounds) == 0.0 &&
+            (finest == nullptr || id.level < finest->id.level)) {
+            finest = std::move(tile);
+        }
+    }
+    return finest;
+}
+
 } // namespace
 
 bool needs_cones(const scene::TerrainNode& terrain) {
@@ -360,9 +382,14 @@ std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Came
         return 1;
     }
     const StreamView view(terrain, camera, size, world_from_local);
-    NearerGround nothing(view.builder(), std::nullopt);
-    return std::min(max_tiles_counted,
-                    refine_within(max_tiles_counted, view, *root, nothing).tiles);
+    NearerGround nearer(view.builder(), view.horizon(), view.earth_horizon());
+    const TileSelection selection = walk_until_complete(view, *root, {});
+    for (const TileSelection::Drawn& drawn : selection.drawn) {
+        nearer.add(drawn.tile);
+    }
+    nearer.add_under_eye(finest_under_eye(selection, view));
+    const std::size_t tiles = refine_within(max_tiles_counted, view, *root, nearer).tiles;
+    return std::min(max_tiles_counted, tiles + tiles / 8);
 }
 
 } // namespace reljef::view

@@ -59,8 +59,8 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
 /// tiles_for_bound() counts no more: they would take gigabytes.
 inline constexpr std::size_t max_tiles_counted = 100'000;
 
-/// Tiles that keep the error bound in a view, hidden ones included; at most max_tiles_counted.
-/// Counts proven and known ones.
+/// Tiles that keep the error bound in a view, at most max_tiles_counted. Counts proven and known
+/// ones that the tiles drawn now do not hide, and an eighth more: finer ground may hide less.
 std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Camera& camera,
                             glm::ivec2 size, const glm::dmat4& world_from_local);
 

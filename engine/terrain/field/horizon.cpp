@@ -32,10 +32,13 @@ constexpr double hides_nothing = -std::numeric_limits<double>::infinity();
 
 // Metres. There the ground is far below a ray from any mountain.
 constexpr double max_reach_on_earth = 1e6;
-// Degrees. On a geographic grid, a line of length L on the Earth is bent by L² tan(latitude) / (8
-// R) in samples: L/57 at 80 degrees for the longest stretch, a ninth of max_reach_on_earth.
-constexpr double max_latitude = 80.0;
-constexpr double bend_in_samples = 1.0 / 32.0;
+constexpr double max_latitude = 80.0; // degrees
+
+// On a geographic grid, a line of length L on the Earth is bent by L² tan(latitude) / (8 R) in
+// samples; twice that is assumed, and of other maps, too. As a part of L:
+double bend_in_samples(double length, double radius) {
+    return length * std::tan(glm::radians(max_latitude)) / (4.0 * radius);
+}
 
 glm::dvec2 direction(double azimuth) {
     return {std::cos(azimuth), std::sin(azimuth)};
@@ -203,9 +206,9 @@ std::optional<SampleRectangle> EyeFrame::samples_around(double distance) const {
         }
         box.add(glm::dvec3(*sample, 0.0));
     }
-    // A distance of the eye's near plane is straight in samples, up to this part of it.
     const glm::dvec2 more =
-        is_on_plane() ? glm::dvec2(0.0) : bend_in_samples * glm::dvec2(box.high - box.low);
+        is_on_plane() ? glm::dvec2(0.0)
+                      : bend_in_samples(2.0 * distance, radius_) * glm::dvec2(box.high - box.low);
     return SampleRectangle{glm::dvec2(box.low) - more, glm::dvec2(box.high) + more};
 }
 
@@ -328,8 +331,10 @@ std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stret
         return SampleRectangle{low, high};
     }
     const glm::dvec2 size = high - low;
+    const double length = std::hypot(outer - inner, outer * sector_angle_);
     const double drifted = frame_.drift(outer, heights_apart_) / (outer - inner);
-    const glm::dvec2 more = glm::dvec2((bend_in_samples + drifted) * std::max(size.x, size.y));
+    const glm::dvec2 more((bend_in_samples(length, radius_of_ball()) + drifted) *
+                          std::max(size.x, size.y));
     return SampleRectangle{low - more, high + more};
 }
 
