@@ -7,6 +7,7 @@
 #include <random>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "app/cli/message.h"
 #include "app/cli/progress_line.h"
@@ -117,26 +118,49 @@ private:
         return true;
     }
 
-    // Distance of a pixel to the samples at the ends of the terrain, pixels.
+    // Distance of a pixel to the lines between the samples at the ends of the terrain, pixels.
     [[nodiscard]] double distance_to_end(const scene::Camera& camera, glm::ivec2 pixel) const {
         const auto& heights = surface_.heightfield().heights;
         const glm::ivec2 last(heights.cols() - 1, heights.rows() - 1);
-        double nearest = std::numeric_limits<double>::infinity();
-        const auto visit = [&](int col, int row) {
+        const auto world = [&](glm::ivec2 sample) {
             const glm::dvec3 local =
-                surface_.placement().world_from_sample({col, row, heights(col, row)});
-            const glm::dvec3 world(world_from_local_ * glm::dvec4(local, 1.0));
-            nearest = std::min(nearest, truth::distance_to_pixel(camera, size_, pixel, world));
+                surface_.placement().world_from_sample({sample, heights(sample.x, sample.y)});
+            return glm::dvec3(world_from_local_ * glm::dvec4(local, 1.0));
         };
-        for (int col = 0; col <= last.x; ++col) {
-            visit(col, 0);
-            visit(col, last.y);
-        }
-        for (int row = 0; row <= last.y; ++row) {
-            visit(0, row);
-            visit(last.x, row);
-        }
+        double nearest = std::numeric_limits<double>::infinity();
+        const auto visit = [&](glm::ivec2 first, glm::ivec2 step, int count) {
+            glm::dvec3 before = world(first);
+            for (int i = 1; i <= count; ++i) {
+                const glm::dvec3 now = world(first + i * step);
+                nearest = std::min(nearest, distance_to_line(camera, pixel, before, now));
+                before = now;
+            }
+        };
+        visit({0, 0}, {1, 0}, last.x);
+        visit({0, last.y}, {1, 0}, last.x);
+        visit({0, 0}, {0, 1}, last.y);
+        visit({last.x, 0}, {0, 1}, last.y);
         return nearest;
+    }
+
+    // On the picture, the distance to a point that moves along a line has one minimum.
+    [[nodiscard]] double distance_to_line(const scene::Camera& camera, glm::ivec2 pixel,
+                                          glm::dvec3 first, glm::dvec3 last) const {
+        const auto distance_at = [&](double part) {
+            return truth::distance_to_pixel(camera, size_, pixel, glm::mix(first, last, part));
+        };
+        constexpr int thirds = 24; // (2/3)^24: a 10,000th of the line
+        double low = 0.0;
+        double high = 1.0;
+        for (int i = 0; i < thirds; ++i) {
+            const double third = (high - low) / 3.0;
+            if (distance_at(low + third) < distance_at(high - third)) {
+                high -= third;
+            } else {
+                low += third;
+            }
+        }
+        return std::min({distance_at(0.0), distance_at(0.5 * (low + high)), distance_at(1.0)});
     }
 
     const scene::TerrainSurface& surface_;
