@@ -110,7 +110,8 @@ std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& plac
     const Frame first(placement, places.front());
     const Frame frame(placement, first.middle + first.axes * first.around(places).center());
     const Box box = frame.around(places);
-    constexpr double min_half_size = 1.0; // metres
+    // Metres. Positions err by 1e-8 m; far beside terrains of centimetres there are no samples.
+    constexpr double min_half_size = 0.01;
     const glm::dvec3 half_size = glm::max(glm::max(-box.low, box.high), glm::dvec3(min_half_size));
     return SamplePolynomial::create(placement, frame.middle, half_size);
 }

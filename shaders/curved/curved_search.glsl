@@ -78,7 +78,8 @@ bool find_on_curve(out float part, out vec2 place) {
     set_metres(way, (range.y - range.x) * metres);
 #ifdef FADE
     fade_curve(way);
-    range = falling_range(begin);
+    vec2 faded = falling_range(begin);
+    range = vec2(max(range.x, faded.x), min(range.y, faded.y));
     is_inside = is_inside && range.x <= range.y;
     way = curve_at(range.y) - curve_at(range.x);
 #endif

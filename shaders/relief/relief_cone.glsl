@@ -93,6 +93,11 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float min_way = run > cone_min_step ? cone_min_step / run : 1.0;
     float at = 0.0;
     float over = start.z - height_at(start.xy);
+#ifndef TILE
+    if (over < 0.0) { // from below, cones say nothing
+        return find_rest(start, span, 0.0, part, place);
+    }
+#endif
     float next = 0.0;
     float under = 0.0;
     bool found = false;
@@ -117,12 +122,11 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     }
     part = found ? halved(start, span, at, over, next, under) : at;
     place = start.xy + part * span.xy;
-#ifndef STREAMED
+#ifdef TILE
     // The steps also run out close to the surface.
     found = found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
-#endif
-#ifndef TILE
-    ends_above = over >= 0.0;
+#else
+    ends_above = true;
     if (!found && (skips || at < 1.0)) {
         found = find_rest(start, span, skips ? 0.0 : at, part, place);
     }

@@ -116,6 +116,18 @@ TEST(RayCourse, HasAllSamplesWithinTheHorizon) {
     }
 }
 
+// Far beside them there are no samples.
+TEST(RayCourse, IsThereForTerrainsOfCentimetres) {
+    const terrain::Placement placement =
+        test::placed(test::geographic_heightfield(Grid<float>(129, 129, 100.0F), 45.0, 7.0, 1e-8));
+    for (const double above : {0.3, 30.0}) {
+        const glm::dvec3 eye = placement.world_from_sample({60.0, 100.0, 100.0 + above});
+        EXPECT_TRUE(ray_course(camera_at(eye), size, glm::dmat4(1.0), placement,
+                               {{0.0, 0.0, 100.0}, {128.0, 128.0, 100.001}}))
+            << above;
+    }
+}
+
 TEST(RayCourse, IsNoneWhereNoPolynomialIsPreciseOrRaysAreParallel) {
     const terrain::Placement placement = placed(45.0, 1.0 / 1200.0);
     const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 3000.0});

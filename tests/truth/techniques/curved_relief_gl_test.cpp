@@ -94,6 +94,30 @@ TEST_F(CurvedReliefGlTest, FlatGroundHasNoHolesFromHighAbove) {
     }
 }
 
+// Towers, 60 m high, whose walls are a sample wide.
+Grid<float> towers() {
+    constexpr int side = EarthStage::side;
+    return test::made_heights(side, side, [](int col, int row) {
+        return ((col / 5 + row / 7) % 3 == 0 ? 60.0 : 0.0) + 0.02 * col;
+    });
+}
+
+// From below the border rays go on to the first front; their steps also run out close to walls.
+TEST_F(CurvedReliefGlTest, ConesFindTheFirstHitFromBelowTheBorderAndWhereTheirStepsRunOut) {
+    for (const auto kind : {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        EarthStage stage({.step = 1e-5, .placement = kind}, towers());
+        for (const glm::dvec2 from : {glm::dvec2(-13.0, 77.0), glm::dvec2(120.3, 201.7)}) {
+            stage.look(from, 3.0, {128.0, 128.0});
+            for (const char* const technique : {"cone:n=1024,step=0", "cone:n=4,step=0"}) {
+                const view::DrawnHits shown = hits(stage, technique);
+                ASSERT_EQ(shown.stats.reliefs_as_triangles, 0);
+                EXPECT_LE(stage.errors(shown.hits).wrong, shown.hits.size() / 1000)
+                    << technique << " from column " << from.x;
+            }
+        }
+    }
+}
+
 // As wrong as over a plane.
 TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
     EarthStage bent({.latitude = 45.0});
@@ -104,8 +128,10 @@ TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
         double wrong_on_plane = 0.0;
         double wrong = 0.0;
         for (const double above : {100.0, 3e3}) {
+            const glm::dvec2 from =
+                above > 1e3 ? glm::dvec2(-13.0, 77.0) : glm::dvec2(120.3, 230.7);
             for (EarthStage* const stage : {&plane, &bent}) {
-                stage->look({120.3, 230.7}, above, {140.0, 40.0});
+                stage->look(from, above, {140.0, 40.0});
                 const view::DrawnHits shown = hits(*stage, technique);
                 ASSERT_EQ(shown.stats.reliefs_as_triangles, 0);
                 const truth::GeometricErrors found = stage->errors(shown.hits);
