@@ -37,6 +37,15 @@ constexpr std::array<Monomial, RayCourse::term_count> monomials = [] {
     return all;
 }();
 
+// Of a monomial among all.
+std::size_t index_of(Monomial term) {
+    constexpr std::array<int, degree + 1> first{0, 0, 3, 9, 19}; // of a degree
+    const int total = term.x + term.y + term.z;
+    const int less_x = total - term.x;
+    return static_cast<std::size_t>(first[static_cast<std::size_t>(total)] +
+                                    less_x * (less_x + 1) / 2 + term.z);
+}
+
 double power(double base, int exponent) {
     double product = 1.0;
     for (int i = 0; i < exponent; ++i) {
@@ -181,14 +190,16 @@ glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
     return metres;
 }
 
+// Metres from a height above the ground to where a ray touches the ground, at most.
+double tangent_length(double height) {
+    constexpr double max_radius = 6.4e6; // of curvature: 6,399,594 m at the poles of WGS 84
+    const double above = std::max(0.0, height);
+    return std::sqrt(above * (2.0 * max_radius + above));
+}
+
 // Metres from an eye to the farthest ground that the curved Earth does not hide, at most.
 double horizon_of(double eye_height, terrain::HeightRange heights) {
-    constexpr double max_radius = 6.4e6; // of curvature: 6,399,594 m at the poles of WGS 84
-    const auto tangent = [&](double height) {
-        return std::sqrt(std::max(0.0, 2.0 * max_radius * (height - heights.low)) +
-                         std::pow(std::max(0.0, height - heights.low), 2.0));
-    };
-    return tangent(eye_height) + tangent(heights.high);
+    return tangent_length(eye_height - heights.low) + tangent_length(heights.high - heights.low);
 }
 
 // The part of the samples within the horizon; all of them around a pole and across the end of
@@ -232,6 +243,92 @@ Box within_horizon(const Box& samples, const terrain::Placement& placement, glm:
     return part;
 }
 
+// Metres that rays to the sun from these places have below the highest ground, at most. `to_sun`:
+// local.
+double light_reach(const terrain::Placement& placement, const std::vector<glm::dvec3>& places,
+                   glm::dvec3 to_sun, const Box& samples) {
+    const double rise = placement.exaggeration() * samples.size().z;
+    double sine = 1.0; // of the sun's lowest altitude
+    for (const glm::dvec3 place : places) {
+        sine = std::min(sine, glm::dot(placement.up(place), to_sun));
+    }
+    const double longest = 2.0 * tangent_length(rise); // down to the ground and up again
+    constexpr double min_reach = 1.0;
+    return std::max(min_reach, sine > 0.0 ? std::min(rise / sine, longest) : longest);
+}
+
+// With the samples that the rays from some places cross.
+Box with_light(const Box& seen, const terrain::Placement& placement,
+               const std::vector<glm::dvec3>& places, glm::dvec3 way, const Box& all) {
+    const auto around = placement.columns_all_around();
+    const double middle = seen.center().x;
+    Box lit = seen;
+    for (const glm::dvec3 place : places) {
+        auto sample = placement.sample_from_world(place + way);
+        if (!sample) {
+            return all;
+        }
+        if (around) {
+            sample->x -= *around * std::round((sample->x - middle) / *around);
+        }
+        lit.add(glm::dvec3(glm::dvec2(*sample), seen.low.z));
+    }
+    if (around && (lit.low.x < all.low.x || lit.high.x > all.high.x)) {
+        return all;
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        lit.low[axis] = std::max(lit.low[axis], all.low[axis]);
+        lit.high[axis] = std::min(lit.high[axis], all.high[axis]);
+    }
+    return lit;
+}
+
+// The terms of a polynomial at a place plus a way, by powers of the way.
+std::array<glm::dvec3, LightCourse::term_count>
+terms_along(const std::array<glm::dvec3, RayCourse::term_count>& terms, glm::dvec3 way) {
+    constexpr std::array<std::size_t, degree> first{0, 20, 30, 34}; // of each power
+    std::array<glm::dvec3, LightCourse::term_count> along{};
+    for (const Monomial whole : monomials) {
+        const glm::dvec3 term = terms[index_of(whole)];
+        for (int x = 0; x <= whole.x; ++x) {
+            for (int y = 0; y <= whole.y; ++y) {
+                for (int z = 0; z <= whole.z; ++z) {
+                    const int total = whole.x + whole.y + whole.z - x - y - z;
+                    if (total == 0) {
+                        continue;
+                    }
+                    const double ways = binomial(whole.x, x) * binomial(whole.y, y) *
+                                        binomial(whole.z, z) * power(way.x, whole.x - x) *
+                                        power(way.y, whole.y - y) * power(way.z, whole.z - z);
+                    const std::size_t at = x + y + z == 0 ? 0 : 1 + index_of({x, y, z});
+                    along[first[static_cast<std::size_t>(total) - 1] + at] += ways * term;
+                }
+            }
+        }
+    }
+    return along;
+}
+
+std::vector<glm::dvec3> places_of(const terrain::Placement& placement,
+                                  const std::vector<glm::dvec3>& samples) {
+    std::vector<glm::dvec3> places;
+    places.reserve(samples.size() + 1);
+    for (const glm::dvec3 sample : samples) {
+        places.push_back(placement.world_from_sample(sample));
+    }
+    return places;
+}
+
+// Of the light over the visible samples; its terms are not yet set.
+LightCourse light_over(const Box& seen, const terrain::Placement& placement, glm::dvec3 to_sun,
+                       const Box& all) {
+    const std::vector<glm::dvec3> places = places_of(placement, checked_samples(seen));
+    LightCourse light;
+    light.reach = light_reach(placement, places, to_sun, all);
+    light.samples = with_light(seen, placement, places, light.reach * to_sun, all);
+    return light;
+}
+
 } // namespace
 
 glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
@@ -246,7 +343,8 @@ glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
 
 std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
                                     const glm::dmat4& world_from_local,
-                                    const terrain::Placement& placement, const Box& samples) {
+                                    const terrain::Placement& placement, const Box& samples,
+                                    const std::optional<SunRays>& sun) {
     if (camera.projection == scene::ProjectionKind::orthographic) {
         return std::nullopt;
     }
@@ -260,20 +358,21 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
     if (seen.low.x >= seen.high.x || seen.low.y >= seen.high.y) {
         return std::nullopt;
     }
-    const std::vector<glm::dvec3> checked = checked_samples(seen);
-    std::vector<glm::dvec3> places;
-    places.reserve(checked.size() + 1);
-    for (const glm::dvec3 sample : checked) {
-        places.push_back(placement.world_from_sample(sample));
+    RayCourse course;
+    course.samples = seen;
+    if (sun) {
+        course.light =
+            light_over(seen, placement, glm::dmat3(local_from_world) * sun->to_sun, sun->samples);
     }
+    const std::vector<glm::dvec3> checked =
+        checked_samples(course.light ? course.light->samples : seen);
+    std::vector<glm::dvec3> places = places_of(placement, checked);
     places.push_back(eye);
     const auto polynomial = polynomial_around(placement, places);
     if (!polynomial) {
         return std::nullopt;
     }
 
-    RayCourse course;
-    course.samples = seen;
     const glm::dvec3 origin = polynomial->local(eye);
     for (std::size_t term = 0; term < monomials.size(); ++term) {
         course.terms[term] = shifted_term(*polynomial, monomials[term], origin);
@@ -285,6 +384,10 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
         course.eye.x += *around * std::round((polynomial->at(eye).x - eye_sample->x) / *around);
     }
     course.unit_from_relative = polynomial->local_from_offset() * glm::dmat3(local_from_world);
+    if (sun) {
+        course.light->terms = terms_along(course.terms, course.unit_from_relative *
+                                                            (course.light->reach * sun->to_sun));
+    }
     const glm::dmat3 world_turn(world_from_local);
     for (std::size_t i = 0; i < checked.size(); ++i) {
         const glm::dvec3 relative = world_turn * (places[i] - eye);

@@ -15,6 +15,24 @@
 
 namespace reljef::view {
 
+/// Rays from places of a surface to the sun: straight on the Earth, bent in samples. `part` of a
+/// ray leads from the sample of a place to that one plus a polynomial of degree 4 in `part`.
+struct LightCourse {
+    Box samples;        ///< that the rays may cross; true metres
+    double reach = 1.0; ///< metres of a ray at part 1: above all heights
+    /// Of the factors of part, part^2, part^3 and part^4: polynomials of degree 3, 2, 1 and 0 in
+    /// the direction from the eye to the place. Their monomials are those of RayCourse, after the
+    /// constant.
+    static constexpr std::size_t term_count = 20 + 10 + 4 + 1;
+    std::array<glm::dvec3, term_count> terms{}; ///< col, row, height in true metres
+};
+
+/// What light rays are made for.
+struct SunRays {
+    glm::dvec3 to_sun{0.0, 0.0, 1.0}; ///< unit vector of the world
+    Box samples;                      ///< all of the surface; true metres
+};
+
 /// The view rays over a terrain on the ellipsoid. They are bent in its samples: the sample at
 /// eye + direction is a polynomial of degree 4 in the direction. So along a ray it is one in the
 /// part of the ray, whose coefficients are precise in floats near the eye.
@@ -33,6 +51,7 @@ struct RayCourse {
     /// Of the polynomial: largest angle between a checked place of the surface and the one found,
     /// seen from the eye, radians.
     double error = 0.0;
+    std::optional<LightCourse> light;
 
     /// Of a place from the eye, in world metres.
     [[nodiscard]] glm::dvec3 sample(glm::dvec3 relative) const;
@@ -43,12 +62,16 @@ struct RayCourse {
 inline constexpr double max_course_error = 0.1;
 /// Pixels by which the chords of a ray may be.
 inline constexpr double max_chord_error = 0.005;
+/// Radians by which the chords of a ray to the sun may be: a thousandth of the sun's disc.
+inline constexpr double max_light_error = 1e-5;
 
 /// For the surface within `samples`: columns, rows and heights in true metres. Empty if no
 /// polynomial is precise enough: for parallel rays, eyes far above large terrains, and near poles.
+/// `sun`: with light rays, where the polynomial is then precise, too.
 /// Preconditions: an invertible transform, a placement on the ellipsoid.
 std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
                                     const glm::dmat4& world_from_local,
-                                    const terrain::Placement& placement, const Box& samples);
+                                    const terrain::Placement& placement, const Box& samples,
+                                    const std::optional<SunRays>& sun = {});
 
 } // namespace reljef::view

@@ -238,7 +238,7 @@ private:
             return;
         }
         draw.course = ray_course(list_.camera, list_.size, draw.world_from_local,
-                                 terrain.surface->placement(), samples);
+                                 terrain.surface->placement(), samples, sun_rays(terrain));
         if (draw.course) {
             list_.reliefs.push_back(std::move(draw));
             return;
@@ -247,6 +247,18 @@ private:
         if (!choice || !add_streamed(terrain, draw.world_from_local, std::move(*choice))) {
             add_tiles(terrain, draw.world_from_local);
         }
+    }
+
+    // Of a technique that casts them.
+    [[nodiscard]] std::optional<SunRays> sun_rays(const scene::TerrainNode& terrain) const {
+        if (!list_.sun || !terrain.material.technique.options.shadow) {
+            return std::nullopt;
+        }
+        const Grid<float>& heights = terrain.surface->heightfield().heights;
+        const terrain::MinMax range = terrain.surface->pyramid().total();
+        return SunRays{
+            scene::to_light(*list_.sun),
+            {{0.0, 0.0, range.low}, {heights.cols() - 1.0, heights.rows() - 1.0, range.high}}};
     }
 
     // The samples of a surface in memory that may be visible.

@@ -59,7 +59,8 @@ void main() {
     vec3 shown = color_at(place, space, way, right, up);
 #ifdef SMOOTH_EDGES
     vec2 missed;
-    float distance_share = near_miss(start, span, part, missed);
+    float at;
+    float distance_share = near_miss(start, part * span, at, missed);
     if (distance_share < 1.0) {
         shown = mix(color_at(missed, space, way, right, up), shown, distance_share);
     }

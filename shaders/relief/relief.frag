@@ -65,9 +65,10 @@ void write_place(vec2 place, float height, float depth) {
 
 #ifdef CURVED
 #include "curved/curved_search.glsl"
+#ifdef SHADOW
+#include "curved/curved_light.glsl"
 #endif
-
-#ifndef CURVED
+#else
 // A ray in the search space, and the same relative to the eye.
 struct StraightRay {
     vec3 start;
@@ -119,18 +120,21 @@ float near_level(float level, float distance_to_hit) {
 #endif
 
 #ifndef HIT
-vec3 lit_at(vec2 place, float level) {
+// `relative`: the place, relative to the eye.
+vec3 lit_at(vec2 place, float level, vec3 relative) {
     LitPlace at = lit_place(place, level);
     vec3 lit = reflected_at(at);
-#ifdef SHADOW
+#if defined(SHADOW) && defined(CURVED)
+    lit += sun_over_earth(place, relative) * of_sun_at(at);
+#elif defined(SHADOW)
     vec3 sun_direction = space_from_relative * to_sun.xyz;
     lit += sun_at(place, sun_direction, box_begin.xyz, box_end.xyz) * of_sun_at(at);
 #endif
     return lit;
 }
 
-vec3 color_at(vec2 place, float level, float metres) {
-    return seen_through_air(lit_at(place, level), metres);
+vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
+    return seen_through_air(lit_at(place, level, relative), metres);
 }
 #endif
 
@@ -185,12 +189,21 @@ void main() {
 #else
     float metres = length(relative);
     float level = level_of(place, metres);
-    vec3 shown = color_at(place, level, metres);
+    vec3 shown = color_at(place, level, relative, metres);
 #ifdef SMOOTH_EDGES
     vec2 missed;
-    float distance_share = near_miss(start, span, part, missed);
+    float at;
+#ifdef CURVED
+    vec3 start = curve_at(curve_range.x);
+    float distance_share = near_miss(start, curve_at(curve_range.y) - start, at, missed);
+    vec3 past = mix(curve_range.x, curve_range.y, at) * back;
+#else
+    float distance_share = near_miss(start, part * span, at, missed);
+    vec3 past = relative;
+#endif
     if (distance_share < 1.0) {
-        shown = mix(color_at(missed, near_level(level, metres), metres), shown, distance_share);
+        vec3 behind = color_at(missed, near_level(level, metres), past, metres);
+        shown = mix(behind, shown, distance_share);
     }
 #endif
     color = vec4(shown, 1.0);

@@ -2,18 +2,6 @@
 // bracketed secant method (Risser, Shah and Pattanaik 2006).
 #define EQUAL_STEPS
 
-#ifdef CURVED
-vec2 curve_range = vec2(0.0, 1.0); // the parts of the curve that are searched
-
-vec3 ray_at(vec3 start, vec3 span, float part) {
-    return curve_at(mix(curve_range.x, curve_range.y, part));
-}
-#else
-vec3 ray_at(vec3 start, vec3 span, float part) {
-    return start + part * span;
-}
-#endif
-
 float steps_for(vec3 span) {
 #ifdef VIEW_STEPS
     float upright = abs(normalize(span * metres_per_unit).z);

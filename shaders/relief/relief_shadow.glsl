@@ -25,7 +25,7 @@ float share_of_sun(vec3 start, vec3 span) {
     float n = shadow_steps(span);
     float deepest = 0.0;
     for (float i = 1.0; i <= n && deepest < shadow_depth; ++i) {
-        vec3 p = start + (i / n) * span;
+        vec3 p = ray_at(start, span, i / n);
         deepest = max(deepest, depth_in_surface(p));
     }
     return clamp(1.0 - deepest / shadow_depth, 0.0, 1.0);
@@ -35,7 +35,11 @@ float share_of_sun(vec3 start, vec3 span) {
 float share_of_sun(vec3 start, vec3 span) {
     float part;
     vec2 place;
+#ifdef CURVED
+    return find_between(curve_range, false, part, place) ? 0.0 : 1.0;
+#else
     return find_hit(start, span, part, place) ? 0.0 : 1.0;
+#endif
 }
 #endif
 

@@ -23,6 +23,16 @@ vec3 metres_per_unit = space_scale.xyz; // along this fragment's ray
 #endif
 #endif
 
+#ifdef CURVED
+vec3 ray_at(vec3 start, vec3 span, float part) {
+    return curve_at(mix(curve_range.x, curve_range.y, part));
+}
+#else
+vec3 ray_at(vec3 start, vec3 span, float part) {
+    return start + part * span;
+}
+#endif
+
 #ifdef LAYERS
 // Solid between 1 and 2, and between 3 and 4.
 vec4 layers_at(vec2 place) {

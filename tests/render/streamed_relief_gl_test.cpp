@@ -179,10 +179,7 @@ TEST_P(StreamedTechniqueGlTest, CutTerrainLooksAsUncut) {
 }
 
 TEST_P(StreamedTechniqueGlTest, CutTerrainLooksAsUncutOnTheEllipsoid) {
-    const scene::TechniqueOptions options = test::must(scene::parse_technique(GetParam())).options;
-    if (!options.shadow && !options.smooth_edges) { // these take straight rays
-        expect_cut_looks_as_uncut(GetParam(), true);
-    }
+    expect_cut_looks_as_uncut(GetParam(), true);
 }
 
 INSTANTIATE_TEST_SUITE_P(

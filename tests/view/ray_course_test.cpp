@@ -33,6 +33,26 @@ scene::Camera camera_at(glm::dvec3 eye) {
     return camera;
 }
 
+// On a ray from a sample to the sun.
+glm::dvec3 sample_along(const RayCourse& course, glm::dvec3 sample, glm::dvec3 relative,
+                        double part) {
+    const glm::dvec3 d = course.unit_from_relative * relative;
+    std::size_t term = 0;
+    for (int order = 1; order <= 4; ++order) {
+        glm::dvec3 factor(0.0);
+        for (int total = 0; total <= 4 - order; ++total) {
+            for (int x = total; x >= 0; --x) {
+                for (int y = total - x; y >= 0; --y) {
+                    factor += std::pow(d.x, x) * std::pow(d.y, y) * std::pow(d.z, total - x - y) *
+                              course.light->terms[term++];
+                }
+            }
+        }
+        sample += std::pow(part, order) * factor;
+    }
+    return sample;
+}
+
 // In a node that is turned and moved, too.
 TEST(RayCourse, FindsTheSamplesOfPlacesWithinItsError) {
     const glm::dmat4 world_from_local =
@@ -90,6 +110,45 @@ TEST(RayCourse, ChordsAreSeenBesideTheRayByNoMoreThanItsCurvatureSays) {
             largest = std::max(largest, seen / bound);
         }
         EXPECT_GT(largest, 0.3) << latitude;
+    }
+}
+
+// Straight rays from places of the surface, over all that they cross.
+TEST(RayCourse, LeadsRaysFromTheSurfaceToTheSun) {
+    test::Chance chance(5);
+    for (const double latitude : {1.0, 47.0, 71.0}) {
+        const terrain::Placement placement = placed(latitude, 1.0 / 1200.0);
+        const glm::dvec3 eye = placement.world_from_sample({600.0, 700.0, 3000.0});
+        Box near = all_samples();
+        near.low = {580.0, 640.0, -100.0};
+        near.high = {620.0, 700.0, 4000.0};
+        for (const double altitude : {2.0, 15.0, 60.0}) {
+            const double angle = glm::radians(altitude);
+            const glm::dvec3 to_sun =
+                std::sin(angle) * placement.up(eye) + std::cos(angle) * placement.north(eye);
+            const auto course = ray_course(camera_at(eye), size, glm::dmat4(1.0), placement, near,
+                                           SunRays{to_sun, all_samples()});
+            ASSERT_TRUE(course && course->light) << latitude << ", " << altitude;
+            const LightCourse& light = *course->light;
+            // 1.5 times the range of heights.
+            EXPECT_GE(light.reach * std::sin(angle), 0.9 * 1.5 * 4100.0 * (altitude > 5.0));
+            double worst = 0.0;
+            for (int i = 0; i < 500; ++i) {
+                const glm::dvec3 sample =
+                    near.low + near.size() * glm::dvec3(chance.between(0, 1), chance.between(0, 1),
+                                                        chance.between(0, 1));
+                const glm::dvec3 place = placement.world_from_sample(sample);
+                const double part = chance.between(0.0, 1.0);
+                const glm::dvec3 there = place + part * light.reach * to_sun;
+                const auto found = sample_along(*course, sample, place - eye, part);
+                const glm::dvec3 beside = placement.world_from_sample(found) - there;
+                const glm::dvec2 at(found);
+                if (at.y >= light.samples.low.y && at.y <= light.samples.high.y) {
+                    worst = std::max(worst, glm::length(beside) / (part * light.reach));
+                }
+            }
+            EXPECT_LT(worst, max_light_error) << latitude << ", " << altitude;
+        }
     }
 }
 

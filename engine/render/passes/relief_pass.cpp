@@ -52,15 +52,17 @@ DrawnSpace space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
 
 // With the heights of the search space, and what floats round of the heights of rays: a few units
 // of 2^-24 of the eye's. So rays begin above and end below thin surfaces, too.
-Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
+Box with_heights(const Box& samples, const view::RayCourse& course, const ReliefSpace& space) {
     constexpr double rounding = 0x1p-21;
     const double lowest = space.sample_of_origin.z;
     const double range = space.samples_per_unit.z;
     const double rounded = rounding * std::abs(course.eye.z - lowest);
-    return {
-        {course.samples.low.x, course.samples.low.y, lowest + range * space.box.low.z - rounded},
-        {course.samples.high.x, course.samples.high.y,
-         lowest + range * space.box.high.z + rounded}};
+    return {{samples.low.x, samples.low.y, lowest + range * space.box.low.z - rounded},
+            {samples.high.x, samples.high.y, lowest + range * space.box.high.z + rounded}};
+}
+
+Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
+    return with_heights(course.samples, course, space);
 }
 
 Box local_box(const view::ReliefDraw& draw, const ReliefSpace& space) {
@@ -119,6 +121,21 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
     program.set(uniforms.last_cell, tiles.space.last_cell);
 }
 
+// `in_space`: from samples.
+template <class InSpace>
+void set_light(CourseBlock& block, const view::RayCourse& course, const ReliefSpace& space,
+               const InSpace& in_space) {
+    const view::LightCourse& light = *course.light;
+    const Box crossed = with_heights(light.samples, course, space);
+    const double chords = std::sqrt(light.reach * course.curvature / (4.0 * view::max_light_error));
+    block.light_begin = glm::vec4(glm::vec3(in_space(crossed.low)), light.reach);
+    block.light_end = glm::vec4(glm::vec3(in_space(crossed.high)), chords);
+    for (std::size_t term = 0; term < view::LightCourse::term_count; ++term) {
+        block.light_terms[term] =
+            glm::vec4(glm::vec3(light.terms[term] / space.samples_per_unit), 0.0F);
+    }
+}
+
 CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space,
                          const view::DrawList& list) {
     const auto in_space = [&](glm::dvec3 sample) {
@@ -132,10 +149,16 @@ CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space
                                               std::sqrt(course.curvature / (4.0 * chord_error))),
                       .course_begin = glm::vec4(glm::vec3(in_space(visible.low)), 0.0F),
                       .course_end = glm::vec4(glm::vec3(in_space(visible.high)), 0.0F),
-                      .course_terms = {}};
+                      .course_terms = {},
+                      .light_begin = {},
+                      .light_end = {},
+                      .light_terms = {}};
     for (std::size_t term = 0; term < view::RayCourse::term_count; ++term) {
         block.course_terms[term] =
             glm::vec4(glm::vec3(course.terms[term] / space.samples_per_unit), 0.0F);
+    }
+    if (course.light) {
+        set_light(block, course, space, in_space);
     }
     return block;
 }

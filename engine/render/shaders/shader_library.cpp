@@ -174,9 +174,6 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
             options |= shadow | feature_lit;
         }
     }
-    if ((features & feature_curved) != 0) { // no straight rays from the surface
-        options &= feature_fade | feature_write_depth;
-    }
     return options;
 }
 

@@ -30,21 +30,10 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
         return "option 'border' found, none was expected: a terrain ends at its border, detail "
                "tiles go on";
     }
-    if (surface.placement().kind() == terrain::PlacementKind::plane) {
-        return {};
-    }
-    if (needs_plane(technique.id())) {
-        return "placement ellipsoid found, plane was expected; relief draws both";
-    }
-    // These follow straight rays from the surface.
-    if (technique.options.shadow && searches_surface(technique.id())) {
-        return "option 'shadow' found with placement ellipsoid, plane was expected; without the "
-               "option, the terrain's light has shadows";
-    }
-    if (technique.options.smooth_edges && searches_surface(technique.id())) {
-        return "option 'edges' found with placement ellipsoid, plane was expected";
-    }
-    return {};
+    const bool is_bent = surface.placement().kind() != terrain::PlacementKind::plane;
+    return needs_plane(technique.id()) && is_bent
+               ? "placement ellipsoid found, plane was expected; relief draws both"
+               : std::string_view();
 }
 
 std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::Tile& samples) {

@@ -54,9 +54,7 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // searches: these, and as colour three shadows and smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
-    // All of a relief are there for streams, too.
-    // On the ellipsoid they cast no shadows and have no smooth edges.
-    constexpr std::size_t curved = 4U * 3U * 4U + 8U * (4U + 2U * 4U);
+    // All of a relief are there for streams and on the ellipsoid, too.
     // Three of the searches, without fade, are there with beams too; and the beams themselves.
     constexpr std::size_t beams = 1U + 3U * (2U + 2U * 2U * 6U);
     // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
@@ -73,7 +71,7 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t ground_searches = 2U * (4U * 2U + 8U * (1U + 3U));
     constexpr std::size_t plain = 2U * 3U + 5U + 2U + 1U;
     EXPECT_EQ(all_variants().size() - multisampled,
-              plain + 2U * (parallax + searches + curved + beams) + textured + mesh_parallax +
+              plain + 2U * (2U * (parallax + searches) + beams) + textured + mesh_parallax +
                   mesh_searches + layers + textured_ground + ground_searches + hull_searches);
     EXPECT_EQ(multisampled, colors) << "whatever a scene shows";
 }

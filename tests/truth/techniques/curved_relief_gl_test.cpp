@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/scene/graph/terrain_light.h"
+#include "engine/truth/scene_caster.h"
+#include "engine/truth/shading.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/earth_stage.h"
 
@@ -20,6 +23,15 @@ protected:
         Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
         stage.set(test::must(scene::parse_technique(technique)));
         return test::must(driver.draw_hits(view::select(stage.scene, size)));
+    }
+
+    static Image picture(EarthStage& stage, const std::string& technique) {
+        Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
+        stage.set(test::must(scene::parse_technique(technique)));
+        const view::FrameView frame = view::select(stage.scene, size);
+        EXPECT_EQ(frame.list.stats.reliefs_as_triangles, 0);
+        test::must(driver.draw(frame));
+        return driver.read_color();
     }
 
     static void expect_true(EarthStage& stage, const std::string& technique,
@@ -141,6 +153,98 @@ TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
         }
         EXPECT_LE(wrong, 1.1 * wrong_on_plane + 100.0) << technique;
         EXPECT_GE(wrong, 0.8 * wrong_on_plane - 100.0) << technique;
+    }
+}
+
+// Of the pixels that the sun may light, those that are black though it does or not though it does
+// not, percent.
+double wrongly_lit(EarthStage& stage, const Image& shown) {
+    const scene::Light sun = *stage.scene.sun();
+    const truth::SceneCaster caster = truth::SceneCaster::create(stage.scene).value();
+    const scene::TerrainIrradiance irradiance(stage.surface(), {sun, glm::dmat3(1.0)});
+    const HitBuffer hits = test::must(truth::draw_hits(stage.scene, size));
+    int all = 0;
+    int wrong = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit& hit = hits.samples()[i];
+        if (hit.is_sky() || irradiance.parts_at(hit.place()).sun.r < 0.05F) {
+            continue;
+        }
+        truth::SceneHit there;
+        there.surface.sample = {
+            hit.place(),
+            terrain::bilinear_height(stage.surface().heightfield().heights.view(), hit.place())};
+        ++all;
+        const bool is_lit = truth::sees_sun(caster, there, scene::to_light(sun));
+        wrong += (shown.samples()[i].r != 0) != is_lit ? 1 : 0;
+    }
+    EXPECT_GT(all, 3000);
+    return 100.0 * wrong / all;
+}
+
+// Mountains of 3 km on flat ground, 27 km apart.
+Grid<float> lone_mountains() {
+    constexpr int side = EarthStage::side;
+    return test::made_heights(side, side, [](int col, int row) {
+        const double away = std::hypot(col % 60 - 30, row % 60 - 30); // samples
+        return std::max(0.0, 3000.0 - 1000.0 * away);
+    });
+}
+
+// At 4 degrees their shadows are 43 km long. There the ground has fallen by 144 m, which makes them
+// two kilometres longer.
+TEST_F(CurvedReliefGlTest, HardShadowIsTheShadowRayOfTheTruth) {
+    for (const double altitude : {4.0, 30.0}) {
+        for (const double latitude : {45.0, -60.0}) {
+            EarthStage stage({.latitude = latitude, .step = 0.004, .turn = 20.0}, lone_mountains());
+            stage.scene.add_light({297.0, altitude, glm::vec3(1.0F), glm::vec3(0.0F)});
+            for (const double above : {3e3, 4e4}) {
+                stage.look({120.3, 201.7}, above, {140.0, 40.0});
+                for (const char* const technique :
+                     {"exact:shadow=hard", "cone:n=1024,step=0,shadow=hard"}) {
+                    EXPECT_LE(wrongly_lit(stage, picture(stage, technique)), 0.5)
+                        << technique << " at " << latitude << ", sun at " << altitude << " degrees";
+                }
+            }
+        }
+    }
+}
+
+// Over 280 m the Earth is flat.
+TEST_F(CurvedReliefGlTest, OptionsShowOnSmallTerrainsWhatTheyShowOnAPlane) {
+    EarthStage bent({.step = 1e-5}, towers());
+    EarthStage plane({.step = 1e-5, .placement = terrain::PlacementKind::plane}, towers());
+    for (EarthStage* const stage : {&plane, &bent}) {
+        stage->scene.add_light({297.0, 25.0, glm::vec3(1.0F), glm::vec3(0.1F)});
+    }
+    for (const char* const technique :
+         {"exact:edges=smooth,0.02", "relief:n=256,edges=smooth,0.02", "exact:shadow=hard",
+          "cone:n=1024,step=0,shadow=hard", "relief:n=256,shadow=hard", "exact:shadow=soft,0.1",
+          "relief:shadow=soft,0.1", "pom:shadow=hard", "exact:fade=0.2..1,shadow=hard",
+          "relief:n=256,edges=smooth,0.02,shadow=hard"}) {
+        for (const double above : {3.0, 150.0}) {
+            for (EarthStage* const stage : {&plane, &bent}) {
+                stage->look({120.3, 230.7}, above, {140.0, 40.0});
+            }
+            const Image on_plane = picture(plane, technique);
+            const Image on_earth = picture(bent, technique);
+            int different = 0;
+            int without = 0;
+            const std::string alone(technique, std::string(technique).find(':'));
+            const Image plain = picture(bent, alone);
+            for (std::size_t i = 0; i < on_earth.size(); ++i) {
+                const auto differ = [&](const Image& other) {
+                    return std::abs(brightness(on_earth.samples()[i]) -
+                                    brightness(other.samples()[i])) > 12
+                               ? 1
+                               : 0;
+                };
+                different += differ(on_plane);
+                without += differ(plain);
+            }
+            EXPECT_LE(different, size.x * size.y / 50) << technique << ", " << above << " m";
+            EXPECT_GE(without, 2 * different) << technique << ", " << above << " m";
+        }
     }
 }
 
