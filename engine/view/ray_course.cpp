@@ -389,6 +389,7 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
                                                             (course.light->reach * sun->to_sun));
     }
     const glm::dmat3 world_turn(world_from_local);
+    course.min_metres = metres_at(placement, checked.front());
     for (std::size_t i = 0; i < checked.size(); ++i) {
         const glm::dvec3 relative = world_turn * (places[i] - eye);
         const glm::dvec3 found = placement.world_from_sample(course.sample(relative));
@@ -396,8 +397,9 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
         if (distance > 0.0) { // at the eye it is exact
             course.error = std::max(course.error, glm::distance(found, places[i]) / distance);
         }
-        course.curvature = std::max(
-            course.curvature, curvature_at(course, relative, metres_at(placement, checked[i])));
+        const glm::dvec3 metres = metres_at(placement, checked[i]);
+        course.min_metres = glm::min(course.min_metres, metres);
+        course.curvature = std::max(course.curvature, curvature_at(course, relative, metres));
     }
     const double pixel = metres_a_pixel(camera, size).y;
     return course.error <= max_course_error * pixel ? std::optional(course) : std::nullopt;

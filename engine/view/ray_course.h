@@ -48,6 +48,7 @@ struct RayCourse {
     /// Of rays in samples, at most, 1/metre. A chord between the distances a and b from the eye is
     /// seen beside the ray by at most (sqrt(b) - sqrt(a))^2 / 2 of it, in radians.
     double curvature = 0.0;
+    glm::dvec3 min_metres{1.0}; ///< world metres of a step of each coordinate of a sample, at least
     /// Of the polynomial: largest angle between a checked place of the surface and the one found,
     /// seen from the eye, radians.
     double error = 0.0;

@@ -157,7 +157,8 @@ bool find_between(vec2 range, bool above, out float part, out vec2 place) {
 // The part of the way to where the ray leaves the box.
 bool find_on_curve(out float part, out vec2 place) {
     curve = view_curve(back);
-    float begin = clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0);
+    float depth = dot(back, view_forward.xyz);
+    float begin = clamp(near_depth / depth, 0.0, 1.0);
     vec2 range = falling_range(begin);
 #if !defined(EXACT) && !defined(CONE)
     range = range_inside(range);
@@ -168,6 +169,9 @@ bool find_on_curve(out float part, out vec2 place) {
     fade_curve(way);
     vec2 faded = falling_range(begin);
     range = vec2(max(range.x, faded.x), min(range.y, faded.y));
+#endif
+#ifdef BEAMS
+    range.x = max(range.x, clear_part(depth));
 #endif
     if (!(range.x <= range.y)) {
         return false;

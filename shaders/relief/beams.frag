@@ -1,12 +1,14 @@
 #include "frame/bindings.inc"
-#ifdef STREAMED
+#if defined(STREAMED) || defined(CURVED)
 #include "frame/relief_block.glsl"
+#endif
+#ifdef STREAMED
 uniform vec2 height_texel; // 1 / vertices of a tile
 #include "stream/stream_tiles.glsl"
 #include "stream/stream_max.glsl"
 #endif
 
-// The height down to which the beam of a block of pixels meets nothing (Laine and Karras 2010, beam
+// The height (on the ellipsoid, the depth) down to which the beam of a block of pixels meets nothing (Laine and Karras 2010, beam
 // optimization; here with a max mipmap).
 #ifndef STREAMED
 layout(binding = max_mipmap_unit) uniform sampler2D max_mipmap; // level 0: maximum of a cell's corners
@@ -16,12 +18,13 @@ uniform ivec2 origin_cell;
 uniform int top_level;
 // Search space; matrix · (1, x, y), with x and y as gl_FragCoord.
 uniform mat3 origin_of_ray;
-uniform mat3 direction_of_ray;
-uniform float begin_height; // of the beams
-uniform float beam_lift;    // margin for rounding errors, in heights
+uniform mat3 direction_of_ray; // on the ellipsoid: in world metres, one metre of depth
+uniform float begin_height;    // of the beams
+uniform float beam_lift;       // margin for rounding errors, in heights
 
 layout(location = 0) out float clear_height;
 
+#ifndef CURVED
 // The four edges of a beam.
 struct Beam {
     mat3x4 origins;
@@ -44,6 +47,8 @@ Corners section(Beam beam, float height) {
     return Corners(beam.origins[0] + way * beam.directions[0],
                    beam.origins[1] + way * beam.directions[1]);
 }
+
+#endif
 
 float smallest(vec4 values) {
     return min(min(values.x, values.y), min(values.z, values.w));
@@ -94,6 +99,15 @@ float max_height_within(vec2 low, vec2 high) {
     return largest(heights);
 }
 
+#ifdef CURVED
+#include "curved/curved_beams.glsl"
+
+void main() {
+    float extent = float(pixels_a_beam);
+    vec2 low = floor(gl_FragCoord.xy) * extent;
+    clear_height = clear_depth_of(low, low + extent);
+}
+#else
 float max_height_between(Corners upper, Corners lower) {
     return max_height_within(vec2(min(smallest(upper.cols), smallest(lower.cols)),
                                 min(smallest(upper.rows), smallest(lower.rows))),
@@ -127,3 +141,4 @@ void main() {
     bool falls = all(lessThan(beam.directions[2], vec4(0.0)));
     clear_height = falls ? clear_down_to(beam) + beam_lift : begin_height + beam_lift;
 }
+#endif

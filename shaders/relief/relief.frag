@@ -138,6 +138,7 @@ vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
 }
 #endif
 
+#ifndef CURVED
 bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
 #ifdef BEAMS
     float clear = clear_part(start, span);
@@ -150,6 +151,7 @@ bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     return find_hit(start, span, part, place);
 #endif
 }
+#endif
 
 void main() {
 #ifdef CURVED

@@ -23,10 +23,6 @@ std::uint32_t surface_features(const view::ReliefDraw& draw) {
     return (is_streamed(draw) ? feature_streamed : 0U) | (draw.course ? feature_curved : 0U);
 }
 
-bool draws_beams(const view::ReliefDraw& draw) {
-    return has_beams(draw.terrain->material.technique) && !draw.course;
-}
-
 // A draw's search space. Its origin is near the eye, where floats are precise.
 struct DrawnSpace {
     ReliefSpace space;
@@ -149,6 +145,8 @@ CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space
                                               std::sqrt(course.curvature / (4.0 * chord_error))),
                       .course_begin = glm::vec4(glm::vec3(in_space(visible.low)), 0.0F),
                       .course_end = glm::vec4(glm::vec3(in_space(visible.high)), 0.0F),
+                      .course_scale = glm::vec4(
+                          glm::vec3(course.min_metres * space.samples_per_unit), course.curvature),
                       .course_terms = {},
                       .light_begin = {},
                       .light_end = {},
@@ -185,9 +183,18 @@ Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw)
     if (auto set = state.set(relief_block(draw, space)); !set) {
         return set;
     }
-    set_beams(**program, space,
-              picture_rays(frame.list.camera, frame.list.size, space,
-                           glm::inverse(draw.world_from_local)));
+    if (draw.course) {
+        if (auto set = state.set(course_block(*draw.course, space, frame.list)); !set) {
+            return set;
+        }
+        const ReliefSpace world;
+        set_beams(**program, space,
+                  picture_rays(frame.list.camera, frame.list.size, world, glm::dmat4(1.0)));
+    } else {
+        set_beams(**program, space,
+                  picture_rays(frame.list.camera, frame.list.size, space,
+                               glm::inverse(draw.world_from_local)));
+    }
     frame.beams.bind();
     gl::draw_arrays(gl::Primitive::triangles, 3);
     frame.picture.bind();
@@ -262,7 +269,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
             return set;
         }
     }
-    if (draws_beams(draw)) {
+    if (has_beams(technique)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
@@ -276,7 +283,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw
     const scene::Technique& technique = draw.terrain->material.technique;
     DrawState& state = frame.state;
     frame.no_vertices.bind();
-    if (draws_beams(draw)) {
+    if (has_beams(technique)) {
         if (auto drawn = draw_beams(frame, draw); !drawn) {
             return drawn;
         }

@@ -181,8 +181,7 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
 std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
     const bool anywhere =
         search == feature_exact || search == feature_cone || search == feature_secant;
-    return anywhere && (features & (feature_fade | feature_curved)) == 0 ? features & feature_beams
-                                                                         : 0U;
+    return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
 }
 
 std::uint32_t lighting_of(std::uint32_t features) {
@@ -212,7 +211,7 @@ std::uint32_t own_features(ShaderVariant variant) {
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                (variant.features & (feature_streamed | feature_curved));
     case ShaderKind::beams:
-        return variant.features & feature_streamed;
+        return variant.features & (feature_streamed | feature_curved);
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap;
     case ShaderKind::textured_mesh:

@@ -25,7 +25,7 @@ inline std::uint32_t possible_features(ShaderKind kind) {
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
                feature_curved;
     case ShaderKind::beams:
-        return any | feature_streamed;
+        return any | feature_streamed | feature_curved;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled;
     case ShaderKind::textured_mesh:

@@ -71,7 +71,7 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t ground_searches = 2U * (4U * 2U + 8U * (1U + 3U));
     constexpr std::size_t plain = 2U * 3U + 5U + 2U + 1U;
     EXPECT_EQ(all_variants().size() - multisampled,
-              plain + 2U * (2U * (parallax + searches) + beams) + textured + mesh_parallax +
+              plain + 4U * (parallax + searches + beams) + textured + mesh_parallax +
                   mesh_searches + layers + textured_ground + ground_searches + hull_searches);
     EXPECT_EQ(multisampled, colors) << "whatever a scene shows";
 }
