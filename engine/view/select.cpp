@@ -18,6 +18,7 @@
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
+#include "engine/view/relief_samples.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {
@@ -131,22 +132,6 @@ with_coarser(const scene::TerrainNode& terrain, std::span<const TileSelection::D
     return tiles;
 }
 
-// The samples of the overview over some tiles, and all its heights.
-Box samples_of(const scene::TerrainNode& terrain, std::span<const TileSelection::Drawn> drawn) {
-    const scene::TileBuilder& builder = terrain.stream->maker();
-    const terrain::MinMax range = terrain.surface->pyramid().total();
-    Box samples;
-    for (const TileSelection::Drawn& seen : drawn) {
-        const terrain::TreeTile tile = seen.tile->id;
-        const auto add = [&](glm::ivec2 vertex, double height) {
-            samples.add(glm::dvec3(builder.on_overview(builder.sample(tile, vertex)), height));
-        };
-        add({0, 0}, range.low);
-        add(builder.tree().cells(tile), range.high);
-    }
-    return samples;
-}
-
 class Selector {
 public:
     Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
@@ -230,15 +215,17 @@ private:
 
     void add_on_ellipsoid(ReliefDraw draw, std::optional<TileSelection> choice) {
         const scene::TerrainNode& terrain = *draw.terrain;
-        const Box samples = choice && choice->has_root
-                                ? samples_of(terrain, choice->drawn)
-                                : seen_samples(terrain, draw.world_from_local);
+        const Box samples =
+            choice && choice->has_root
+                ? samples_of(terrain, choice->drawn)
+                : seen_samples(*terrain.surface, frustum_.in_local(draw.world_from_local));
         if (samples.empty()) {
             ++list_.stats.skipped.nodes_outside_frustum;
             return;
         }
-        draw.course = ray_course(list_.camera, list_.size, draw.world_from_local,
-                                 terrain.surface->placement(), samples, sun_rays(terrain));
+        draw.course =
+            ray_course(list_.camera, list_.size, draw.world_from_local,
+                       terrain.surface->placement(), samples, sun_rays(terrain, list_.sun));
         if (draw.course) {
             list_.reliefs.push_back(std::move(draw));
             return;
@@ -247,35 +234,6 @@ private:
         if (!choice || !add_streamed(terrain, draw.world_from_local, std::move(*choice))) {
             add_tiles(terrain, draw.world_from_local);
         }
-    }
-
-    // Of a technique that casts them.
-    [[nodiscard]] std::optional<SunRays> sun_rays(const scene::TerrainNode& terrain) const {
-        if (!list_.sun || !terrain.material.technique.options.shadow) {
-            return std::nullopt;
-        }
-        const Grid<float>& heights = terrain.surface->heightfield().heights;
-        const terrain::MinMax range = terrain.surface->pyramid().total();
-        return SunRays{
-            scene::to_light(*list_.sun),
-            {{0.0, 0.0, range.low}, {heights.cols() - 1.0, heights.rows() - 1.0, range.high}}};
-    }
-
-    // The samples of a surface in memory that may be visible.
-    [[nodiscard]] Box seen_samples(const scene::TerrainNode& terrain,
-                                   const glm::dmat4& world_from_local) const {
-        const Frustum frustum = frustum_.in_local(world_from_local);
-        const terrain::MinMax range = terrain.surface->pyramid().total();
-        Box samples;
-        for (const auto& tile : terrain.surface->tiles()) {
-            if (frustum.may_see(tile->bounds)) {
-                const glm::ivec2 first =
-                    terrain::tile_cells * glm::ivec2(tile->id.col, tile->id.row);
-                samples.add(glm::dvec3(glm::dvec2(first), range.low));
-                samples.add(glm::dvec3(glm::dvec2(first + tile->cells), range.high));
-            }
-        }
-        return samples;
     }
 
     // Requests and counts the tiles of a stream.
