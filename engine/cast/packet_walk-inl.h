@@ -180,19 +180,15 @@ HWY_INLINE Ints cell_at(const Axis& axis, Floats start) {
     return hn::ConvertTo(ints, hn::Add(corrected, axis.base));
 }
 
-// The level at which rays begin: a start is near the surface.
-constexpr int first_level = 1;
-
-HWY_INLINE Walk walk_from(const Rays& rays, const TileSamples& tile, Floats start) {
-    const int level = tile.top_level < first_level ? tile.top_level : first_level;
+HWY_INLINE Walk walk_from(const Rays& rays, Floats start) {
     Walk walk;
     walk.active = hn::Lt(start, rays.end);
     walk.arrived = no_lanes();
     walk.t = hn::IfThenElse(walk.active, start, rays.begin);
     walk.wall = no_lanes();
-    walk.level = all(level);
-    walk.col = hn::ShiftRightSame(cell_at(rays.col, walk.t), level);
-    walk.row = hn::ShiftRightSame(cell_at(rays.row, walk.t), level);
+    walk.level = hn::Zero(ints); // a start is near the surface
+    walk.col = cell_at(rays.col, walk.t);
+    walk.row = cell_at(rays.row, walk.t);
     return walk;
 }
 
@@ -297,6 +293,88 @@ template <bool has_walls> HWY_INLINE void step(const Rays& rays, const BlockJob&
     }
 }
 
+// A line that a ray crosses next, along one axis.
+struct NextLine {
+    Floats line; // from the base
+    Floats t;
+    Floats stride; // 1 or -1
+};
+
+HWY_INLINE NextLine next_line(const Axis& axis, Ints cell) {
+    NextLine next;
+    const Floats ahead = hn::ConvertTo(floats, axis.ahead);
+    next.line = hn::Add(hn::Sub(hn::ConvertTo(floats, cell), axis.base), ahead);
+    next.t = axis.time_at(next.line);
+    next.stride = hn::Sub(hn::Add(ahead, ahead), all(1.0F));
+    return next;
+}
+
+HWY_INLINE void pass(const Axis& axis, Lanes lanes, NextLine& next) {
+    next.line = hn::Add(next.line, hn::IfThenElseZero(lanes, next.stride));
+    next.t = axis.time_at(next.line);
+}
+
+HWY_INLINE Ints cell_behind(const Axis& axis, Floats line) {
+    const Floats near = hn::Sub(line, hn::ConvertTo(floats, axis.ahead));
+    return hn::ConvertTo(ints, hn::Add(near, axis.base));
+}
+
+// Steps of rays near the surface, from cell to cell, until each has arrived at one that it may hit.
+// No step waits for the maxima of the one before: rays that have arrived go on, and where they were
+// is kept.
+template <bool has_walls>
+HWY_INLINE void march(const Rays& rays, const BlockJob& job, Lanes lanes, Walk& walk) {
+    constexpr int max_steps = 16;
+    NextLine col = next_line(rays.col, walk.col);
+    NextLine row = next_line(rays.row, walk.row);
+    Floats kept_col = col.line;
+    Floats kept_row = row.line;
+    const Ints stride = all(job.tile.stride);
+    const Ints col_stride = hn::ConvertTo(ints, col.stride);
+    const Ints row_stride = hn::Mul(hn::ConvertTo(ints, row.stride), stride);
+    Ints index = hn::Add(hn::Mul(walk.row, stride), walk.col);
+    const hn::RebindToUnsigned<IntTag> unsigned_ints;
+    const auto last = hn::Set(unsigned_ints,
+                              static_cast<std::uint32_t>(job.tile.stride * job.tile.rows - 1));
+    const Floats height = hn::Add(rays.height, all(job.rays.base_height - job.rays.lift));
+    Floats t = walk.t;
+    Floats enter_height = hn::MulAdd(t, rays.rise, height);
+    Lanes run = lanes;
+    for (int i = 0; i < max_steps; ++i) {
+        const Floats next = hn::Min(col.t, row.t);
+        const Floats leave = hn::Min(next, rays.end);
+        const Floats leave_height = hn::MulAdd(leave, rays.rise, height);
+        const Ints inside =
+            hn::BitCast(ints, hn::Min(hn::BitCast(unsigned_ints, index), last));
+        const Floats highest = hn::GatherIndex(floats, job.tile.maxima, inside);
+        const Lanes over = hn::Gt(hn::Min(enter_height, leave_height), highest);
+        walk.arrived = hn::Or(walk.arrived, hn::AndNot(over, run));
+        const Lanes left = hn::And(run, over);
+        if constexpr (has_walls) {
+            walk.below = hn::AndNot(left, walk.below);
+        }
+        const Lanes ends = hn::And(left, hn::Ge(next, rays.end));
+        walk.active = hn::AndNot(ends, walk.active);
+        run = hn::AndNot(ends, left);
+        const Lanes sideways = hn::Le(col.t, row.t);
+        pass(rays.col, sideways, col);
+        pass(rays.row, hn::Not(sideways), row);
+        index = hn::Add(index, hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride,
+                                              row_stride));
+        t = leave;
+        enter_height = leave_height;
+        walk.t = hn::IfThenElse(run, t, walk.t);
+        kept_col = hn::IfThenElse(run, col.line, kept_col);
+        kept_row = hn::IfThenElse(run, row.line, kept_row);
+        if (hn::AllFalse(floats, run)) {
+            break;
+        }
+    }
+    const IntLanes moved = hn::RebindMask(ints, lanes);
+    walk.col = hn::IfThenElse(moved, cell_behind(rays.col, kept_col), walk.col);
+    walk.row = hn::IfThenElse(moved, cell_behind(rays.row, kept_row), walk.row);
+}
+
 // The rays that come in below the surface and were above it before. Notes for those that miss on
 // which side they leave their cells.
 HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
@@ -331,18 +409,25 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
     return hit;
 }
 
-// Walks all rays to their first hit. Cells are solved when three quarters of the lanes have arrived
-// at one.
+// Whether cells are solved: when three quarters of the lanes have arrived at one, or no other is on
+// its way.
+HWY_INLINE bool is_time_to_solve(const Walk& walk) {
+    const std::size_t arrived = hn::CountTrue(floats, walk.arrived);
+    return 4 * arrived >= 3 * lane_count ||
+           hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
+}
+
+// Walks all rays to their first hit.
 template <bool has_walls>
 HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
     Lanes hits = no_lanes();
     while (!hn::AllFalse(floats, walk.active)) {
-        step<has_walls>(rays, job, walk);
-        const std::size_t arrived = hn::CountTrue(floats, walk.arrived);
-        const bool has_others = !hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
-        if (4 * arrived >= 3 * lane_count || (arrived > 0 && !has_others)) {
-            hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
+        const Lanes near = hn::RebindMask(floats, hn::Eq(walk.level, hn::Zero(ints)));
+        march<has_walls>(rays, job, hn::And(near, hn::AndNot(walk.arrived, walk.active)), walk);
+        while (!is_time_to_solve(walk)) {
+            step<has_walls>(rays, job, walk);
         }
+        hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
     }
     return hits;
 }
@@ -378,7 +463,7 @@ HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met&
         rays.end = hn::IfThenElse(hn::Lt(height, all(job.rays.lowest)), leaving_of(rays, job.rays),
                                   rays.end);
     }
-    Walk walk = walk_from(rays, job.tile, begin);
+    Walk walk = walk_from(rays, begin);
     if constexpr (has_walls) {
         walk.active = hn::AndNot(met.found, walk.active);
         walk.entry = hn::Max(entry.t(), rays.begin);
