@@ -1,5 +1,6 @@
 #include "engine/cast/block_kernel.h"
 
+#include <cstring>
 #include <limits>
 
 // Instruction sets between those of simd_target.cpp are no faster. Vectors whose length the
@@ -25,11 +26,12 @@ constexpr float nowhere = std::numeric_limits<float>::infinity();
 // Stores the lanes of a packet whose first pixel is (col, row).
 template <class Tag, class U>
 HWY_INLINE void store(Tag tag, hn::Vec<Tag> lanes, int col, int row, U* to) {
+    static_assert(sizeof(U) == sizeof(hn::TFromD<Tag>));
     alignas(64) hn::TFromD<Tag> values[static_cast<std::size_t>(lane_count)];
     hn::Store(lanes, tag, values);
-    for (int lane = 0; lane < lane_count; ++lane) {
-        const int pixel = (row + lane / packet_cols) * block_side + col + lane % packet_cols;
-        to[pixel] = static_cast<U>(values[lane]);
+    for (int i = 0; i < packet_rows; ++i) {
+        std::memcpy(to + (row + i) * block_side + col, values + i * packet_cols,
+                    sizeof(U) * packet_cols);
     }
 }
 

@@ -65,20 +65,17 @@ struct BlockHits {
     alignas(64) std::array<float, block_pixels> height; ///< metres above the base height
 };
 
-/// A level of a map of colours: texels of three times 10 bits, the square roots of linear light.
-struct PaintLevel {
-    const std::uint32_t* texels = nullptr; ///< the last column and row lie there twice
-    int stride = 0;
-    glm::vec2 last{0.0F};              ///< col and row of the last texel
-    glm::vec2 texels_per_sample{1.0F}; ///< place of a texel = sample · texels_per_sample + first
-    glm::vec2 first{0.0F};
-};
 inline constexpr std::size_t max_paint_levels = 20;
 
-/// What a tile looks like.
+/// What a tile looks like: the levels of a map of colours. Texels are three times 10 bits, the
+/// square roots of linear light. One of level l covers 2^l × 2^l of level 0.
 struct TilePaint {
-    std::array<PaintLevel, max_paint_levels> levels{};
+    const std::uint32_t* texels = nullptr; ///< row after row; the last column and row lie twice
+    std::array<std::int32_t, max_paint_levels> begin{}; ///< of a level, and of all behind the last
     int level_count = 0;
+    glm::ivec2 last{0};                ///< col and row of the last texel of level 0
+    glm::vec2 texels_per_sample{1.0F}; ///< place of a texel = sample · texels_per_sample + first
+    glm::vec2 first{0.0F};
     /// Texels of level 0 along a pixel, at most: x, plus y per metre of distance.
     glm::vec2 longest_texels{0.0F};
 };

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "engine/core/bilinear.h"
 #include "engine/core/parallel_for.h"
 #include "engine/view/terrain_maps.h"
 
@@ -31,15 +29,15 @@ Grid<glm::vec3> linear_texels(const Image& lit) {
     return texels;
 }
 
-// Each texel is that of the middle of its area: the mean of four where the sides are even.
+// Means of two by two; the last column and row count twice where there is no next one.
 Grid<glm::vec3> half_of(const Grid<glm::vec3>& fine) {
-    Grid<glm::vec3> coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
-    const glm::dvec2 scale(static_cast<double>(fine.cols()) / coarse.cols(),
-                           static_cast<double>(fine.rows()) / coarse.rows());
+    Grid<glm::vec3> coarse((fine.cols() + 1) / 2, (fine.rows() + 1) / 2);
     parallel_for(coarse.rows(), [&](int row) {
         for (int col = 0; col < coarse.cols(); ++col) {
-            const glm::dvec2 middle = (glm::dvec2(col, row) + 0.5) * scale - 0.5;
-            coarse(col, row) = bilinear(fine, middle, std::identity());
+            const glm::ivec2 first(2 * col, 2 * row);
+            coarse(col, row) = 0.25F * (fine(first.x, first.y) + fine.clamped(first.x + 1, first.y) +
+                                        fine.clamped(first.x, first.y + 1) +
+                                        fine.clamped(first.x + 1, first.y + 1));
         }
     });
     return coarse;
@@ -48,16 +46,15 @@ Grid<glm::vec3> half_of(const Grid<glm::vec3>& fine) {
 } // namespace
 
 LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
-    const glm::vec4 coordinate =
-        view::texture_from_sample(samples, glm::ivec2(lit.cols(), lit.rows()));
+    const glm::ivec2 size(lit.cols(), lit.rows());
+    const glm::vec4 coordinate = view::texture_from_sample(samples, size);
+    paint_.last = size - 1;
+    paint_.texels_per_sample = glm::vec2(coordinate) * glm::vec2(size);
+    paint_.first = glm::vec2(coordinate.z, coordinate.w) * glm::vec2(size) - 0.5F;
     Grid<glm::vec3> level = linear_texels(lit);
-    while (levels_.size() < max_paint_levels) {
-        const glm::vec2 texels(level.cols(), level.rows());
-        levels_.push_back({texels_.size(),
-                           {.stride = level.cols() + 1,
-                            .last = texels - 1.0F,
-                            .texels_per_sample = glm::vec2(coordinate) * texels,
-                            .first = glm::vec2(coordinate.z, coordinate.w) * texels - 0.5F}});
+    for (std::int32_t& begin : paint_.begin) {
+        begin = static_cast<std::int32_t>(texels_.size());
+        ++paint_.level_count;
         for (int row = 0; row <= level.rows(); ++row) {
             for (int col = 0; col <= level.cols(); ++col) {
                 texels_.push_back(packed(level.clamped(col, row)));
@@ -68,17 +65,14 @@ LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
         }
         level = half_of(level);
     }
+    const auto last = static_cast<std::size_t>(paint_.level_count) - 1;
+    std::fill(paint_.begin.begin() + paint_.level_count, paint_.begin.end(), paint_.begin[last]);
 }
 
 TilePaint LitLevels::paint(glm::vec2 first_sample) const {
-    TilePaint paint;
-    paint.level_count = static_cast<int>(levels_.size());
-    for (std::size_t i = 0; i < levels_.size(); ++i) {
-        PaintLevel& level = paint.levels[i];
-        level = levels_[i].paint;
-        level.texels = texels_.data() + levels_[i].first;
-        level.first += first_sample * level.texels_per_sample;
-    }
+    TilePaint paint = paint_;
+    paint.texels = texels_.data();
+    paint.first += first_sample * paint.texels_per_sample;
     return paint;
 }
 
@@ -87,7 +81,7 @@ glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm
     if (list.camera.projection != scene::ProjectionKind::perspective) {
         return {1e6F, 0.0F};
     }
-    const glm::dvec2 per_metre = glm::dvec2(paint.levels[0].texels_per_sample) / spacing;
+    const glm::dvec2 per_metre = glm::dvec2(paint.texels_per_sample) / spacing;
     constexpr double anisotropy = 8.0;
     const double pixel = view::metres_a_pixel(list.camera, list.size).y;
     return {0.0F, static_cast<float>(anisotropy * pixel * std::max(per_metre.x, per_metre.y))};

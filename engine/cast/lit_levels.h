@@ -25,13 +25,8 @@ public:
     [[nodiscard]] std::size_t bytes() const { return texels_.size() * sizeof(std::uint32_t); }
 
 private:
-    struct Level {
-        std::size_t first = 0; // texel
-        PaintLevel paint;      // its texels are set when it is used
-    };
-
     std::vector<std::uint32_t> texels_;
-    std::vector<Level> levels_;
+    TilePaint paint_; // its texels are set when it is used
 };
 
 /// TilePaint::longest_texels of a paint. `spacing`: of the samples, metres.

@@ -65,14 +65,17 @@ HWY_INLINE Floats log2_of(Floats x) {
                    cubic(mantissa, -2.1362321F, 3.0111622F, -1.0268049F, 0.15270028F));
 }
 
-// The nearest 8-bit sRGB value within 0.08 (IEC 61966-2-1), for linear light.
+// The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light.
 HWY_INLINE Ints srgb_byte(Floats linear) {
     const Floats inside = hn::Min(hn::Max(linear, hn::Zero(floats)), all(1.0F));
-    const Floats root = hn::Sqrt(hn::Sqrt(inside)); // a smooth function of it
-    const Floats curve = cubic(root, -0.07261468F, 0.2609616F, 0.94347196F, -0.13197231F);
+    const Floats root = hn::Sqrt(inside); // a smoother function of it
+    const Floats high = cubic(root, 3.0326164F, -3.5527477F, 2.2484992F, -0.58427072F);
+    const Floats curve = hn::MulAdd(
+        hn::MulAdd(hn::MulAdd(high, root, all(-1.6456115F)), root, all(1.5423363F)), root,
+        all(-0.040864021F));
     const Floats encoded =
         hn::IfThenElse(hn::Le(inside, all(0.0031308F)), hn::Mul(inside, all(12.92F)), curve);
-    return hn::NearestInt(hn::Mul(hn::Min(encoded, all(1.0F)), all(255.0F)));
+    return hn::NearestInt(hn::Mul(encoded, all(255.0F)));
 }
 
 HWY_INLINE Ints bytes_of(const Color& color) {
@@ -156,7 +159,7 @@ HWY_INLINE Floats texels_moved(const TilePaint& paint, const Rays& rays, const P
     const Floats row = moved(1);
     const Floats above = hn::Sub(moved(2), hn::MulAdd(slopes.col, col, hn::Mul(slopes.row, row)));
     const Floats later = hn::Neg(hn::Mul(above, per_facing)); // t
-    const glm::vec2 scale = paint.levels[0].texels_per_sample;
+    const glm::vec2 scale = paint.texels_per_sample;
     const Floats u = hn::Mul(hn::MulAdd(later, rays.col.direction, col), all(scale.x));
     const Floats v = hn::Mul(hn::MulAdd(later, rays.row.direction, row), all(scale.y));
     return hn::MulAdd(u, u, hn::Mul(v, v));
@@ -194,43 +197,58 @@ HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
     add(hn::ShiftRight<20>(texel), sum.b);
 }
 
-// Adds the bilinear colours of a level, times their weights.
-HWY_INLINE void add_level(const PaintLevel& level, Floats col, Floats row, Floats weight,
-                          Color& sum) {
-    const Floats zero = hn::Zero(floats);
-    const Floats u = hn::MulAdd(col, all(level.texels_per_sample.x), all(level.first.x));
-    const Floats v = hn::MulAdd(row, all(level.texels_per_sample.y), all(level.first.y));
-    const Floats inside_u = hn::Min(hn::Max(u, zero), all(level.last.x));
-    const Floats inside_v = hn::Min(hn::Max(v, zero), all(level.last.y));
-    const Ints texel_col = hn::ConvertTo(ints, inside_u);
-    const Ints texel_row = hn::ConvertTo(ints, inside_v);
-    const Floats part_u = hn::Sub(inside_u, hn::ConvertTo(floats, texel_col));
-    const Floats part_v = hn::Sub(inside_v, hn::ConvertTo(floats, texel_row));
-    const Ints index = hn::Add(hn::Mul(texel_row, all(level.stride)), texel_col);
-    const auto* const texels = reinterpret_cast<const std::int32_t*>(level.texels);
+// Places on the map, texels of level 0 from its corner.
+struct MapPlaces {
+    Floats col;
+    Floats row;
+};
+
+// Adds the bilinear colours of each lane's level, times their weights.
+HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints level,
+                          Floats weight, Color& sum) {
+    const Floats texels = size_of(hn::Neg(level)); // a texel of level 0
+    const Ints last_col = hn::Shr(all(paint.last.x), level);
+    const Ints last_row = hn::Shr(all(paint.last.y), level);
+    const auto inside = [&](Floats place, Ints last) HWY_ATTR {
+        const Floats texel = hn::MulSub(place, texels, all(0.5F));
+        return hn::Min(hn::Max(texel, hn::Zero(floats)), hn::ConvertTo(floats, last));
+    };
+    const Floats u = inside(places.col, last_col);
+    const Floats v = inside(places.row, last_row);
+    const Ints col = hn::ConvertTo(ints, u);
+    const Ints row = hn::ConvertTo(ints, v);
+    const Floats part_u = hn::Sub(u, hn::ConvertTo(floats, col));
+    const Floats part_v = hn::Sub(v, hn::ConvertTo(floats, row));
+    const Ints stride = hn::Add(last_col, all(2));
+    const Ints begin = hn::GatherIndex(ints, paint.begin.data(), level);
+    const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin);
+    const Ints below = hn::Add(index, stride);
+    const auto* const first = reinterpret_cast<const std::int32_t*>(paint.texels);
     const Floats right = hn::Mul(weight, part_u);
     const Floats left = hn::Sub(weight, right);
     const Floats right_below = hn::Mul(right, part_v);
     const Floats left_below = hn::Mul(left, part_v);
-    add_texel(hn::GatherIndex(ints, texels, index), hn::Sub(left, left_below), sum);
-    add_texel(hn::GatherIndex(ints, texels + 1, index), hn::Sub(right, right_below), sum);
-    add_texel(hn::GatherIndex(ints, texels + level.stride, index), left_below, sum);
-    add_texel(hn::GatherIndex(ints, texels + level.stride + 1, index), right_below, sum);
+    add_texel(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
+    add_texel(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
+    add_texel(hn::GatherIndex(ints, first, below), left_below, sum);
+    add_texel(hn::GatherIndex(ints, first + 1, below), right_below, sum);
 }
 
 // The colours of the map: bilinear in the two levels nearest to each lane's.
 HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
-    const Floats col = hn::Add(hn::ConvertTo(floats, hits.col), hits.col_part);
-    const Floats row = hn::Add(hn::ConvertTo(floats, hits.row), hits.row_part);
-    const Floats highest = all(static_cast<float>(paint.level_count));
-    const Floats lower = hn::IfThenElse(hits.found, level, highest);
-    const int first = static_cast<int>(hn::GetLane(hn::MinOfLanes(floats, lower)));
-    const float last = hn::GetLane(hn::MaxOfLanes(floats, hn::IfThenElseZero(hits.found, level)));
+    const auto place = [&](Ints cell, Floats part, int axis) HWY_ATTR {
+        const Floats sample = hn::Add(hn::ConvertTo(floats, cell), part);
+        return hn::MulAdd(sample, all(paint.texels_per_sample[axis]), all(paint.first[axis] + 0.5F));
+    };
+    const MapPlaces places{place(hits.col, hits.col_part, 0), place(hits.row, hits.row_part, 1)};
+    const Floats seen = hn::IfThenElseZero(hits.found, level);
+    const Ints fine = hn::ConvertTo(ints, seen);
+    const Floats coarse_part = hn::Sub(seen, hn::ConvertTo(floats, fine));
     Color sum = all(glm::vec3(0.0F));
-    for (int i = first; static_cast<float>(i) < last + 1.0F && i < paint.level_count; ++i) {
-        const Floats away = hn::Abs(hn::Sub(level, all(static_cast<float>(i))));
-        const Floats weight = hn::Max(hn::Sub(all(1.0F), away), hn::Zero(floats));
-        add_level(paint.levels[static_cast<std::size_t>(i)], col, row, weight, sum);
+    add_level(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);
+    if (!hn::AllTrue(floats, hn::Eq(coarse_part, hn::Zero(floats)))) {
+        const Ints coarse = hn::Min(hn::Add(fine, all(1)), all(paint.level_count - 1));
+        add_level(paint, places, coarse, coarse_part, sum);
     }
     return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
 }

@@ -324,7 +324,7 @@ HWY_INLINE Ints cell_behind(const Axis& axis, Floats line) {
 // is kept.
 template <bool has_walls>
 HWY_INLINE void march(const Rays& rays, const BlockJob& job, Lanes lanes, Walk& walk) {
-    constexpr int max_steps = 16;
+    constexpr int max_steps = 48;
     NextLine col = next_line(rays.col, walk.col);
     NextLine row = next_line(rays.row, walk.row);
     Floats kept_col = col.line;
@@ -337,39 +337,37 @@ HWY_INLINE void march(const Rays& rays, const BlockJob& job, Lanes lanes, Walk& 
     const auto last = hn::Set(unsigned_ints,
                               static_cast<std::uint32_t>(job.tile.stride * job.tile.rows - 1));
     const Floats height = hn::Add(rays.height, all(job.rays.base_height - job.rays.lift));
-    Floats t = walk.t;
-    Floats enter_height = hn::MulAdd(t, rays.rise, height);
+    Floats enter_height = hn::MulAdd(walk.t, rays.rise, height);
     Lanes run = lanes;
+    Lanes ended = no_lanes();
     for (int i = 0; i < max_steps; ++i) {
         const Floats next = hn::Min(col.t, row.t);
-        const Floats leave = hn::Min(next, rays.end);
-        const Floats leave_height = hn::MulAdd(leave, rays.rise, height);
-        const Ints inside =
-            hn::BitCast(ints, hn::Min(hn::BitCast(unsigned_ints, index), last));
+        const Floats leave_height = hn::MulAdd(hn::Min(next, rays.end), rays.rise, height);
+        const Ints inside = hn::BitCast(ints, hn::Min(hn::BitCast(unsigned_ints, index), last));
         const Floats highest = hn::GatherIndex(floats, job.tile.maxima, inside);
-        const Lanes over = hn::Gt(hn::Min(enter_height, leave_height), highest);
-        walk.arrived = hn::Or(walk.arrived, hn::AndNot(over, run));
-        const Lanes left = hn::And(run, over);
+        const Lanes over = hn::And(run, hn::Gt(hn::Min(enter_height, leave_height), highest));
         if constexpr (has_walls) {
-            walk.below = hn::AndNot(left, walk.below);
+            walk.below = hn::AndNot(over, walk.below);
         }
-        const Lanes ends = hn::And(left, hn::Ge(next, rays.end));
-        walk.active = hn::AndNot(ends, walk.active);
-        run = hn::AndNot(ends, left);
+        run = hn::And(over, hn::Lt(next, rays.end));
+        ended = hn::Or(ended, hn::AndNot(run, over));
         const Lanes sideways = hn::Le(col.t, row.t);
         pass(rays.col, sideways, col);
         pass(rays.row, hn::Not(sideways), row);
-        index = hn::Add(index, hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride,
-                                              row_stride));
-        t = leave;
+        index = hn::Add(index,
+                        hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride, row_stride));
         enter_height = leave_height;
-        walk.t = hn::IfThenElse(run, t, walk.t);
         kept_col = hn::IfThenElse(run, col.line, kept_col);
         kept_row = hn::IfThenElse(run, row.line, kept_row);
         if (hn::AllFalse(floats, run)) {
             break;
         }
     }
+    walk.active = hn::AndNot(ended, walk.active);
+    walk.arrived = hn::Or(walk.arrived, hn::AndNot(hn::Or(ended, run), lanes));
+    const Floats entering = hn::Max(rays.col.time_at(hn::Sub(kept_col, col.stride)),
+                                    rays.row.time_at(hn::Sub(kept_row, row.stride)));
+    walk.t = hn::IfThenElse(lanes, hn::Max(walk.t, entering), walk.t);
     const IntLanes moved = hn::RebindMask(ints, lanes);
     walk.col = hn::IfThenElse(moved, cell_behind(rays.col, kept_col), walk.col);
     walk.row = hn::IfThenElse(moved, cell_behind(rays.row, kept_row), walk.row);
