@@ -149,20 +149,26 @@ HWY_INLINE Floats crossing_of(const Piece& piece) {
     return hn::Min(hn::Max(u, hn::Zero(floats)), all(1.0F));
 }
 
-// Where each ray is: a block of a level of the maximum mipmap, which it enters at t.
+// Where each ray is: a cell, which it enters at t, or inside which it begins.
 struct Walk {
     Floats t;
     Ints col;
     Ints row;
-    Ints level;
     Lanes active;  // not hit, not at the end
     Lanes arrived; // in a cell that it may hit
+    Lanes passed;  // misses its cell
     // Only among tiles with walls:
     Floats entry; // t at which it comes in
     Lanes walled; // from another tile
     Lanes below;  // was below the surface where it was last
     Lanes wall;   // hit a wall
 };
+
+// The cell before a line.
+HWY_INLINE Ints cell_behind(const Axis& axis, Floats line) {
+    const Floats near = hn::Sub(line, hn::ConvertTo(floats, axis.ahead));
+    return hn::ConvertTo(ints, hn::Add(near, axis.base));
+}
 
 // The cell at the start: that of the place, corrected by the t of its lines.
 HWY_INLINE Ints cell_at(const Axis& axis, Floats start) {
@@ -184,9 +190,9 @@ HWY_INLINE Walk walk_from(const Rays& rays, Floats start) {
     Walk walk;
     walk.active = hn::Lt(start, rays.end);
     walk.arrived = no_lanes();
-    walk.t = hn::IfThenElse(walk.active, start, rays.begin);
+    walk.passed = no_lanes();
     walk.wall = no_lanes();
-    walk.level = hn::Zero(ints); // a start is near the surface
+    walk.t = hn::IfThenElse(walk.active, start, rays.begin);
     walk.col = cell_at(rays.col, walk.t);
     walk.row = cell_at(rays.row, walk.t);
     return walk;
@@ -198,179 +204,109 @@ HWY_INLINE Floats size_of(Ints level) {
     return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
 }
 
-// The t at which the ray leaves its block.
-struct Exits {
-    Floats col;
-    Floats row;
-};
-
-HWY_INLINE Floats exit_of(const Axis& axis, Ints block, Floats size) {
-    const Floats next = hn::ConvertTo(floats, hn::Add(block, axis.ahead));
-    return axis.time_at(hn::MulSub(next, size, axis.base));
-}
-
-HWY_INLINE Exits exits_of(const Rays& rays, const Walk& walk) {
-    const Floats size = size_of(walk.level);
-    return {exit_of(rays.col, walk.col, size), exit_of(rays.row, walk.row, size)};
-}
-
-HWY_INLINE Floats max_height(const TileSamples& tile, const Walk& walk, Lanes lanes) {
-    const Ints all_rows = all(2 * tile.rows);
-    const Ints first_row = hn::Sub(all_rows, hn::Shr(all_rows, walk.level));
-    const Ints index = hn::Add(hn::Mul(hn::Add(walk.row, first_row), all(tile.stride)), walk.col);
-    const Ints safe = hn::IfThenElseZero(hn::RebindMask(ints, lanes), index);
-    return hn::GatherIndex(floats, tile.maxima, safe);
-}
-
-// To the next block; a level up where that has another parent, for the lanes in `rise`.
-HWY_INLINE void move_on(const Rays& rays, const TileSamples& tile, const Exits& exits, Lanes lanes,
-                        Lanes rise, Walk& walk) {
-    const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
-    walk.t = hn::IfThenElse(lanes, leave, walk.t);
-    walk.active = hn::AndNot(hn::And(lanes, hn::Ge(leave, rays.end)), walk.active);
-    const IntLanes moved = hn::RebindMask(ints, lanes);
-    const IntLanes sideways = hn::RebindMask(ints, hn::Le(exits.col, exits.row));
-    const Ints one = all(1);
-    const Ints ahead = hn::IfThenElse(sideways, rays.col.ahead, rays.row.ahead);
-    const Ints stride = hn::Sub(hn::Add(ahead, ahead), one);
-    const Ints col = hn::Add(walk.col, hn::IfThenElseZero(sideways, stride));
-    const Ints row = hn::Add(walk.row, hn::IfThenZeroElse(sideways, stride));
-    const Ints next = hn::IfThenElse(sideways, col, row);
-    const IntLanes is_new_parent = hn::Ne(hn::And(next, one), ahead);
-    const IntLanes up = hn::And(hn::And(is_new_parent, hn::RebindMask(ints, rise)),
-                                hn::Lt(walk.level, all(tile.top_level)));
-    const Ints shift = hn::IfThenElseZero(up, one);
-    walk.col = hn::IfThenElse(moved, hn::Shr(col, shift), walk.col);
-    walk.row = hn::IfThenElse(moved, hn::Shr(row, shift), walk.row);
-    walk.level = hn::IfThenElse(moved, hn::Add(walk.level, shift), walk.level);
-}
-
-// The half of the block along one axis in which the ray is at t.
-HWY_INLINE Ints half_of(const Axis& axis, Ints block, Floats size, Floats t) {
-    const Ints twice = hn::Add(block, block);
-    const Floats middle = hn::ConvertTo(floats, hn::Add(twice, all(1)));
-    const Lanes is_past = hn::Ge(t, axis.time_at(hn::MulSub(middle, size, axis.base)));
-    const IntLanes high =
-        hn::Eq(hn::IfThenElseZero(hn::RebindMask(ints, is_past), all(1)), axis.ahead);
-    return hn::Add(twice, hn::IfThenElseZero(high, all(1)));
-}
-
-HWY_INLINE void descend(const Rays& rays, Lanes lanes, Walk& walk) {
-    const IntLanes down = hn::RebindMask(ints, lanes);
-    const Ints level = hn::Sub(walk.level, all(1));
-    const Floats size = size_of(level);
-    walk.col = hn::IfThenElse(down, half_of(rays.col, walk.col, size, walk.t), walk.col);
-    walk.row = hn::IfThenElse(down, half_of(rays.row, walk.row, size, walk.t), walk.row);
-    walk.level = hn::IfThenElse(down, level, walk.level);
-}
-
-// One step of all rays that have not arrived.
-template <bool has_walls> HWY_INLINE void step(const Rays& rays, const BlockJob& job, Walk& walk) {
-    const Lanes run = hn::AndNot(walk.arrived, walk.active);
-    const Exits exits = exits_of(rays, walk);
-    const Floats leave = hn::Min(hn::Min(exits.col, exits.row), rays.end);
-    const Lanes falls = hn::Lt(rays.rise, hn::Zero(floats));
-    const Floats lowest = hn::MulAdd(hn::IfThenElse(falls, leave, walk.t), rays.rise, rays.height);
-    const Floats bound = all(job.rays.base_height - job.rays.lift);
-    const Floats highest = max_height(job.tile, walk, run);
-    const Lanes over = hn::And(hn::Gt(hn::Add(lowest, bound), highest), run);
-    const Lanes in_cell = hn::RebindMask(floats, hn::Eq(walk.level, hn::Zero(ints)));
-    const Lanes under = hn::AndNot(over, run);
-    walk.arrived = hn::Or(walk.arrived, hn::And(in_cell, under));
-    const Lanes down = hn::AndNot(in_cell, under);
-    if (!hn::AllFalse(floats, down)) {
-        descend(rays, down, walk);
-    }
-    if constexpr (has_walls) {
-        walk.below = hn::AndNot(over, walk.below);
-    }
-    if (!hn::AllFalse(floats, over)) {
-        // Near the surface, the next larger block would only be descended into.
-        const Floats drop = hn::Mul(hn::Sub(leave, walk.t), hn::Abs(rays.rise));
-        const Lanes rise =
-            hn::Gt(hn::Sub(hn::Add(lowest, bound), highest), hn::Mul(drop, all(2.0F)));
-        move_on(rays, job.tile, exits, over, rise, walk);
-    }
-}
-
-// A line that a ray crosses next, along one axis.
+// A line between blocks of cells that a ray crosses next, along one axis.
 struct NextLine {
     Floats line; // from the base
     Floats t;
-    Floats stride; // 1 or -1
+    Floats stride; // to the line behind
+
+    HWY_INLINE void pass(const Axis& axis, Lanes lanes) {
+        line = hn::Add(line, hn::IfThenElseZero(lanes, stride));
+        t = axis.time_at(line);
+    }
 };
 
-HWY_INLINE NextLine next_line(const Axis& axis, Ints cell) {
+HWY_INLINE NextLine next_line(const Axis& axis, Ints block, float cells) {
     NextLine next;
-    const Floats ahead = hn::ConvertTo(floats, axis.ahead);
-    next.line = hn::Add(hn::Sub(hn::ConvertTo(floats, cell), axis.base), ahead);
+    next.line = hn::MulSub(hn::ConvertTo(floats, hn::Add(block, axis.ahead)), all(cells), axis.base);
     next.t = axis.time_at(next.line);
-    next.stride = hn::Sub(hn::Add(ahead, ahead), all(1.0F));
+    const Floats twice = hn::ConvertTo(floats, hn::Add(axis.ahead, axis.ahead));
+    next.stride = hn::MulSub(twice, all(cells), all(cells));
     return next;
 }
 
-HWY_INLINE void pass(const Axis& axis, Lanes lanes, NextLine& next) {
-    next.line = hn::Add(next.line, hn::IfThenElseZero(lanes, next.stride));
-    next.t = axis.time_at(next.line);
+// The elements of the blocks of a level in TileSamples::maxima.
+struct BlockPlaces {
+    Ints index;
+    Ints col_stride; // to the next block of each ray
+    Ints row_stride;
+
+    HWY_INLINE void move(Lanes sideways) {
+        index = hn::Add(index,
+                        hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride, row_stride));
+    }
+};
+
+HWY_INLINE BlockPlaces places_of(const Rays& rays, const TileSamples& tile, Ints col, Ints row,
+                                 int level) {
+    const int first_row = 2 * tile.rows - ((2 * tile.rows) >> level);
+    const Ints stride = all(tile.stride);
+    const auto signs = [](const Axis& axis)
+                           HWY_ATTR { return hn::Sub(hn::Add(axis.ahead, axis.ahead), all(1)); };
+    return {hn::Add(hn::Mul(hn::Add(row, all(first_row)), stride), col), signs(rays.col),
+            hn::Mul(signs(rays.row), stride)};
 }
 
-HWY_INLINE Ints cell_behind(const Axis& axis, Floats line) {
-    const Floats near = hn::Sub(line, hn::ConvertTo(floats, axis.ahead));
-    return hn::ConvertTo(ints, hn::Add(near, axis.base));
+// The heights at these places; anything for rays beyond the tile.
+HWY_INLINE Floats maxima_at(const TileSamples& tile, const BlockPlaces& places) {
+    const hn::RebindToUnsigned<IntTag> unsigned_ints;
+    const int rows = 2 * tile.rows - (tile.rows >> tile.top_level);
+    const auto last = hn::Set(unsigned_ints, static_cast<std::uint32_t>(rows * tile.stride - 1));
+    const auto index = hn::Min(hn::BitCast(unsigned_ints, places.index), last);
+    return hn::GatherIndex(floats, tile.maxima, hn::BitCast(ints, index));
 }
 
-// Steps of rays near the surface, from cell to cell, until each has arrived at one that it may hit.
-// No step waits for the maxima of the one before: rays that have arrived go on, and where they were
-// is kept.
+// Moves rays from block to block of a level while they are above it, at most `max_steps` times. No
+// step waits for the maxima of the one before: rays that have arrived at a block that they may hit
+// go on, and where they were is kept.
 template <bool has_walls>
-HWY_INLINE void march(const Rays& rays, const BlockJob& job, Lanes lanes, Walk& walk) {
-    constexpr int max_steps = 48;
-    NextLine col = next_line(rays.col, walk.col);
-    NextLine row = next_line(rays.row, walk.row);
+HWY_INLINE void march(const Rays& rays, const BlockJob& job, int level, int max_steps, Walk& walk) {
+    const Lanes lanes = hn::AndNot(walk.arrived, walk.active);
+    const auto cells = static_cast<float>(1 << level);
+    const Ints first_col = hn::ShiftRightSame(walk.col, level);
+    const Ints first_row = hn::ShiftRightSame(walk.row, level);
+    NextLine col = next_line(rays.col, first_col, cells);
+    NextLine row = next_line(rays.row, first_row, cells);
+    BlockPlaces places = places_of(rays, job.tile, first_col, first_row, level);
     Floats kept_col = col.line;
     Floats kept_row = row.line;
-    const Ints stride = all(job.tile.stride);
-    const Ints col_stride = hn::ConvertTo(ints, col.stride);
-    const Ints row_stride = hn::Mul(hn::ConvertTo(ints, row.stride), stride);
-    Ints index = hn::Add(hn::Mul(walk.row, stride), walk.col);
-    const hn::RebindToUnsigned<IntTag> unsigned_ints;
-    const auto last = hn::Set(unsigned_ints,
-                              static_cast<std::uint32_t>(job.tile.stride * job.tile.rows - 1));
     const Floats height = hn::Add(rays.height, all(job.rays.base_height - job.rays.lift));
     Floats enter_height = hn::MulAdd(walk.t, rays.rise, height);
     Lanes run = lanes;
     Lanes ended = no_lanes();
-    for (int i = 0; i < max_steps; ++i) {
+    for (int i = 0; i < max_steps && !hn::AllFalse(floats, run); ++i) {
         const Floats next = hn::Min(col.t, row.t);
         const Floats leave_height = hn::MulAdd(hn::Min(next, rays.end), rays.rise, height);
-        const Ints inside = hn::BitCast(ints, hn::Min(hn::BitCast(unsigned_ints, index), last));
-        const Floats highest = hn::GatherIndex(floats, job.tile.maxima, inside);
-        const Lanes over = hn::And(run, hn::Gt(hn::Min(enter_height, leave_height), highest));
+        const Floats highest = maxima_at(job.tile, places);
+        Lanes over = hn::And(run, hn::Gt(hn::Min(enter_height, leave_height), highest));
         if constexpr (has_walls) {
             walk.below = hn::AndNot(over, walk.below);
         }
+        over = hn::Or(over, walk.passed);
+        walk.passed = no_lanes();
         run = hn::And(over, hn::Lt(next, rays.end));
         ended = hn::Or(ended, hn::AndNot(run, over));
         const Lanes sideways = hn::Le(col.t, row.t);
-        pass(rays.col, sideways, col);
-        pass(rays.row, hn::Not(sideways), row);
-        index = hn::Add(index,
-                        hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride, row_stride));
+        col.pass(rays.col, sideways);
+        row.pass(rays.row, hn::Not(sideways));
+        places.move(sideways);
         enter_height = leave_height;
         kept_col = hn::IfThenElse(run, col.line, kept_col);
         kept_row = hn::IfThenElse(run, row.line, kept_row);
-        if (hn::AllFalse(floats, run)) {
-            break;
-        }
     }
-    walk.active = hn::AndNot(ended, walk.active);
-    walk.arrived = hn::Or(walk.arrived, hn::AndNot(hn::Or(ended, run), lanes));
     const Floats entering = hn::Max(rays.col.time_at(hn::Sub(kept_col, col.stride)),
                                     rays.row.time_at(hn::Sub(kept_row, row.stride)));
     walk.t = hn::IfThenElse(lanes, hn::Max(walk.t, entering), walk.t);
+    walk.active = hn::AndNot(ended, walk.active);
     const IntLanes moved = hn::RebindMask(ints, lanes);
-    walk.col = hn::IfThenElse(moved, cell_behind(rays.col, kept_col), walk.col);
-    walk.row = hn::IfThenElse(moved, cell_behind(rays.row, kept_row), walk.row);
+    if (level == 0) {
+        walk.arrived = hn::Or(walk.arrived, hn::AndNot(hn::Or(ended, run), lanes));
+        walk.col = hn::IfThenElse(moved, cell_behind(rays.col, kept_col), walk.col);
+        walk.row = hn::IfThenElse(moved, cell_behind(rays.row, kept_row), walk.row);
+    } else {
+        walk.col = hn::IfThenElse(moved, cell_at(rays.col, walk.t), walk.col);
+        walk.row = hn::IfThenElse(moved, cell_at(rays.row, walk.t), walk.row);
+    }
 }
 
 // The rays that come in below the surface and were above it before. Notes for those that miss on
@@ -387,7 +323,7 @@ HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
     return wall;
 }
 
-// Ends the rays that hit their cells and moves the others on.
+// Ends the rays that hit their cells.
 template <bool has_walls>
 HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
     const IntLanes there = hn::RebindMask(ints, walk.arrived);
@@ -399,11 +335,8 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
         hit = hn::Or(hit, hit_walls(piece, hit, walk));
     }
     walk.active = hn::AndNot(hit, walk.active);
-    const Lanes missed = hn::AndNot(hit, walk.arrived);
+    walk.passed = hn::AndNot(hit, walk.arrived);
     walk.arrived = no_lanes();
-    if (!hn::AllFalse(floats, missed)) {
-        move_on(rays, job.tile, exits_of(rays, walk), missed, no_lanes(), walk);
-    }
     return hit;
 }
 
@@ -415,17 +348,24 @@ HWY_INLINE bool is_time_to_solve(const Walk& walk) {
            hn::AllFalse(floats, hn::AndNot(walk.arrived, walk.active));
 }
 
-// Walks all rays to their first hit.
+// Walks all rays to their first hit: through ever larger blocks as long as rays find none that they
+// may hit.
 template <bool has_walls>
 HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
+    constexpr int levels = 2; // between marches
+    constexpr int max_steps = 32;
     Lanes hits = no_lanes();
+    int top = 0; // a start is near the surface
     while (!hn::AllFalse(floats, walk.active)) {
-        const Lanes near = hn::RebindMask(floats, hn::Eq(walk.level, hn::Zero(ints)));
-        march<has_walls>(rays, job, hn::And(near, hn::AndNot(walk.arrived, walk.active)), walk);
-        while (!is_time_to_solve(walk)) {
-            step<has_walls>(rays, job, walk);
+        for (int level = top; level > 0; level -= levels) {
+            march<has_walls>(rays, job, level, max_steps, walk);
         }
-        hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
+        march<has_walls>(rays, job, 0, max_steps, walk);
+        top = top + levels <= job.tile.top_level ? top + levels : top;
+        if (is_time_to_solve(walk)) {
+            hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
+            top = 0;
+        }
     }
     return hits;
 }
