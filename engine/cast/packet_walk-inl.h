@@ -323,17 +323,71 @@ HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
     return wall;
 }
 
+// The pieces of the rays that hit, in memory: registers are short.
+struct HitPieces {
+    struct Values {
+        alignas(64) std::array<float, static_cast<std::size_t>(lane_count)> lanes;
+
+        HWY_INLINE void keep(Floats from, Lanes which) {
+            hn::BlendedStore(from, which, floats, lanes.data());
+        }
+        [[nodiscard]] HWY_INLINE Floats get(Lanes which) const {
+            return hn::MaskedLoad(which, floats, lanes.data());
+        }
+    };
+    std::array<Values, 9> piece;
+    std::array<Values, 4> corners;
+
+    HWY_INLINE void keep(const Piece& from, const Corners& heights, Lanes which) {
+        piece[0].keep(from.begin, which);
+        piece[1].keep(from.end, which);
+        piece[2].keep(from.col.enter, which);
+        piece[3].keep(from.col.way, which);
+        piece[4].keep(from.row.enter, which);
+        piece[5].keep(from.row.way, which);
+        piece[6].keep(from.start, which);
+        piece[7].keep(from.slope, which);
+        piece[8].keep(from.bend, which);
+        corners[0].keep(heights.h00, which);
+        corners[1].keep(heights.h10, which);
+        corners[2].keep(heights.h01, which);
+        corners[3].keep(heights.h11, which);
+    }
+
+    // Without `leave` and `finish`.
+    [[nodiscard]] HWY_INLINE Piece piece_of(Lanes which) const {
+        const auto get = [&](std::size_t index) HWY_ATTR { return piece[index].get(which); };
+        Piece kept;
+        kept.begin = get(0);
+        kept.end = get(1);
+        kept.col.enter = get(2);
+        kept.col.way = get(3);
+        kept.row.enter = get(4);
+        kept.row.way = get(5);
+        kept.start = get(6);
+        kept.slope = get(7);
+        kept.bend = get(8);
+        return kept;
+    }
+    [[nodiscard]] HWY_INLINE Corners corners_of(Lanes which) const {
+        return {corners[0].get(which), corners[1].get(which), corners[2].get(which),
+                corners[3].get(which)};
+    }
+};
+
 // Ends the rays that hit their cells.
 template <bool has_walls>
-HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk) {
+HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
     const IntLanes there = hn::RebindMask(ints, walk.arrived);
     const Ints col = hn::IfThenElseZero(there, walk.col);
     const Ints row = hn::IfThenElseZero(there, walk.row);
-    const Piece piece = piece_in(rays, corners_of(job, col, row), col, row);
+    const Corners corners = corners_of(job, col, row);
+    const Piece piece = piece_in(rays, corners, col, row);
     Lanes hit = hn::And(crosses(piece), walk.arrived);
     if constexpr (has_walls) {
         hit = hn::Or(hit, hit_walls(piece, hit, walk));
     }
+    pieces.keep(piece, corners, hit);
     walk.active = hn::AndNot(hit, walk.active);
     walk.passed = hn::AndNot(hit, walk.arrived);
     walk.arrived = no_lanes();
@@ -351,7 +405,8 @@ HWY_INLINE bool is_time_to_solve(const Walk& walk) {
 // Walks all rays to their first hit: through ever larger blocks as long as rays find none that they
 // may hit.
 template <bool has_walls>
-HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
+HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk,
+                           HitPieces& pieces) {
     constexpr int levels = 2; // between marches
     constexpr int max_steps = 32;
     Lanes hits = no_lanes();
@@ -363,7 +418,7 @@ HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk) {
         march<has_walls>(rays, job, 0, max_steps, walk);
         top = top + levels <= job.tile.top_level ? top + levels : top;
         if (is_time_to_solve(walk)) {
-            hits = hn::Or(hits, solve<has_walls>(rays, job, walk));
+            hits = hn::Or(hits, solve<has_walls>(rays, job, walk, pieces));
             top = 0;
         }
     }
@@ -409,12 +464,13 @@ HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met&
         walk.below = met.below;
     }
     PacketHits hits;
-    hits.found = find_hits<has_walls>(rays, job, walk);
+    HitPieces pieces;
+    hits.found = find_hits<has_walls>(rays, job, walk, pieces);
     const IntLanes found = hn::RebindMask(ints, hits.found);
     hits.col = hn::IfThenElseZero(found, walk.col);
     hits.row = hn::IfThenElseZero(found, walk.row);
-    hits.corners = corners_of(job, hits.col, hits.row);
-    const Piece piece = piece_in(rays, hits.corners, hits.col, hits.row);
+    hits.corners = pieces.corners_of(hits.found);
+    const Piece piece = pieces.piece_of(hits.found);
     Floats u = crossing_of(piece);
     if constexpr (has_walls) {
         u = hn::IfThenZeroElse(walk.wall, u);
