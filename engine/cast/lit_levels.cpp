@@ -35,9 +35,10 @@ Grid<glm::vec3> half_of(const Grid<glm::vec3>& fine) {
     parallel_for(coarse.rows(), [&](int row) {
         for (int col = 0; col < coarse.cols(); ++col) {
             const glm::ivec2 first(2 * col, 2 * row);
-            coarse(col, row) = 0.25F * (fine(first.x, first.y) + fine.clamped(first.x + 1, first.y) +
-                                        fine.clamped(first.x, first.y + 1) +
-                                        fine.clamped(first.x + 1, first.y + 1));
+            coarse(col, row) =
+                0.25F *
+                (fine(first.x, first.y) + fine.clamped(first.x + 1, first.y) +
+                 fine.clamped(first.x, first.y + 1) + fine.clamped(first.x + 1, first.y + 1));
         }
     });
     return coarse;

@@ -70,9 +70,9 @@ HWY_INLINE Ints srgb_byte(Floats linear) {
     const Floats inside = hn::Min(hn::Max(linear, hn::Zero(floats)), all(1.0F));
     const Floats root = hn::Sqrt(inside); // a smoother function of it
     const Floats high = cubic(root, 3.0326164F, -3.5527477F, 2.2484992F, -0.58427072F);
-    const Floats curve = hn::MulAdd(
-        hn::MulAdd(hn::MulAdd(high, root, all(-1.6456115F)), root, all(1.5423363F)), root,
-        all(-0.040864021F));
+    const Floats curve =
+        hn::MulAdd(hn::MulAdd(hn::MulAdd(high, root, all(-1.6456115F)), root, all(1.5423363F)),
+                   root, all(-0.040864021F));
     const Floats encoded =
         hn::IfThenElse(hn::Le(inside, all(0.0031308F)), hn::Mul(inside, all(12.92F)), curve);
     return hn::NearestInt(hn::Mul(encoded, all(255.0F)));
@@ -238,7 +238,8 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
 HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
     const auto place = [&](Ints cell, Floats part, int axis) HWY_ATTR {
         const Floats sample = hn::Add(hn::ConvertTo(floats, cell), part);
-        return hn::MulAdd(sample, all(paint.texels_per_sample[axis]), all(paint.first[axis] + 0.5F));
+        return hn::MulAdd(sample, all(paint.texels_per_sample[axis]),
+                          all(paint.first[axis] + 0.5F));
     };
     const MapPlaces places{place(hits.col, hits.col_part, 0), place(hits.row, hits.row_part, 1)};
     const Floats seen = hn::IfThenElseZero(hits.found, level);

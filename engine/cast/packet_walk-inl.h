@@ -218,7 +218,8 @@ struct NextLine {
 
 HWY_INLINE NextLine next_line(const Axis& axis, Ints block, float cells) {
     NextLine next;
-    next.line = hn::MulSub(hn::ConvertTo(floats, hn::Add(block, axis.ahead)), all(cells), axis.base);
+    next.line =
+        hn::MulSub(hn::ConvertTo(floats, hn::Add(block, axis.ahead)), all(cells), axis.base);
     next.t = axis.time_at(next.line);
     const Floats twice = hn::ConvertTo(floats, hn::Add(axis.ahead, axis.ahead));
     next.stride = hn::MulSub(twice, all(cells), all(cells));
@@ -232,8 +233,8 @@ struct BlockPlaces {
     Ints row_stride;
 
     HWY_INLINE void move(Lanes sideways) {
-        index = hn::Add(index,
-                        hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride, row_stride));
+        index =
+            hn::Add(index, hn::IfThenElse(hn::RebindMask(ints, sideways), col_stride, row_stride));
     }
 };
 
@@ -405,8 +406,7 @@ HWY_INLINE bool is_time_to_solve(const Walk& walk) {
 // Walks all rays to their first hit: through ever larger blocks as long as rays find none that they
 // may hit.
 template <bool has_walls>
-HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk,
-                           HitPieces& pieces) {
+HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
     constexpr int levels = 2; // between marches
     constexpr int max_steps = 32;
     Lanes hits = no_lanes();
@@ -464,7 +464,7 @@ HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met&
         walk.below = met.below;
     }
     PacketHits hits;
-    HitPieces pieces;
+    HitPieces pieces{};
     hits.found = find_hits<has_walls>(rays, job, walk, pieces);
     const IntLanes found = hn::RebindMask(ints, hits.found);
     hits.col = hn::IfThenElseZero(found, walk.col);
