@@ -106,6 +106,14 @@ void cast_all(const BlockJobs& jobs, BlockHits& hits) {
     });
 }
 
+HWY_INLINE Floats nearness_of(const BlockPaint& paint, Floats t) {
+    const Floats depth = hn::Add(t, all(paint.anchor));
+    const Floats least = all(std::numeric_limits<float>::min()); // rounding may give 0
+    const Floats sky = all(-1e30F);
+    return paint.is_perspective ? hn::Div(all(1.0F), hn::Max(depth, least))
+                                : hn::Max(hn::Neg(depth), sky);
+}
+
 template <bool has_walls>
 HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
     for_each_packet([&](int col, int row) HWY_ATTR {
@@ -113,7 +121,9 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
         const Look look = look_of<has_walls>(jobs, paint, offsets_of(col, row), start_of);
         store(ints, bytes_of(look.color), col, row, pixels.rgba.data());
-        store(floats, look.t, col, row, pixels.t.data());
+        if (paint.needs_nearness) {
+            store(floats, nearness_of(paint, look.t), col, row, pixels.nearness.data());
+        }
     });
 }
 
@@ -135,43 +145,57 @@ struct ColorSums {
     alignas(64) std::array<float, block_pixels> b;
 };
 
+// A sample of a sampled pixel.
+struct SampleIndex {
+    int pixel = 0;
+    int sample = 0;
+
+    HWY_INLINE void next(const SampledPixels& sampled) {
+        ++sample;
+        if (sample == sampled.samples) {
+            sample = 0;
+            ++pixel;
+        }
+    }
+};
+
 // A packet of samples, counted over all sampled pixels.
 struct SamplePacket {
     alignas(64) LaneFloats right;
     alignas(64) LaneFloats down;
     std::array<std::size_t, static_cast<std::size_t>(lane_count)> beam;
 
-    SamplePacket(const SampledPixels& sampled, int first) {
+    SamplePacket(const SampledPixels& sampled, SampleIndex index) {
         constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
-        const int last = sampled.count * sampled.samples - 1;
-        for (int lane = 0; lane < lane_count; ++lane) {
-            const int index = first + lane < last ? first + lane : last;
-            const int pixel = sampled.pixels[static_cast<std::size_t>(index / sampled.samples)];
-            const glm::vec2 place =
-                sampled.places[static_cast<std::size_t>(index % sampled.samples)];
+        for (std::size_t lane = 0; lane < right.size(); ++lane) {
+            const int last = index.pixel < sampled.count ? index.pixel : sampled.count - 1;
+            const int pixel = sampled.pixels[static_cast<std::size_t>(last)];
+            const glm::vec2 place = sampled.places[static_cast<std::size_t>(index.sample)];
             const int col = pixel % block_side;
             const int row = pixel / block_side;
-            const auto at = static_cast<std::size_t>(lane);
-            right[at] = static_cast<float>(col) + middle + place.x;
-            down[at] = static_cast<float>(row) + middle + place.y;
-            beam[at] = beam_at(col, row);
+            right[lane] = static_cast<float>(col) + middle + place.x;
+            down[lane] = static_cast<float>(row) + middle + place.y;
+            beam[lane] = beam_at(col, row);
+            index.next(sampled);
         }
     }
 };
 
-HWY_INLINE void add_samples(const Color& color, const SampledPixels& sampled, int first,
-                            ColorSums& sums) {
-    const int count = sampled.count * sampled.samples;
-    const auto add = [&](Floats channel, float* to) HWY_ATTR {
-        alignas(64) LaneFloats values;
-        hn::Store(channel, floats, values.data());
-        for (int lane = 0; lane < lane_count && first + lane < count; ++lane) {
-            to[(first + lane) / sampled.samples] += values[static_cast<std::size_t>(lane)];
-        }
-    };
-    add(color.r, sums.r.data());
-    add(color.g, sums.g.data());
-    add(color.b, sums.b.data());
+// Returns the first sample of the next packet.
+HWY_INLINE SampleIndex add_samples(const Color& color, const SampledPixels& sampled,
+                                   SampleIndex index, ColorSums& sums) {
+    alignas(64) std::array<LaneFloats, 3> values;
+    hn::Store(color.r, floats, values[0].data());
+    hn::Store(color.g, floats, values[1].data());
+    hn::Store(color.b, floats, values[2].data());
+    for (std::size_t lane = 0; lane < values[0].size() && index.pixel < sampled.count; ++lane) {
+        const auto pixel = static_cast<std::size_t>(index.pixel);
+        sums.r[pixel] += values[0][lane];
+        sums.g[pixel] += values[1][lane];
+        sums.b[pixel] += values[2][lane];
+        index.next(sampled);
+    }
+    return index;
 }
 
 HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
@@ -194,7 +218,7 @@ HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
 template <bool has_walls>
 HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
                                const SampledPixels& sampled, ColorSums& sums) {
-    for (int first = 0; first < sampled.count * sampled.samples; first += lane_count) {
+    for (SampleIndex first; first.pixel < sampled.count;) {
         const SamplePacket packet(sampled, first);
         const auto start_of = [&](const BlockJob& job) HWY_ATTR {
             alignas(64) LaneFloats starts;
@@ -205,7 +229,8 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         };
         const PixelOffsets offsets{hn::Load(floats, packet.right.data()),
                                    hn::Load(floats, packet.down.data())};
-        add_samples(look_of<has_walls>(jobs, paint, offsets, start_of).color, sampled, first, sums);
+        const Look look = look_of<has_walls>(jobs, paint, offsets, start_of);
+        first = add_samples(look.color, sampled, first, sums);
     }
 }
 
@@ -221,6 +246,30 @@ void sample_all(const BlockJobs& jobs, const BlockPaint& paint, const SampledPix
     store_means(sums, sampled, pixels);
 }
 
+// Whether three pixels in line are not on a plane.
+HWY_INLINE Lanes bend_at(const NearnessRows& rows, Floats before, Floats here, Floats after) {
+    const Floats bend = hn::Abs(hn::Sub(hn::Add(before, after), hn::Add(here, here)));
+    const Floats allowed = all(rows.disagreement);
+    const Floats nearest = hn::Max(hn::Max(before, here), after);
+    return hn::Gt(bend, rows.is_perspective ? hn::Mul(allowed, nearest) : allowed);
+}
+
+std::uint32_t bends_of(const NearnessRows& rows) {
+    std::uint32_t bits = 0;
+    for (int col = 0; col < block_side; col += lane_count) {
+        const auto at = [&](const float* row, int step)
+                            HWY_ATTR { return hn::LoadU(floats, row + col + step); };
+        const Floats here = at(rows.here, 0);
+        const Lanes bends = hn::Or(bend_at(rows, at(rows.here, -1), here, at(rows.here, 1)),
+                                   bend_at(rows, at(rows.above, 0), here, at(rows.below, 0)));
+        std::array<std::uint8_t, 8> bytes{};
+        hn::StoreMaskBits(floats, bends, bytes.data());
+        const unsigned lanes = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
+        bits |= lanes << static_cast<unsigned>(col);
+    }
+    return bits;
+}
+
 } // namespace reljef::cast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -230,13 +279,14 @@ namespace reljef::cast {
 HWY_EXPORT(cast_all);
 HWY_EXPORT(paint_all);
 HWY_EXPORT(sample_all);
+HWY_EXPORT(bends_of);
 
 BlockKernel block_kernel(std::int64_t targets) {
     hwy::ChosenTarget chosen;
     chosen.Update(targets != 0 ? targets : hwy::SupportedTargets());
     const std::size_t index = chosen.GetIndex();
     return {HWY_DISPATCH_TABLE(cast_all)[index], HWY_DISPATCH_TABLE(paint_all)[index],
-            HWY_DISPATCH_TABLE(sample_all)[index]};
+            HWY_DISPATCH_TABLE(sample_all)[index], HWY_DISPATCH_TABLE(bends_of)[index]};
 }
 
 std::int64_t compiled_targets() {

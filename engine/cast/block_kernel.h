@@ -114,6 +114,8 @@ struct BlockPaint {
     BlockRays::Vectors view; ///< world directions of the rays, metres per t
     float anchor = 0.0F;     ///< depth at t = 0, metres
     float extinction = 0.0F; ///< of the air, 1/metre; 0 without air, and on maps
+    bool is_perspective = true;
+    bool needs_nearness = false;
     bool has_sky = false;
     glm::vec3 horizon{0.0F}; ///< linear
     glm::vec3 zenith{0.0F};
@@ -124,7 +126,17 @@ struct BlockPaint {
 /// Colours of a block as bytes r, g, b, a, row after row.
 struct BlockPixels {
     alignas(64) std::array<std::uint32_t, block_pixels> rgba;
-    alignas(64) std::array<float, block_pixels> t; ///< infinity: sky
+    alignas(64) std::array<float, block_pixels> nearness; ///< of the hits; see FirstSamples
+};
+
+/// The nearness of pixels and of the pixels around them: of a row of a block, and of the rows above
+/// and below. One pixel more on each side. Beside the picture it is not a number.
+struct NearnessRows {
+    const float* above = nullptr;
+    const float* here = nullptr;
+    const float* below = nullptr;
+    bool is_perspective = true;
+    float disagreement = 0.0F; ///< see FirstSamples
 };
 
 inline constexpr int max_samples = 16;
@@ -145,6 +157,9 @@ struct BlockKernel {
     /// Paints these pixels again: the mean of their samples, in linear light.
     void (*sample)(const BlockJobs& jobs, const BlockPaint& paint, const SampledPixels& sampled,
                    BlockPixels& pixels) = nullptr;
+    /// The pixels of a row that are not on a plane with those beside them, or above and below:
+    /// bits.
+    std::uint32_t (*bends)(const NearnessRows& rows) = nullptr;
 };
 
 /// Those of the fastest of Highway's targets (SimdTarget::bit); 0: of the machine's.

@@ -261,8 +261,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
         return Error{fmt::format("picture of {}x{} pixels: from 1x1 to {}x{} were expected", size.x,
                                  size.y, max_side, max_side)};
     }
-    first_.picture = Image(size.x, size.y);
-    first_.nearness = Grid<float>(size.x, size.y);
+    first_.resize(size);
     return {};
 }
 
@@ -399,6 +398,8 @@ public:
             placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
         const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
         samples_.samples = static_cast<int>(places.size());
+        shared_.is_perspective = first.is_perspective;
+        shared_.needs_nearness = has_samples();
         std::transform(places.begin(), places.end(), samples_.places.begin(),
                        [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
     }
@@ -419,7 +420,7 @@ public:
         SampledPixels sampled;
         sampled.samples = samples_.samples;
         sampled.places = samples_.places;
-        choose_sampled(first_, block, sampled);
+        choose_sampled(first_, kernel_, block, sampled);
         if (sampled.count == 0) {
             return;
         }
@@ -445,15 +446,9 @@ private:
 
     void write_nearness(const BlockPixels& pixels, const PixelBlock& block) {
         for (int row = 0; row < block.size.y; ++row) {
-            const float* const from = pixels.t.data() + static_cast<std::size_t>(row) * block_side;
-            float* const to = &first_.nearness(block.first.x, block.first.y + row);
-            for (int col = 0; col < block.size.x; ++col) {
-                const float depth = shared_.anchor + from[col];
-                constexpr float sky = -1e30F;
-                constexpr float nearest = std::numeric_limits<float>::min(); // rounding may give 0
-                to[col] =
-                    first_.is_perspective ? 1.0F / std::max(depth, nearest) : std::max(-depth, sky);
-            }
+            const float* const from =
+                pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
+            std::copy_n(from, block.size.x, first_.nearness_at(block.first + glm::ivec2(0, row)));
         }
     }
 
@@ -483,11 +478,11 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
         painter.paint(block, index);
     });
     if (painter.has_samples()) {
-        Image picture = first_.picture;
+        picture_ = first_.picture;
         for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
-            painter.sample(block, index, picture);
+            painter.sample(block, index, picture_);
         });
-        first_.picture = std::move(picture);
+        std::swap(first_.picture, picture_);
     }
 }
 

@@ -102,6 +102,7 @@ private:
 
     DriverOptions options_;
     FirstSamples first_; // its picture becomes that of all samples
+    Image picture_;      // while samples are drawn
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     TileContents streamed_;
 };

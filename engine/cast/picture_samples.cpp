@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 
 #include "engine/core/check.h"
 #include "engine/view/sample_count.h"
@@ -26,54 +27,12 @@ constexpr std::array sixteen_places{
     glm::ivec2(-2, 6),  glm::ivec2(0, -7),  glm::ivec2(-4, -6), glm::ivec2(-6, 4),
     glm::ivec2(-8, 0),  glm::ivec2(7, -4),  glm::ivec2(6, 7),   glm::ivec2(-7, -8)};
 
-// Levels of 255 below which a neighbour's colour changes a mean too little to be seen.
-constexpr int same_color = 2;
+// Levels of 255 up to which a neighbour's colour changes a mean too little to be seen: a third of a
+// pixel's samples may be on its surface, and change it by 2.
+constexpr int same_color = 6;
 
 bool differ(Rgba8 a, Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}) > same_color;
-}
-
-// A number for each pixel of a row of a block.
-using Row = std::array<std::int32_t, block_side>;
-
-// Sets the pixels that are not on one smooth surface with their neighbours: loops over vector
-// lanes.
-template <bool is_perspective>
-void add_bends(const float* before, const float* here, const float* after, int count,
-               float disagreement, Row& bends) {
-    for (int i = 0; i < count; ++i) {
-        const float bend = std::abs(before[i] - 2.0F * here[i] + after[i]);
-        const float nearest = std::max(std::max(before[i], here[i]), after[i]);
-        const float allowed = is_perspective ? disagreement * nearest : disagreement;
-        bends[static_cast<std::size_t>(i)] |= bend > allowed ? 1 : 0;
-    }
-}
-
-// Of the pixels from `first` on, all of which have neighbours along `step`.
-void add_bends(const FirstSamples& samples, glm::ivec2 first, int count, glm::ivec2 step,
-               Row& bends) {
-    const auto at = [&](glm::ivec2 pixel) { return &samples.nearness(pixel.x, pixel.y); };
-    const auto add = samples.is_perspective ? add_bends<true> : add_bends<false>;
-    add(at(first - step), at(first), at(first + step), count, samples.disagreement, bends);
-}
-
-// One for each pixel of a row of a block that may show several surfaces.
-Row bends_of(const FirstSamples& samples, glm::ivec2 first, int count) {
-    const glm::ivec2 size(samples.picture.cols(), samples.picture.rows());
-    Row bends{};
-    if (first.y > 0 && first.y + 1 < size.y) {
-        add_bends(samples, first, count, {0, 1}, bends);
-    }
-    Row inside{};
-    const int skipped = first.x == 0 ? 1 : 0;
-    const int end = first.x + count == size.x ? count - 1 : count;
-    if (skipped < end) {
-        add_bends(samples, first + glm::ivec2(skipped, 0), end - skipped, {1, 0}, inside);
-    }
-    for (int i = skipped; i < end; ++i) {
-        bends[static_cast<std::size_t>(i)] |= inside[static_cast<std::size_t>(i - skipped)];
-    }
-    return bends;
 }
 
 bool differs_from_neighbours(const Image& picture, glm::ivec2 pixel) {
@@ -104,15 +63,30 @@ std::span<const glm::ivec2> sixteenths_of(int samples) {
     }
 }
 
-void choose_sampled(const FirstSamples& first, const PixelBlock& block, SampledPixels& sampled) {
+void FirstSamples::resize(glm::ivec2 size) {
+    const int blocks = (size.x + block_side - 1) / block_side;
+    picture = Image(size.x, size.y);
+    nearness =
+        Grid<float>(blocks * block_side + 2, size.y + 2, std::numeric_limits<float>::quiet_NaN());
+}
+
+void choose_sampled(const FirstSamples& first, const BlockKernel& kernel, const PixelBlock& block,
+                    SampledPixels& sampled) {
     sampled.count = 0;
+    const std::uint32_t all = block.size.x < block_side ? (1U << block.size.x) - 1U : ~0U;
     for (int row = 0; row < block.size.y; ++row) {
         const glm::ivec2 begin = block.first + glm::ivec2(0, row);
-        const Row bends = bends_of(first, begin, block.size.x);
-        for (int col = 0; col < block.size.x; ++col) {
-            const bool may_be = bends[static_cast<std::size_t>(col)] != 0 &&
-                                differs_from_neighbours(first.picture, begin + glm::ivec2(col, 0));
-            if (first.samples_all || may_be) {
+        NearnessRows rows;
+        rows.above = first.nearness_at(begin - glm::ivec2(0, 1));
+        rows.here = first.nearness_at(begin);
+        rows.below = first.nearness_at(begin + glm::ivec2(0, 1));
+        rows.is_perspective = first.is_perspective;
+        rows.disagreement = first.disagreement;
+        std::uint32_t left = first.samples_all ? all : kernel.bends(rows) & all;
+        for (; left != 0; left &= left - 1) {
+            const int col = std::countr_zero(left);
+            if (first.samples_all ||
+                differs_from_neighbours(first.picture, begin + glm::ivec2(col, 0))) {
                 sampled.pixels[static_cast<std::size_t>(sampled.count)] =
                     static_cast<std::uint16_t>(row * block_side + col);
                 ++sampled.count;

@@ -19,16 +19,26 @@ std::span<const glm::ivec2> sixteenths_of(int samples);
 /// than all else for the sky.
 struct FirstSamples {
     Image picture;
-    Grid<float> nearness;
+    Grid<float> nearness; ///< see nearness_at(); not a number beside the picture
     bool is_perspective = true;
     /// By how much nearness may leave a plane until it is another surface: in perspective relative
     /// to the nearest of three pixels, on a map absolute.
     float disagreement = 0.0F;
     bool samples_all = false; ///< all pixels need several samples
+
+    void resize(glm::ivec2 size);
+    /// Of a pixel; those beside it in its row follow, also beside the picture.
+    [[nodiscard]] float* nearness_at(glm::ivec2 pixel) {
+        return &nearness(pixel.x + 1, pixel.y + 1);
+    }
+    [[nodiscard]] const float* nearness_at(glm::ivec2 pixel) const {
+        return &nearness(pixel.x + 1, pixel.y + 1);
+    }
 };
 
 /// The pixels of a block that need several samples: beside them the picture has another colour,
 /// because another surface begins or the surface bends sharply. Its `samples` remain.
-void choose_sampled(const FirstSamples& first, const PixelBlock& block, SampledPixels& sampled);
+void choose_sampled(const FirstSamples& first, const BlockKernel& kernel, const PixelBlock& block,
+                    SampledPixels& sampled);
 
 } // namespace reljef::cast
