@@ -108,9 +108,9 @@ void cast_all(const BlockJobs& jobs, BlockHits& hits) {
 
 HWY_INLINE Floats nearness_of(const BlockPaint& paint, Floats t) {
     const Floats depth = hn::Add(t, all(paint.anchor));
-    const Floats least = all(std::numeric_limits<float>::min()); // rounding may give 0
+    const Floats min_depth = all(std::numeric_limits<float>::min()); // rounding may give 0
     const Floats sky = all(-1e30F);
-    return paint.is_perspective ? hn::Div(all(1.0F), hn::Max(depth, least))
+    return paint.is_perspective ? hn::Div(all(1.0F), hn::Max(depth, min_depth))
                                 : hn::Max(hn::Neg(depth), sky);
 }
 

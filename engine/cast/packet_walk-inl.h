@@ -259,7 +259,7 @@ HWY_INLINE Floats maxima_at(const TileSamples& tile, const BlockPlaces& places) 
 
 // Moves rays from block to block of a level while they are above it, at most `max_steps` times. No
 // step waits for the maxima of the one before: rays that have arrived at a block that they may hit
-// go on, and where they were is kept.
+// go on, and their last lines are kept.
 template <bool has_walls>
 HWY_INLINE void march(const Rays& rays, const BlockJob& job, int level, int max_steps, Walk& walk) {
     const Lanes lanes = hn::AndNot(walk.arrived, walk.active);
