@@ -25,20 +25,13 @@ BlockRays::Vectors relative(const PictureRays::Vectors& vectors, glm::dvec3 midd
     return {glm::vec3(middle), glm::vec3(vectors.right), glm::vec3(vectors.down)};
 }
 
-// The rays at the anchor; their origins there are linear in the pixel, too.
-PictureRays::Vectors anchored(const PictureRays& rays) {
-    return {rays.origin.first + rays.anchor * rays.direction.first,
-            rays.origin.right + rays.anchor * rays.direction.right,
-            rays.origin.down + rays.anchor * rays.direction.down};
-}
-
 bool are_finite(const PictureRays::Vectors& vectors) {
     const glm::dvec3 sum = vectors.first + vectors.right + vectors.down;
     return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
 }
 
 BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock& block) {
-    const PictureRays::Vectors origin = anchored(rays);
+    const PictureRays::Vectors origin = places_at(rays, rays.anchor);
     const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
     const glm::dvec3 place = origin.at(middle);
     const glm::dvec2 base =
@@ -84,10 +77,22 @@ std::optional<double> start_of(const RayTile& tile, const PictureRays& rays,
     if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
         return std::nullopt;
     }
-    const PixelBlock whole{block.first, glm::ivec2(block_side)};
     const double start =
-        beams ? clear_until(tile, rays, whole, rays.range.begin) : rays.range.begin;
+        beams ? clear_until(tile, rays, block, rays.range.begin) : rays.range.begin;
     return start < rays.range.end ? std::optional(start) : std::nullopt;
+}
+
+// Those of a part of the block; the others hit nothing.
+void start_beams(const PixelBlock& part, BlockJob& job) {
+    job.has_starts = true;
+    job.starts.fill(std::numeric_limits<float>::infinity());
+    const glm::ivec2 end = part.first + part.size;
+    for (int row = part.first.y; row < end.y; row += beam_rows) {
+        for (int col = part.first.x; col < end.x; col += beam_cols) {
+            const int beam = row / beam_rows * beams_a_row + col / beam_cols;
+            job.starts[static_cast<std::size_t>(beam)] = job.start;
+        }
+    }
 }
 
 class JobList {
@@ -96,15 +101,20 @@ public:
             std::vector<std::size_t>* indices)
         : placed_(placed), block_(block), beams_(beams), indices_(indices) {}
 
-    void add(std::size_t index, const PictureRays& rays, unsigned more_walls) {
+    // `part`: of the block.
+    void add(std::size_t index, const PictureRays& rays, unsigned more_walls,
+             const PixelBlock& part) {
         const PlacedTile& tile = placed_.tiles[index];
-        const auto start = start_of(*tile.tile, rays, block_, beams_);
+        const auto start = start_of(*tile.tile, rays, part, beams_);
         if (!start) {
             return;
         }
         BlockJob& job = jobs_.emplace_back();
         job.start = static_cast<float>(*start - rays.anchor);
         job.has_beams = beams_;
+        if (part.size != glm::ivec2(block_side)) {
+            start_beams({part.first - block_.first, part.size}, job);
+        }
         job.tile = samples_of(*tile.tile);
         job.rays = rays_of(*tile.tile, rays, block_);
         job.paint = &tile.paint;
@@ -121,7 +131,7 @@ public:
         }
         for (std::size_t i = 0; i < placed_.tiles.size(); ++i) {
             if (overlap(placed_.tiles[i].seen, block_)) {
-                add(i, placed_.tiles[i].rays, 0);
+                add(i, placed_.tiles[i].rays, 0, {block_.first, glm::ivec2(block_side)});
             }
         }
         return std::move(jobs_);
@@ -129,9 +139,39 @@ public:
 
 private:
     void add_pieces() {
-        const std::span<const RayPiece> pieces = placed_.curve->pieces(block_);
-        for (std::size_t i = 0; i < pieces.size(); ++i) {
-            add(0, pieces[i].rays, i == 0 ? 0U : begin_wall);
+        const RayPiece* last = nullptr;
+        for (const RayPiece& piece : placed_.curve->pieces(block_)) {
+            const bool is_first = last == nullptr || last->block.first != piece.block.first;
+            add_piece(piece, is_first ? 0U : begin_wall);
+            last = &piece;
+        }
+    }
+
+    // One tile after the other, although the rays are bent: in parts that pass each border in one
+    // direction.
+    void add_piece(const RayPiece& piece, unsigned walls) {
+        if (placed_.nodes.empty()) {
+            add(0, piece.rays, walls, piece.block);
+            return;
+        }
+        const TilesAlong along = tiles_along(placed_.nodes, piece.rays, piece.block);
+        if (!glm::any(along.turns)) {
+            add_all(along.tiles, piece.rays, walls, piece.block);
+            return;
+        }
+        const auto tolerance = [&](double t) { return placed_.curve->unseen_samples(t); };
+        for (const PictureRays& rays :
+             without_turns(piece.rays, piece.block, along.turns, tolerance)) {
+            add_all(tiles_along(placed_.nodes, rays, piece.block).tiles, rays, walls, piece.block);
+            walls = begin_wall;
+        }
+    }
+
+    void add_all(const std::vector<std::size_t>& tiles, const PictureRays& rays, unsigned walls,
+                 const PixelBlock& part) {
+        for (const std::size_t index : tiles) {
+            const PlacedTile& tile = placed_.tiles[index];
+            add(index, in_samples(rays, tile.scale, tile.by), walls, part);
         }
     }
 

@@ -11,6 +11,7 @@
 #include "engine/cast/curved_rays.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
+#include "engine/cast/tile_nodes.h"
 #include "engine/core/parallel_for.h"
 
 namespace reljef::cast {
@@ -18,21 +19,25 @@ namespace reljef::cast {
 /// A tile to cast rays at.
 struct PlacedTile {
     const RayTile* tile = nullptr;
-    PictureRays rays; ///< in samples of the tile
+    PictureRays rays; ///< in samples of the tile; on the ellipsoid only their range and anchor
     TilePaint paint = {};
     unsigned walls = 0; ///< BlockJob::walls
     /// Sample of the terrain = first + step · sample of the tile.
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
     PixelBlock seen; ///< no other pixel shows it
+    /// On the ellipsoid: sample of the tile = scale · sample of the curved rays + by.
+    glm::dvec2 scale{1.0};
+    glm::dvec2 by{0.0};
 };
 
-/// The tiles of a picture, front to back. All rays have the same anchor.
+/// The tiles of a picture, front to back on a plane. All rays have the same anchor.
 struct PlacedTiles {
     std::vector<PlacedTile> tiles;
     bool has_walls = false;
-    /// Not null: of the only tile, which is on the ellipsoid, instead of PlacedTile::rays.
+    /// Not null: the tiles are on the ellipsoid.
     std::shared_ptr<const CurvedRays> curve;
+    TileNodes nodes; ///< on the ellipsoid, of several tiles
 };
 
 /// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -21,36 +22,29 @@ namespace reljef::cast {
 namespace {
 
 constexpr double chord_error = 0.005;  // pixels
-constexpr double largest_error = 0.05; // of rays that are not linear in the pixel
+constexpr double order_error = 0.002;  // where borders of tiles are passed in one direction
+constexpr double largest_error = 0.25; // of rays that are not linear in the pixel
 // Share of the error that the polynomial may have; the chords have the rest.
 constexpr double share_of_map = 0.2;
 constexpr double earth_radius = 6.4e6; // metres
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
 
-// Of a block, from its first pixel: corners, middle, and the middles of two sides.
-constexpr double whole = block_side;
-constexpr double half = 0.5 * block_side;
-constexpr std::array places{glm::dvec2(0.0, 0.0),   glm::dvec2(whole, 0.0),
-                            glm::dvec2(0.0, whole), glm::dvec2(whole, whole),
-                            glm::dvec2(half, half), glm::dvec2(whole, half),
-                            glm::dvec2(half, whole)};
+// Of a block, parts of its sides: corners, middle, and the middles of two sides.
+constexpr std::array places{glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
+                            glm::dvec2(1.0, 1.0), glm::dvec2(0.5, 0.5), glm::dvec2(1.0, 0.5),
+                            glm::dvec2(0.5, 1.0)};
+
+// Blocks in which rays are not linear in the pixel are quartered, down to the pixels of beams.
+constexpr glm::ivec2 smallest_block(beam_cols, beam_rows);
+constexpr double fan_error = 0.005; // pixels, of larger blocks
+
+glm::dvec2 pixel_at(const PixelBlock& block, glm::dvec2 part) {
+    return glm::dvec2(block.first) + part * glm::dvec2(block.size);
+}
 
 bool has_eye(const scene::Camera& camera) {
     return camera.projection == scene::ProjectionKind::perspective;
-}
-
-// The chord between two depths, and its line beyond them.
-PictureRays::Vectors at_zero(const PictureRays::Vectors& from, const PictureRays::Vectors& change,
-                             double t) {
-    return {from.first - t * change.first, from.right - t * change.right,
-            from.down - t * change.down};
-}
-
-PictureRays::Vectors change_of(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
-                               double length) {
-    return {(to.first - from.first) / length, (to.right - from.right) / length,
-            (to.down - from.down) / length};
 }
 
 // The largest tangent of a latitude of the box: parallels bend by it.
@@ -106,24 +100,27 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
       depths_(depths_of(terrain.local, local_, has_eye(camera))),
       metres_(metres_of(terrain.placement, terrain.samples)),
       pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
-    width_ = whole * pixel_at(depths_.end);
+    width_ = block_side * pixel_at(depths_.end);
     make_polynomial(has_eye(camera));
     const int rows = (size.y + block_side - 1) / block_side;
     const int count = cols_ * rows;
     blocks_.resize(static_cast<std::size_t>(count));
-    parallel_for(
-        count,
-        [&](int index) {
-            const glm::ivec2 first = block_side * glm::ivec2(index % cols_, index / cols_);
-            blocks_[static_cast<std::size_t>(index)] = cut({first, glm::ivec2(block_side)});
-        },
-        {.threads = threads, .stop = {}, .progress = {}});
+    parallel_for(count,
+                 [&](int index) {
+                     const glm::ivec2 first = block_side * glm::ivec2(index % cols_, index / cols_);
+                     cut({first, glm::ivec2(block_side)}, blocks_[static_cast<std::size_t>(index)]);
+                 },
+                 {.threads = threads, .stop = {}, .progress = {}});
     for (const std::vector<RayPiece>& pieces : blocks_) {
         for (const RayPiece& piece : pieces) {
             error_ = std::max(error_, piece.error);
         }
     }
-    error_ += share_of_map * chord_error;
+    error_ += share_of_map * chord_error + order_error;
+}
+
+glm::dvec2 CurvedRays::unseen_samples(double t) const {
+    return order_error * pixel_at(t) / (std::numbers::sqrt2 * glm::dvec2(metres_));
 }
 
 void CurvedRays::make_polynomial(bool is_fan) {
@@ -183,7 +180,7 @@ std::optional<CurvedRays::Fan> CurvedRays::fan_at(const PixelBlock& block, doubl
     Fan fan;
     fan.t = t;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto sample = sample_at(glm::dvec2(block.first) + places[i], t);
+        const auto sample = sample_at(reljef::cast::pixel_at(block, places[i]), t);
         if (!sample || glm::any(glm::isnan(*sample)) || glm::any(glm::isinf(*sample))) {
             return std::nullopt;
         }
@@ -191,13 +188,13 @@ std::optional<CurvedRays::Fan> CurvedRays::fan_at(const PixelBlock& block, doubl
         fan.box.add(*sample);
     }
     const auto& at = fan.samples;
-    fan.linear.right = (at[1] - at[0] + at[3] - at[2]) / (2.0 * whole);
-    fan.linear.down = (at[2] - at[0] + at[3] - at[1]) / (2.0 * whole);
+    fan.linear.right = (at[1] - at[0] + at[3] - at[2]) / (2.0 * block.size.x);
+    fan.linear.down = (at[2] - at[0] + at[3] - at[1]) / (2.0 * block.size.y);
     const glm::dvec3 middle = 0.5 * (0.25 * (at[0] + at[1] + at[2] + at[3]) + at[4]);
-    const glm::dvec2 pixel = glm::dvec2(block.first) + half;
+    const glm::dvec2 pixel = reljef::cast::pixel_at(block, glm::dvec2(0.5));
     fan.linear.first = middle - pixel.x * fan.linear.right - pixel.y * fan.linear.down;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const glm::dvec3 found = fan.linear.at(glm::dvec2(block.first) + places[i]);
+        const glm::dvec3 found = fan.linear.at(reljef::cast::pixel_at(block, places[i]));
         fan.bend = glm::max(fan.bend, glm::abs(found - at[i]));
     }
     return fan;
@@ -207,9 +204,11 @@ std::optional<CurvedRays::Fan> CurvedRays::fan_at(const PixelBlock& block, doubl
 class CurvedRays::Pieces {
 public:
     Pieces(const CurvedRays& rays, const PixelBlock& block)
-        : rays_(rays), block_(block), surface_(rays.terrain_.samples) {}
+        : rays_(rays), block_(block), surface_(rays.terrain_.samples),
+          is_smallest_(block.size == smallest_block) {}
 
-    std::vector<RayPiece> run(Interval range) {
+    // Empty: smaller blocks are needed.
+    std::optional<std::vector<RayPiece>> run(Interval range) {
         std::optional<Fan> from = rays_.fan_at(block_, range.begin);
         length_ = first_length(range.begin);
         was_above_ = from && is_inside(from->box);
@@ -218,6 +217,10 @@ public:
             const auto halfway = rays_.fan_at(block_, 0.5 * (range.begin + end));
             const auto to = rays_.fan_at(block_, end);
             const bool is_known = from && halfway && to;
+            is_too_large_ = is_too_large_ || (!is_known && !is_smallest_);
+            if (is_too_large_) {
+                return std::nullopt;
+            }
             const double min_length = shortest(end);
             const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
             if (is_known ? advance(*from, *halfway, *to, is_shortest) : is_shortest) {
@@ -226,7 +229,7 @@ public:
             }
             length_ = std::max(is_known ? length_ : 0.5 * length_, min_length);
         }
-        return std::move(pieces_);
+        return is_too_large_ ? std::nullopt : std::optional(std::move(pieces_));
     }
 
 private:
@@ -262,6 +265,8 @@ private:
             length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.2, 0.8);
             return false;
         }
+        is_too_large_ = !is_smallest_ && std::max(bend_of(from), bend_of(to)) > fan_error;
+        is_done_ = is_too_large_;
         add(from, to, chord);
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
@@ -282,9 +287,11 @@ private:
         const double near = rays_.pixel_at(from.t);
         const double far = rays_.pixel_at(to.t);
         const double off = glm::length(chord * metres_);
-        const double of_fans =
-            std::max(glm::length(from.bend * metres_) / near, glm::length(to.bend * metres_) / far);
-        return std::min(off / near, 4.0 * off / (far - near)) + of_fans;
+        return std::min(off / near, 4.0 * off / (far - near)) +
+               std::max(bend_of(from), bend_of(to));
+    }
+    [[nodiscard]] double bend_of(const Fan& fan) const { // pixels
+        return glm::length(fan.bend * metres_) / rays_.pixel_at(fan.t);
     }
 
     // Over or under the surface.
@@ -300,13 +307,9 @@ private:
 
     void add(const Fan& from, const Fan& to, glm::dvec3 chord) {
         RayPiece& piece = pieces_.emplace_back();
-        const auto change = change_of(from.linear, to.linear, to.t - from.t);
-        piece.rays.size = rays_.local_.size;
-        piece.rays.origin = at_zero(from.linear, change, from.t);
-        piece.rays.direction = change;
-        piece.rays.range = {from.t, to.t};
-        piece.rays.anchor = rays_.local_.anchor;
+        piece.rays = straight_between(from.linear, to.linear, {from.t, to.t}, rays_.local_);
         piece.error = error_of(from, to, chord);
+        piece.block = block_;
     }
 
     const CurvedRays& rays_;
@@ -316,17 +319,32 @@ private:
     double length_ = 0.0;
     bool was_above_ = false;
     bool is_done_ = false;
+    bool is_smallest_;
+    bool is_too_large_ = false; // the block
     std::vector<RayPiece> pieces_;
 };
 
-std::vector<RayPiece> CurvedRays::cut(const PixelBlock& block) const {
-    const glm::dvec2 middle = glm::dvec2(block.first) + half;
+void CurvedRays::cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const {
+    const glm::dvec2 middle = reljef::cast::pixel_at(block, glm::dvec2(0.5));
+    const double width = std::max(block.size.x, block.size.y) * pixel_at(depths_.end);
     const Interval depths{std::max(local_.range.begin, local_.anchor),
-                          std::min(local_.range.end, depths_.end + width_)};
-    const Box wider{terrain_.local.low - width_, terrain_.local.high + width_};
+                          std::min(local_.range.end, depths_.end + width)};
+    const Box wider{terrain_.local.low - width, terrain_.local.high + width};
     const auto range =
         intersect({local_.origin.at(middle), local_.direction.at(middle)}, wider, depths);
-    return range ? Pieces(*this, block).run(*range) : std::vector<RayPiece>();
+    if (!range) {
+        return;
+    }
+    if (auto found = Pieces(*this, block).run(*range)) {
+        pieces.insert(pieces.end(), found->begin(), found->end());
+        return;
+    }
+    const glm::ivec2 size = glm::max(block.size / 2, smallest_block);
+    for (int row = 0; row < block.size.y; row += size.y) {
+        for (int col = 0; col < block.size.x; col += size.x) {
+            cut({block.first + glm::ivec2(col, row), size}, pieces);
+        }
+    }
 }
 
 bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
@@ -334,14 +352,11 @@ bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& 
     const PictureRays rays = local_rays(camera, size, world_from_local, local);
     const glm::dvec2 pixel(view::metres_a_pixel(camera, size));
     const double depth = depths_of(local, rays, has_eye(camera)).end;
-    const double width = pixel.x + pixel.y * std::max(depth, 0.0);
+    const double width = smallest_block.x * (pixel.x + pixel.y * std::max(depth, 0.0));
     // The middle of a block above the chord between its sides, and beside that of a parallel.
     const double off =
-        (1.0 + parallel_bend(placement, local)) * whole * whole * width / (8.0 * earth_radius);
-    // Rays far beside the terrain have no samples.
-    constexpr double largest_part = 0.25; // of the terrain
-    const glm::dvec3 extent = local.size();
-    return off <= largest_error && whole * width <= largest_part * std::max(extent.x, extent.y);
+        (1.0 + parallel_bend(placement, local)) * width * smallest_block.x / (8.0 * earth_radius);
+    return off <= largest_error;
 }
 
 } // namespace reljef::cast

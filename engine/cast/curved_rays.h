@@ -20,12 +20,14 @@ namespace reljef::cast {
 
 /// The rays of a block of pixels between two depths, straight in samples.
 struct RayPiece {
-    PictureRays rays;   ///< over the range, for the pixels of the block
+    PixelBlock block;   ///< the pixels for which the rays are linear in the pixel: whole beams
+    PictureRays rays;   ///< over the range
     double error = 0.0; ///< how far these are off at checked places, pixels
 };
 
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
 /// of a block of pixels are cut into pieces, each so short that its chords have no visible error.
+/// Where the rays of a block are not linear in the pixel, it is divided.
 class CurvedRays {
 public:
     struct Terrain {
@@ -40,7 +42,8 @@ public:
     CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
                unsigned threads);
 
-    /// Front to back. They cover all of the surface that the block may show.
+    /// Of all parts of the block, one after the other; of each, front to back. They cover all of
+    /// the surface that the block may show.
     [[nodiscard]] std::span<const RayPiece> pieces(const PixelBlock& block) const {
         const glm::ivec2 at = block.first / block_side;
         const int index = at.y * cols_ + at.x;
@@ -50,6 +53,9 @@ public:
     /// rays that are linear in the pixel, and the map.
     [[nodiscard]] double error() const { return error_; }
 
+    /// By which rays may be moved at a depth, along both axes: error() counts it.
+    [[nodiscard]] glm::dvec2 unseen_samples(double t) const;
+
     [[nodiscard]] const PictureRays& local() const { return local_; }
 
 private:
@@ -57,7 +63,7 @@ private:
     class Pieces;
 
     void make_polynomial(bool is_fan);
-    [[nodiscard]] std::vector<RayPiece> cut(const PixelBlock& block) const;
+    void cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const;
     [[nodiscard]] std::optional<glm::dvec3> sample_at(glm::dvec2 pixel, double t) const;
     [[nodiscard]] std::optional<Fan> fan_at(const PixelBlock& block, double t) const;
     [[nodiscard]] double tolerance_at(double t) const; // of chords, metres
@@ -69,14 +75,14 @@ private:
     glm::dvec3 metres_{1.0}; // of a column, a row and a metre of height, at most
     std::optional<terrain::SamplePolynomial> polynomial_;
     glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
-    double width_ = 0.0;    // of a block at the farthest surface, metres
+    double width_ = 0.0;    // of a whole block at the farthest surface, metres
     int cols_;              // of blocks
     std::vector<std::vector<RayPiece>> blocks_;
     double error_ = 0.0;
 };
 
-/// Whether blocks of pixels show so little of the terrain and the curved Earth that their rays are
-/// linear in the pixel.
+/// Whether the pixels of a beam show so little of the curved Earth that their rays are linear in
+/// the pixel.
 bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
                 const terrain::Placement& placement, const Box& local);
 

@@ -79,6 +79,24 @@ Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspecti
     return depths;
 }
 
+PictureRays::Vectors places_at(const PictureRays& rays, double t) {
+    return {rays.origin.first + t * rays.direction.first,
+            rays.origin.right + t * rays.direction.right,
+            rays.origin.down + t * rays.direction.down};
+}
+
+PictureRays straight_between(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
+                             Interval depths, const PictureRays& like) {
+    const double length = depths.end - depths.begin;
+    PictureRays rays = like;
+    rays.range = depths;
+    rays.direction = {(to.first - from.first) / length, (to.right - from.right) / length,
+                      (to.down - from.down) / length};
+    rays.origin = from;
+    rays.origin = places_at(rays, -depths.begin);
+    return rays;
+}
+
 PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by) {
     rays.origin = moved(rays.origin, scale, by);
     rays.direction = moved(rays.direction, scale, glm::dvec2(0.0));

@@ -47,6 +47,13 @@ PictureRays local_rays(const scene::Camera& camera, glm::ivec2 size,
 /// their coordinates.
 Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspective);
 
+/// The places of rays at a depth.
+PictureRays::Vectors places_at(const PictureRays& rays, double t);
+
+/// The rays of `like` between two depths, but straight from place to place.
+PictureRays straight_between(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
+                             Interval depths, const PictureRays& like);
+
 /// The rays in samples that are `scale` times those of `rays`, plus `by`.
 PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by);
 

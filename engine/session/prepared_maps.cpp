@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 #include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
 

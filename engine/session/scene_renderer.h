@@ -10,7 +10,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/scene/tile_stream.h"
 #include "engine/session/flight_keys.h"
@@ -43,25 +43,10 @@ scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOp
                                                               : terrain::PlacementKind::ellipsoid;
     }
     const bool needs_plane = view.technique && scene::is_faster_on_plane(view.technique->id());
-    if (!options.placement && (needs_plane || view.rays == RayUse::only)) {
-        options.placement = terrain::PlacementKind::plane; // all that it draws of any size
+    if (!options.placement && needs_plane) {
+        options.placement = terrain::PlacementKind::plane;
     }
     return options;
-}
-
-// Where all other contexts draw the ellipsoid.
-std::optional<std::string> plane_note(const scene::TerrainSurface& surface,
-                                      const SourceOptions& choice, const SceneOptions& view,
-                                      const io::SceneDescription& description) {
-    const bool is_chosen = choice.placement || description.placement;
-    const bool needs_plane = view.technique && scene::is_faster_on_plane(view.technique->id());
-    if (view.rays != RayUse::only || is_chosen || needs_plane ||
-        !surface.heightfield().georeference) {
-        return std::nullopt;
-    }
-    return fmt::format("{}: drawn on a plane, where rays on the CPU draw terrain of any size; "
-                       "--placement ellipsoid draws what fits --memory at its place on the Earth",
-                       surface.terrain().name);
 }
 
 Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
@@ -241,9 +226,6 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
-    if (const auto note = plane_note(*shown.surface, terrain, view, source.description)) {
-        log.note(*note);
-    }
     auto detail = open_detail(source.description, terrain, view, log, stop);
     if (!detail) {
         return detail.error();

@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/earth_stage.h"
+#include "tests/render/made_stream.h"
+#include "tests/terrain/made_tiles.h"
 
 namespace reljef::cast {
 namespace {
@@ -21,16 +23,47 @@ struct EarthStage : test::EarthStage {
         set(scene::Technique{bounded});
     }
 
-    [[nodiscard]] view::DrawnHits drawn() const {
-        Driver driver = test::must(Driver::create({.size = curved_size}));
-        return test::must(driver.draw_hits(view::select(scene, curved_size)));
+    // From now on its samples are tiles of a stream.
+    void stream() {
+        auto& node = *terrain->get<scene::TerrainNode>();
+        const terrain::TileTree tree(side, side);
+        const auto read = [surface = node.surface, tree](terrain::TreeTile tile,
+                                                         const std::stop_token& /*stop*/) {
+            scene::TileContent content;
+            content.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
+                const glm::ivec2 sample = tree.sample(tile, vertex);
+                return surface->heightfield().heights(sample.x, sample.y);
+            });
+            content.is_proven = true;
+            return content;
+        };
+        scene::TileStreamOptions options;
+        options.find_proof = [surface = node.surface](terrain::TreeTile tile) {
+            const terrain::MinMax total = surface->pyramid().total();
+            return std::optional(
+                terrain::TileProof{total.low, total.high, tile.level == 0 ? 0.0F : 1e3F});
+        };
+        node.stream = std::make_shared<scene::TileStream>(scene::TileBuilder(node.surface, tree, 1),
+                                                          read, options);
+        scene::Polygons bounded;
+        bounded.error = 1e-6; // all samples
+        set(scene::Technique{bounded});
     }
 
-    void expect_true(const std::string& name, double most) const {
-        const view::DrawnHits shown = drawn();
+    [[nodiscard]] view::DrawnHits drawn(glm::ivec2 size) const {
+        const auto& node = *terrain->get<scene::TerrainNode>();
+        if (node.stream != nullptr) {
+            render::bring_tiles(node, scene.camera());
+        }
+        Driver driver = test::must(Driver::create({.size = size}));
+        return test::must(driver.draw_hits(view::select(scene, size)));
+    }
+
+    void expect_true(const std::string& name, double most, glm::ivec2 size = curved_size) const {
+        const view::DrawnHits shown = drawn(size);
         const truth::GeometricErrors found = errors(shown.hits);
         ASSERT_TRUE(found.reprojection.distribution && shown.stats.kept_error) << name;
-        EXPECT_GT(found.reprojection.distribution->count, shown.hits.size() / 50) << name;
+        EXPECT_GT(found.reprojection.distribution->count, shown.hits.size() / 200) << name;
         // Where the truth of a pixel is not stable, the next ridge may be hit.
         EXPECT_LE(found.wrong + found.holes + found.reprojection.unbounded,
                   shown.hits.size() / 2000)
@@ -52,11 +85,58 @@ TEST(CurvedRays, HitWhatTheTruthHits) {
     }
 }
 
-TEST(CurvedRays, FromFarAwayAreLeftToOpenGl) {
+TEST(CurvedRays, HitWhatTheTruthHitsInStreamedTiles) {
+    for (const double latitude : {45.0, 0.1, -60.0, 85.0}) {
+        for (const double above : {0.3, 30.0, 3e3, 2e4}) {
+            EarthStage stage({.latitude = latitude, .turn = latitude > 0.0 ? 20.0 : 0.0});
+            stage.look({120.3, 201.7}, above, {140.0, 40.0});
+            stage.stream();
+            stage.expect_true(fmt::format("streamed, latitude {}, {} m above", latitude, above),
+                              std::abs(latitude) > 80.0 ? 0.05 : 0.01);
+        }
+    }
+}
+
+// From space, blocks of pixels show the bend of the Earth.
+TEST(CurvedRays, HitWhatTheTruthHitsFromFarAway) {
+    for (const double latitude : {47.0, 2.0, -60.0}) {
+        for (const double above : {1e5, 1e6, 3e6}) {
+            const double step = above < 5e5 ? 0.004 : 0.02; // degrees
+            for (const bool is_streamed : {false, true}) {
+                EarthStage stage({.latitude = latitude, .step = step, .turn = 20.0});
+                stage.look({120.3, 201.7}, above, {140.0, 100.0});
+                if (is_streamed) {
+                    stage.stream();
+                }
+                stage.expect_true(fmt::format("latitude {}, {} m above, {}", latitude, above,
+                                              is_streamed ? "streamed" : "whole"),
+                                  above < 2e6 ? 0.01 : 0.02);
+            }
+        }
+    }
+}
+
+// Their pixels are wider than samples.
+TEST(CurvedRays, HitWhatTheTruthHitsInThumbnails) {
+    constexpr glm::ivec2 thumbnail{64, 48};
+    for (const double above : {3e3, 2e4, 1e5, 1e6}) {
+        EarthStage stage({.latitude = 47.0, .step = above < 5e5 ? 0.001 : 0.02, .turn = 20.0});
+        stage.look({120.3, 201.7}, above, {140.0, 100.0});
+        const view::DrawnHits shown = stage.drawn(thumbnail);
+        const truth::GeometricErrors found = stage.errors(shown.hits);
+        ASSERT_TRUE(found.reprojection.distribution && shown.stats.kept_error);
+        // At the ends of the terrain.
+        EXPECT_LE(found.holes + found.reprojection.unbounded, 6U) << above;
+        EXPECT_LT(found.reprojection.distribution->p99, 0.02) << above;
+        EXPECT_LT(found.reprojection.distribution->p99, *shown.stats.kept_error) << above;
+    }
+}
+
+TEST(CurvedRays, FromVeryFarAwayAreLeftToOpenGl) {
     EarthStage stage({});
-    stage.look({120.3, 201.7}, 3e6, {140.0, 40.0});
+    stage.look({120.3, 201.7}, 3e8, {140.0, 40.0});
     EXPECT_NE(obstacle_of(view::select(stage.scene, curved_size).list), "");
-    stage.look({120.3, 201.7}, 2e4, {140.0, 40.0});
+    stage.look({120.3, 201.7}, 3e6, {140.0, 40.0});
     EXPECT_EQ(obstacle_of(view::select(stage.scene, curved_size).list), "");
 }
 

@@ -85,25 +85,27 @@ TEST_F(CpuContext, IsTheDefaultForWhatItDraws) {
     EXPECT_EQ(wireframe.out.find(rays), std::string::npos) << wireframe.out;
 }
 
-TEST_F(CpuContext, SaysThatGeoreferencedTerrainIsOnAPlane) {
+TEST_F(CpuContext, PlacesGeoreferencedTerrainOnTheEllipsoid) {
     const test::TemporaryFolder folder;
     folder.write("hill.prj", "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\","
                              "6378137.0,298.257223563]],PRIMEM[\"Greenwich\",0.0],"
                              "UNIT[\"Degree\",0.0174532925199433]]");
     const auto hill = folder
                           .write("hill.asc", "ncols 3\nnrows 3\nxllcenter 7\nyllcenter 46\n"
-                                             "cellsize 0.001\n0 0 0 0 50 0 0 0 0\n")
+                                             "cellsize 0.1\n0 0 0 0 5000 0 0 0 0\n")
                           .string();
     const auto drawn = [&](std::vector<std::string> options) {
-        options.insert(options.begin(), {"render", hill, "--size", "64x48", "-o", file("a.png")});
+        options.insert(options.begin(), {"render", hill, "--context", "cpu", "--size", "64x48",
+                                         "-o", file("a.png")});
         const auto result = test::reljef(options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
-        return result.err.find("drawn on a plane") != std::string::npos;
+        return io::read_image(file("a.png")).value();
     };
-    EXPECT_TRUE(drawn({"--context", "cpu"}));
-    EXPECT_FALSE(drawn({"--context", "cpu", "--placement", "plane"}));
-    EXPECT_FALSE(drawn({"--context", "cpu", "--technique", "exact"}));
-    EXPECT_FALSE(drawn({}));
+    const Image usual = drawn({});
+    EXPECT_EQ(usual, drawn({"--placement", "ellipsoid"}));
+    EXPECT_NE(usual, drawn({"--placement", "plane"}));
+    EXPECT_EQ(drawn({"--technique", "exact"}),
+              drawn({"--technique", "exact", "--placement", "plane"}));
 }
 
 } // namespace

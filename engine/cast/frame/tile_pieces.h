@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "engine/cast/tile_nodes.h"
 #include "engine/terrain/field/tile_lattice.h"
 #include "engine/terrain/tree/tile_tree.h"
 
@@ -29,5 +32,17 @@ std::vector<TilePiece> pieces_of(const terrain::TileLattice& tile, glm::dvec2 la
 /// samples of the tree; infinite for parallel rays.
 std::vector<std::size_t> front_to_back(const terrain::TileTree& tree,
                                        std::span<const terrain::TreeTile> drawn, glm::dvec2 from);
+
+/// Adds the nodes of a drawn tile; returns the index of the first.
+using TileAdder = std::function<int(std::size_t drawn, TileNodes& nodes)>;
+
+/// The tree of drawn tiles. `first_of`: the first corner of a tile, in samples
+/// of the rays.
+TileNodes nodes_of(const terrain::TileTree& tree, std::span<const terrain::TreeTile> drawn,
+                   const std::function<glm::dvec2(terrain::TreeTile)>& first_of,
+                   const TileAdder& add_tile);
+
+/// A node of others. `parts`: TileNode::parts.
+TileNode node_over(const TileNodes& nodes, const std::array<int, 4>& parts, glm::dvec2 lines);
 
 } // namespace reljef::cast

@@ -8,12 +8,13 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/cast/frame/ray_support.h"
+#include "engine/cast/frame/tile_contents.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/picture_samples.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/cast/simd_target.h"
-#include "engine/cast/tile_contents.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
@@ -37,18 +38,6 @@ struct DriverOptions {
 /// How far rounding of floats moves a hit at most, pixels: what exact rays keep of an error bound
 /// (docs/cast.md).
 double rounding_error(const scene::Camera& camera, glm::ivec2 size);
-
-/// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
-/// without options.
-bool draws_technique(const scene::Technique& technique);
-
-/// What rays on the CPU cannot draw of a terrain with a technique; empty if they draw it.
-std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique);
-
-/// The same of a list, which has at most one terrain and no meshes.
-std::string obstacle_of(const view::DrawList& list);
-/// Fails if there is an obstacle.
-Result<void> check_support(const view::DrawList& list);
 
 /// Draws selected frames by rays on the CPU (cast_hits.h); light, air and sky are those of
 /// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.

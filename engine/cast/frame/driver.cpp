@@ -1,4 +1,4 @@
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 
 #include <algorithm>
 #include <bit>
@@ -16,68 +16,12 @@
 #include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
+#include "engine/cast/frame/seen_terrain.h"
 #include "engine/core/stopwatch.h"
-#include "engine/scene/tile_stream.h"
 
 namespace reljef::cast {
 
 namespace {
-
-struct SeenTerrain {
-    const scene::TerrainNode* node = nullptr;
-    glm::dmat4 world_from_local{1.0};
-};
-
-// Each once.
-std::vector<SeenTerrain> terrains_of(const view::DrawList& list) {
-    std::vector<SeenTerrain> seen;
-    const auto add = [&](const scene::TerrainNode* node, const glm::dmat4& world_from_local) {
-        const bool is_new = std::none_of(
-            seen.begin(), seen.end(), [&](const SeenTerrain& other) { return other.node == node; });
-        if (is_new) {
-            seen.push_back({node, world_from_local});
-        }
-    };
-    for (const view::ReliefDraw& draw : list.reliefs) {
-        add(draw.terrain, draw.world_from_local);
-    }
-    for (const view::TileDraw& draw : list.tiles) {
-        add(draw.terrain, list.world_from_local(draw));
-    }
-    return seen;
-}
-
-Box samples_and_heights(const scene::TerrainSurface& surface) {
-    const Grid<float>& heights = surface.heightfield().heights;
-    const terrain::MinMax total = surface.pyramid().total();
-    Box bounds;
-    bounds.add(glm::dvec3(0.0, 0.0, total.low));
-    bounds.add(glm::dvec3(heights.cols() - 1.0, heights.rows() - 1.0, total.high));
-    return bounds;
-}
-
-// In samples of the overview: all of it, with the heights of the tiles.
-Box bounds_of_tiles(const view::DrawList& list) {
-    const view::TileDraw& any = list.tiles.front();
-    Box bounds = samples_and_heights(*any.terrain->surface);
-    for (const view::TileDraw& draw : list.tiles) {
-        bounds.low.z = std::min(bounds.low.z, double{draw.tile->range.low});
-        bounds.high.z = std::max(bounds.high.z, double{draw.tile->range.high});
-    }
-    return bounds;
-}
-
-bool is_curved(const scene::TerrainNode& node) {
-    return node.surface->placement().kind() == terrain::PlacementKind::ellipsoid;
-}
-
-// Around all ground that is drawn, local coordinates. `samples`: the same.
-Box local_bounds(const scene::TerrainSurface& surface, const Box& samples) {
-    const Box overview = samples_and_heights(surface);
-    const double more = std::max(overview.low.z - samples.low.z, samples.high.z - overview.high.z);
-    const double room = surface.placement().exaggeration() * std::max(more, 0.0);
-    return {surface.bounds().low - room, surface.bounds().high + room};
-}
 
 // No pixel of a proven tile is farther off than the tile itself, and the rays (`of_rays`). Empty:
 // none is proven.
@@ -187,63 +131,6 @@ double rounding_error(const scene::Camera& camera, glm::ivec2 size) {
                : of_distance * (camera.orthographic_far - camera.orthographic_near) / pixel.x;
 }
 
-bool draws_technique(const scene::Technique& technique) {
-    return technique.options == scene::TechniqueOptions{} &&
-           (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
-}
-
-std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique) {
-    if (!draws_technique(technique)) {
-        return fmt::format("technique {}", scene::to_string(technique));
-    }
-    if (terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0) {
-        return "a streamed globe";
-    }
-    const bool is_on_earth = is_curved(terrain);
-    if (is_on_earth && terrain.surface->placement().columns_all_around()) {
-        return "a globe";
-    }
-    if (is_on_earth && terrain.stream != nullptr) {
-        return "a streamed terrain on the ellipsoid";
-    }
-    if (terrain.material.wireframe) {
-        return "a wireframe";
-    }
-    const double samples = static_cast<double>(terrain.surface->heightfield().heights.size());
-    if (samples > std::numeric_limits<std::int32_t>::max()) {
-        return "a terrain of more than 2^31 samples";
-    }
-    return terrain.detail != nullptr ? "a detail texture" : "";
-}
-
-std::string obstacle_of(const view::DrawList& list) {
-    if (!list.meshes.empty()) {
-        return "a mesh";
-    }
-    const std::vector<SeenTerrain> terrains = terrains_of(list);
-    for (const SeenTerrain& terrain : terrains) {
-        if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique);
-            !found.empty()) {
-            return found;
-        }
-        if (is_curved(*terrain.node) &&
-            !are_linear(list.camera, list.size, terrain.world_from_local,
-                        terrain.node->surface->placement(), terrain.node->surface->bounds())) {
-            return "a view from so far that a block of pixels shows the bend of the Earth";
-        }
-    }
-    return terrains.size() > 1 ? "more than one terrain" : "";
-}
-
-Result<void> check_support(const view::DrawList& list) {
-    const std::string found = obstacle_of(list);
-    return found.empty() ? Result<void>()
-                         : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
-                                             "over one terrain was expected; "
-                                             "--context osmesa draws the others",
-                                             found)};
-}
-
 Driver::Driver(const DriverOptions& options) : options_(options) {}
 
 Result<Driver> Driver::create(const DriverOptions& options) {
@@ -330,18 +217,16 @@ struct RaysOver {
     std::shared_ptr<const CurvedRays> curve;
 };
 
-RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, const Box& bounds,
-                   unsigned threads) {
-    const auto& [node, world_from_local] = seen;
-    const terrain::Placement& placement = node->surface->placement();
-    if (!is_curved(*node)) {
-        return {picture_rays(list.camera, list.size, world_from_local, placement, bounds), nullptr};
+RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, unsigned threads) {
+    const terrain::Placement& placement = seen.node->surface->placement();
+    if (!is_curved(*seen.node)) {
+        return {
+            picture_rays(list.camera, list.size, seen.world_from_local, placement, seen.samples),
+            nullptr};
     }
     auto curve = std::make_shared<const CurvedRays>(
         list.camera, list.size,
-        CurvedRays::Terrain{placement, world_from_local, local_bounds(*node->surface, bounds),
-                            bounds},
-        threads);
+        CurvedRays::Terrain{placement, seen.world_from_local, seen.local, seen.samples}, threads);
     PictureRays straight;
     straight.size = list.size;
     straight.range = curve->local().range;
@@ -353,33 +238,35 @@ RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, const Bo
 
 // Precondition: check_support().
 PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats) {
-    const std::vector<SeenTerrain> seen = terrains_of(list);
-    if (seen.empty()) {
+    const std::vector<SeenTerrain> terrains = seen_terrains(list);
+    if (terrains.empty()) {
         return {};
     }
-    const auto& [node, world_from_local] = seen.front();
-    const bool is_streamed = !list.tiles.empty() && !list.tiles.front().tile->borrows;
-    const Box bounds = is_streamed ? bounds_of_tiles(list) : samples_and_heights(*node->surface);
-    const auto [rays, curve] = rays_over(list, seen.front(), bounds, options_.threads);
-    const bool stands_in = node->stream != nullptr && !is_streamed; // for tiles to be loaded
-    if (scene::error_bound(node->material.technique) > 0.0 && !stands_in) {
+    const SeenTerrain& seen = terrains.front();
+    const scene::TerrainNode& node = *seen.node;
+    const auto [rays, curve] = rays_over(list, seen, options_.threads);
+    const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
+    if (scene::error_bound(node.material.technique) > 0.0 && !stands_in) {
         stats.kept_error = kept_error(list, rounding_error(list.camera, list.size) +
                                                 (curve != nullptr ? curve->error() : 0.0));
     }
-    if (is_streamed) {
-        return streamed_.place(list, rays, {options_.threads, paints}, stats);
+    if (seen.has_tiles) {
+        PlacedTiles placed =
+            streamed_.place(list, rays, {options_.threads, paints, curve != nullptr}, stats);
+        placed.curve = curve;
+        return placed;
     }
     PlacedTiles placed;
     placed.curve = curve;
     placed.has_walls = curve != nullptr;
     PlacedTile& tile = placed.tiles.emplace_back();
-    tile.tile = &tile_of(*node, stats);
+    tile.tile = &tile_of(node, stats);
     tile.rays = rays;
     tile.seen = {{0, 0}, list.size};
     if (paints) {
-        tile.paint = levels_of(*node, view::light_on(list, world_from_local), stats).paint();
+        tile.paint = levels_of(node, view::light_on(list, seen.world_from_local), stats).paint();
         tile.paint.longest_texels =
-            longest_texels(list, tile.paint, node->surface->placement().spacing());
+            longest_texels(list, tile.paint, node.surface->placement().spacing());
     }
     return placed;
 }

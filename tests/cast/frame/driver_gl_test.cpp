@@ -1,4 +1,4 @@
-#include "engine/cast/driver.h"
+#include "engine/cast/frame/driver.h"
 
 #include <algorithm>
 #include <cstdlib>

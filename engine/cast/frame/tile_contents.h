@@ -16,17 +16,18 @@
 
 namespace reljef::cast {
 
-/// What rays need of the streamed tiles of a terrain on a plane: made at first sight, kept while
-/// they are drawn.
+/// What rays need of the streamed tiles of a terrain: made at first sight, kept while they are
+/// drawn.
 class TileContents {
 public:
     struct Options {
         unsigned threads = 0;
-        bool paints = true; ///< false: for hits only
+        bool paints = true;     ///< false: for hits only
+        bool is_curved = false; ///< on the ellipsoid: PlacedTiles::nodes order the tiles
     };
 
-    /// The tiles of a list, placed; `rays`: in samples of the overview. Precondition: all tiles are
-    /// of one stream.
+    /// The tiles of a list, placed; `rays`: in samples of the overview, on the ellipsoid their
+    /// range and anchor. Precondition: all tiles are of one stream.
     PlacedTiles place(const view::DrawList& list, const PictureRays& rays, const Options& options,
                       view::FrameStats& stats);
 

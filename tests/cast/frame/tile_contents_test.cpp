@@ -1,18 +1,19 @@
-#include "engine/cast/tile_contents.h"
+#include "engine/cast/frame/tile_contents.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
+#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "engine/cast/cast_hits.h"
-#include "engine/cast/tile_pieces.h"
+#include "engine/cast/frame/driver.h"
+#include "engine/cast/frame/tile_pieces.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/terrain/chance.h"
@@ -26,8 +27,15 @@ constexpr int raster_side = 300; // samples; the last tiles have fewer cells, an
 constexpr int overview_reduction = 4;
 constexpr double sample_metres = 10.0;
 constexpr glm::ivec2 view_size{64, 48};
-// Floats of a ray are off by 2^-20 of 3 km, and slopes are up to 4.
-constexpr double height_tolerance = 0.02;
+
+// Where a terrain lies, and how far rays over it may be off.
+struct Ground {
+    std::optional<double> latitude; // absent: on a plane
+    // Floats of a ray are off by 2^-20 of 3 km, and slopes are up to 4.
+    double height_tolerance = 0.02; // metres
+    double near = 1e-4;             // samples
+    double place_tolerance = 0.01;  // samples
+};
 
 double noise(glm::ivec2 place) {
     const auto bits =
@@ -55,19 +63,28 @@ scene::TileContent read_tile(terrain::TreeTile tile, const std::stop_token& /*st
     return content;
 }
 
-std::shared_ptr<const scene::TerrainSurface> made_overview() {
-    auto heightfield = test::plane_heightfield(
-        test::overview_heights(raster_side, overview_reduction, base_height));
-    heightfield.spacing = glm::dvec2(sample_metres * overview_reduction);
-    return std::make_shared<const scene::TerrainSurface>(
-        test::must(scene::TerrainSurface::create(std::make_shared<const terrain::Terrain>(
-            terrain::Terrain{"made", std::move(heightfield), {}, {}}))));
+std::shared_ptr<const scene::TerrainSurface> made_overview(const Ground& ground) {
+    Grid<float> heights = test::overview_heights(raster_side, overview_reduction, base_height);
+    const double metres = sample_metres * overview_reduction;
+    auto heightfield =
+        ground.latitude
+            ? test::geographic_heightfield(std::move(heights), *ground.latitude, 7.0,
+                                           metres / geo::metres_per_degree(*ground.latitude).y)
+            : test::plane_heightfield(std::move(heights));
+    heightfield.spacing = glm::dvec2(metres);
+    const auto kind =
+        ground.latitude ? terrain::PlacementKind::ellipsoid : terrain::PlacementKind::plane;
+    return std::make_shared<const scene::TerrainSurface>(test::must(
+        scene::TerrainSurface::create(std::make_shared<const terrain::Terrain>(
+                                          terrain::Terrain{"made", std::move(heightfield), {}, {}}),
+                                      {.placement = kind})));
 }
 
 // A random selection of tiles, and a camera.
 class RandomCut {
 public:
-    explicit RandomCut(test::Chance& chance) : overview_(made_overview()) {
+    explicit RandomCut(test::Chance& chance, const Ground& ground = {})
+        : ground_(ground), overview_(made_overview(ground)) {
         const terrain::TileTree tree(raster_side, raster_side);
         node_.surface = overview_;
         node_.stream = std::make_shared<scene::TileStream>(
@@ -89,11 +106,13 @@ public:
             glm::dvec3(builder().on_overview(glm::dvec2(sample)), sample.z));
     }
 
-    // A sample of the terrain and a height on the ray of a pixel's middle.
+    // A sample of the terrain and a height on the ray of a pixel's middle; far beside the terrain
+    // there may be none.
     [[nodiscard]] glm::dvec3 on_ray(glm::ivec2 pixel, double t) const {
         const Ray ray = scene::view_ray(list_.camera, view_size, glm::dvec2(pixel) + 0.5);
-        const glm::dvec3 place =
-            *overview_->placement().sample_from_world(ray.origin + t * ray.direction);
+        const glm::dvec3 place = overview_->placement()
+                                     .sample_from_world(ray.origin + t * ray.direction)
+                                     .value_or(glm::dvec3(-raster_side));
         return {builder().from_overview(glm::dvec2(place)), place.z};
     }
 
@@ -104,7 +123,7 @@ public:
         if (sample.x < 0.0 || sample.y < 0.0 || sample.x > last || sample.y > last) {
             return heights;
         }
-        constexpr double near = 1e-4; // samples
+        const double near = ground_.near;
         for (const glm::dvec2 beside : {glm::dvec2(-near, -near), glm::dvec2(near, -near),
                                         glm::dvec2(-near, near), glm::dvec2(near, near)}) {
             const auto& tile = tile_at(glm::clamp(sample + beside, 0.0, last));
@@ -115,22 +134,12 @@ public:
     }
 
     [[nodiscard]] HitBuffer cast(unsigned threads = 0) {
-        view::FrameStats stats;
-        TileContents contents;
-        CastOptions options;
-        options.parallel.threads = threads;
-        return test::must(
-            cast_hits(contents.place(list_, rays(), {threads, true}, stats), view_size, options));
+        Driver driver = test::must(Driver::create({.size = view_size, .threads = threads}));
+        view::FrameView frame;
+        frame.list = list_;
+        return test::must(driver.draw_hits(frame)).hits;
     }
-
-    [[nodiscard]] PictureRays rays() const {
-        Box bounds;
-        bounds.add(glm::dvec3(0.0, 0.0, -200.0));
-        bounds.add(
-            glm::dvec3(raster_side / overview_reduction, raster_side / overview_reduction, 200.0));
-        return picture_rays(list_.camera, view_size, glm::dmat4(1.0), overview_->placement(),
-                            bounds);
-    }
+    [[nodiscard]] const Ground& ground() const { return ground_; }
 
 private:
     void add(terrain::TreeTile id, test::Chance& chance) {
@@ -158,12 +167,14 @@ private:
         }
     }
 
+    Ground ground_;
     std::shared_ptr<const scene::TerrainSurface> overview_;
     scene::TerrainNode node_;
     view::DrawList list_;
     std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> tiles_;
 };
 
+// A cut on the ellipsoid is seen with small pixels: rays may be off by a hundredth of them.
 scene::Camera camera_over(const RandomCut& cut, test::Chance& chance) {
     const auto place = [&](double height) {
         return cut.world({chance.between(20.0, 280.0), chance.between(20.0, 280.0), height});
@@ -172,7 +183,9 @@ scene::Camera camera_over(const RandomCut& cut, test::Chance& chance) {
     camera.eye = place(chance.between(130.0, 900.0));
     camera.target = place(chance.between(-300.0, 60.0));
     camera.near = 0.1;
-    if (chance.one_in(4)) {
+    if (cut.ground().latitude) {
+        camera.vertical_fov = chance.between(1.0, 4.0);
+    } else if (chance.one_in(4)) {
         camera.projection = scene::ProjectionKind::orthographic;
         camera.view_height = chance.between(300.0, 3000.0);
         Box box;
@@ -209,8 +222,8 @@ bool passes_below(const RandomCut& cut, glm::ivec2 pixel, double begin, double e
     for (int i = 0; i < steps; ++i) {
         const glm::dvec3 place = cut.on_ray(pixel, begin + (end - begin) * i / steps);
         const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
-        if (!heights.empty() &&
-            place.z < *std::min_element(heights.begin(), heights.end()) - height_tolerance) {
+        if (!heights.empty() && place.z < *std::min_element(heights.begin(), heights.end()) -
+                                              cut.ground().height_tolerance) {
             return true;
         }
     }
@@ -221,8 +234,9 @@ void check_hit(const RandomCut& cut, glm::ivec2 pixel, const Hit& hit, Faults& f
     const std::vector<double> heights = cut.heights_at(hit.place());
     ++faults.hits;
     const glm::dvec3 on_ray = cut.on_ray(pixel, hit.depth);
+    const double height_tolerance = cut.ground().height_tolerance;
     if (heights.empty() || std::abs(on_ray.z - hit.height) > 4.0 * height_tolerance ||
-        glm::distance(glm::dvec2(on_ray), hit.place()) > 0.01) {
+        glm::distance(glm::dvec2(on_ray), hit.place()) > cut.ground().place_tolerance) {
         ++faults.off;
         return;
     }
@@ -233,6 +247,27 @@ void check_hit(const RandomCut& cut, glm::ivec2 pixel, const Hit& hit, Faults& f
     faults.on_walls += *high - *low > 1.0 && hit.height < *high - 0.2 ? 1 : 0;
 }
 
+// Of the rays of a picture.
+void add_faults(RandomCut& cut, Faults& faults) {
+    const bool is_map = cut.list().camera.projection == scene::ProjectionKind::orthographic;
+    const double begin = is_map ? cut.list().camera.orthographic_near : 0.1;
+    const HitBuffer hits = cut.cast();
+    for (int row = 0; row < view_size.y; ++row) {
+        for (int col = 0; col < view_size.x; ++col) {
+            const Hit& hit = hits(col, row);
+            if (is_map && comes_in_below(cut, {col, row})) {
+                continue;
+            }
+            constexpr double beyond = 6000.0; // metres
+            const double end = hit.is_sky() ? beyond : hit.depth * (1.0 - 1e-4);
+            faults.passes += passes_below(cut, {col, row}, begin, end) ? 1 : 0;
+            if (!hit.is_sky()) {
+                check_hit(cut, {col, row}, hit, faults);
+            }
+        }
+    }
+}
+
 TEST(TileContents, NoRayPassesBetweenTilesOfAnyLevels) {
     test::Chance chance(29);
     Faults faults;
@@ -240,22 +275,32 @@ TEST(TileContents, NoRayPassesBetweenTilesOfAnyLevels) {
         RandomCut cut(chance);
         for (int view = 0; view < 3; ++view) {
             cut.list().camera = camera_over(cut, chance);
-            const bool is_map = cut.list().camera.projection == scene::ProjectionKind::orthographic;
-            const double begin = is_map ? cut.list().camera.orthographic_near : 0.1;
-            const HitBuffer hits = cut.cast();
-            for (int row = 0; row < view_size.y; ++row) {
-                for (int col = 0; col < view_size.x; ++col) {
-                    const Hit& hit = hits(col, row);
-                    if (is_map && comes_in_below(cut, {col, row})) {
-                        continue;
-                    }
-                    constexpr double beyond = 6000.0; // metres
-                    const double end = hit.is_sky() ? beyond : hit.depth * (1.0 - 1e-4);
-                    faults.passes += passes_below(cut, {col, row}, begin, end) ? 1 : 0;
-                    if (!hit.is_sky()) {
-                        check_hit(cut, {col, row}, hit, faults);
-                    }
+            add_faults(cut, faults);
+        }
+    }
+    EXPECT_EQ(faults.passes, 0);
+    EXPECT_EQ(faults.off, 0);
+    EXPECT_GT(faults.hits, 40'000);
+    EXPECT_GT(faults.on_walls, 20);
+}
+
+// From places above lines between tiles, too, along which bent rays pass to both sides.
+TEST(TileContents, NoRayPassesBetweenTilesOnTheEllipsoid) {
+    test::Chance chance(41);
+    Faults faults;
+    for (const double latitude : {45.0, 0.1, 60.0, 85.0, -45.0}) {
+        for (int round = 0; round < 2; ++round) {
+            RandomCut cut(chance, {.latitude = latitude,
+                                   .height_tolerance = 0.3,
+                                   .near = 0.05,
+                                   .place_tolerance = 0.1});
+            for (int view = 0; view < 3; ++view) {
+                cut.list().camera = camera_over(cut, chance);
+                if (view == 2) {
+                    cut.list().camera.eye = cut.world({128.0, chance.between(20.0, 60.0), 250.0});
+                    cut.list().camera.target = cut.world({128.0, 260.0, -100.0});
                 }
+                add_faults(cut, faults);
             }
         }
     }

@@ -1,0 +1,68 @@
+#include "engine/cast/frame/ray_support.h"
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "engine/cast/curved_rays.h"
+#include "engine/cast/frame/seen_terrain.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::cast {
+
+bool draws_technique(const scene::Technique& technique) {
+    return technique.options == scene::TechniqueOptions{} &&
+           (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
+}
+
+std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique) {
+    if (!draws_technique(technique)) {
+        return fmt::format("technique {}", scene::to_string(technique));
+    }
+    if (terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0) {
+        return "a streamed globe";
+    }
+    if (is_curved(terrain) && terrain.surface->placement().columns_all_around()) {
+        return "a globe";
+    }
+    if (terrain.material.wireframe) {
+        return "a wireframe";
+    }
+    const double samples = static_cast<double>(terrain.surface->heightfield().heights.size());
+    if (samples > std::numeric_limits<std::int32_t>::max()) {
+        return "a terrain of more than 2^31 samples";
+    }
+    return terrain.detail != nullptr ? "a detail texture" : "";
+}
+
+std::string obstacle_of(const view::DrawList& list) {
+    if (!list.meshes.empty()) {
+        return "a mesh";
+    }
+    const std::vector<SeenTerrain> terrains = seen_terrains(list);
+    for (const SeenTerrain& terrain : terrains) {
+        if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique);
+            !found.empty()) {
+            return found;
+        }
+        if (is_curved(*terrain.node) &&
+            !are_linear(list.camera, list.size, terrain.world_from_local,
+                        terrain.node->surface->placement(), terrain.local)) {
+            return "a view from so far that a block of pixels shows the bend of the Earth";
+        }
+    }
+    return terrains.size() > 1 ? "more than one terrain" : "";
+}
+
+Result<void> check_support(const view::DrawList& list) {
+    const std::string found = obstacle_of(list);
+    return found.empty() ? Result<void>()
+                         : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
+                                             "over one terrain was expected; "
+                                             "--context osmesa draws the others",
+                                             found)};
+}
+
+} // namespace reljef::cast

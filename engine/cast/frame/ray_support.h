@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::cast {
+
+/// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
+/// without options.
+bool draws_technique(const scene::Technique& technique);
+
+/// What rays on the CPU cannot draw of a terrain with a technique; empty if they draw it.
+std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique);
+
+/// The same of a list, which has at most one terrain and no meshes.
+std::string obstacle_of(const view::DrawList& list);
+/// Fails if there is an obstacle.
+Result<void> check_support(const view::DrawList& list);
+
+} // namespace reljef::cast

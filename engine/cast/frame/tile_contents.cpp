@@ -1,0 +1,315 @@
+#include "engine/cast/frame/tile_contents.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/cast/frame/tile_pieces.h"
+#include "engine/core/parallel_for.h"
+#include "engine/scene/tile_stream.h"
+
+namespace reljef::cast {
+namespace {
+
+// Frames that unused content stays.
+constexpr std::uint64_t kept_frames = 8;
+
+std::size_t number_of(const TilePiece& piece) {
+    return (piece.vertex.x > 0 ? 1U : 0U) + (piece.vertex.y > 0 ? 2U : 0U);
+}
+
+// A rectangle of pixels around all that is seen of a box in samples of the overview.
+class SeenPixels {
+public:
+    SeenPixels(const view::DrawList& list, const terrain::Placement& overview,
+               const glm::dmat4& world_from_local)
+        : size_(list.size), overview_(overview),
+          clip_from_local_(scene::clip_from_world(list.camera, list.size) * world_from_local) {}
+
+    [[nodiscard]] PixelBlock of(const Box& samples) const {
+        return around(samples,
+                      [&](glm::dvec3 corner) { return overview_.world_from_sample(corner); });
+    }
+    [[nodiscard]] PixelBlock of_local(const Box& local) const {
+        return around(local, [](glm::dvec3 corner) { return corner; });
+    }
+
+private:
+    template <class ToLocal>
+    [[nodiscard]] PixelBlock around(const Box& box, const ToLocal& to_local) const {
+        glm::dvec2 low(std::numeric_limits<double>::infinity());
+        glm::dvec2 high = -low;
+        for (int i = 0; i < 8; ++i) {
+            const glm::dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x,
+                                    (i & 2) != 0 ? box.high.y : box.low.y,
+                                    (i & 4) != 0 ? box.high.z : box.low.z);
+            const glm::dvec4 clip = clip_from_local_ * glm::dvec4(to_local(corner), 1.0);
+            if (!(clip.w > 0.0)) {
+                return {{0, 0}, size_}; // reaches behind the eye
+            }
+            const glm::dvec2 pixel =
+                (0.5 + glm::dvec2(0.5, -0.5) * glm::dvec2(clip) / clip.w) * glm::dvec2(size_);
+            low = glm::min(low, pixel);
+            high = glm::max(high, pixel);
+        }
+        constexpr double margin = 1.0; // floats of rays are off by far less
+        const glm::dvec2 end(size_);
+        const glm::ivec2 first(glm::floor(glm::clamp(low - margin, glm::dvec2(0.0), end)));
+        const glm::ivec2 last(glm::ceil(glm::clamp(high + margin, glm::dvec2(0.0), end)));
+        return {first, last - first};
+    }
+
+    glm::ivec2 size_;
+    const terrain::Placement& overview_;
+    glm::dmat4 clip_from_local_;
+};
+
+} // namespace
+
+void TileContents::forget_unused() {
+    ++frame_;
+    std::erase_if(contents_, [&](const auto& entry) {
+        return entry.second.owner.expired() || entry.second.drawn + kept_frames < frame_;
+    });
+}
+
+void TileContents::add_light(const view::PreparedLight& prepared) {
+    light_ = {prepared.request.stream, prepared.request.light, prepared.irradiance};
+}
+
+const scene::TerrainIrradiance& TileContents::irradiance_of(const scene::TerrainNode& terrain,
+                                                            const scene::TerrainLight& light) {
+    if (light_.owner.lock() != terrain.stream || light_.light != light ||
+        light_.irradiance == nullptr) {
+        light_ = {terrain.stream, light,
+                  std::make_shared<const scene::TerrainIrradiance>(
+                      terrain.stream->maker().overview(), light)};
+    }
+    return *light_.irradiance;
+}
+
+std::vector<TileContents::Missing>
+TileContents::find_missing(const view::DrawList& list,
+                           const std::optional<scene::TerrainLight>& light, bool paints,
+                           view::FrameStats& stats) {
+    std::vector<Missing> missing;
+    for (const view::TileDraw& draw : list.tiles) {
+        Content& content = contents_[draw.tile.get()];
+        if (content.owner.lock() != draw.tile) {
+            content = {};
+            content.owner = draw.tile;
+        }
+        content.drawn = frame_;
+        const bool has_paint = !paints || (content.levels && content.light == light);
+        if (content.pieces.front() && has_paint) {
+            ++stats.skipped.uploads_unchanged;
+        } else {
+            missing.push_back({draw.tile.get(), &content});
+        }
+    }
+    return missing;
+}
+
+void TileContents::make_pieces(const scene::TileBuilder& builder, const Missing& missing) {
+    const GridView<const float> heights = missing.tile->heightfield.heights.view();
+    for (const TilePiece& piece :
+         pieces_of(builder.lattice(missing.tile->id), glm::dvec2(0.0), glm::dvec2(0.0))) {
+        missing.content->pieces[number_of(piece)].emplace(
+            heights.window(piece.vertex.x, piece.vertex.y, piece.cells.x + 1, piece.cells.y + 1));
+    }
+}
+
+std::size_t TileContents::bytes_of(const Content& content) {
+    std::size_t bytes = content.levels ? content.levels->bytes() : 0;
+    for (const std::optional<RayTile>& piece : content.pieces) {
+        bytes += piece ? piece->bytes() : 0;
+    }
+    return bytes;
+}
+
+void TileContents::make(const view::DrawList& list, const Options& options,
+                        view::FrameStats& stats) {
+    const scene::TerrainNode& terrain = *list.tiles.front().terrain;
+    const auto light = view::light_on(list, list.world_from_local(list.tiles.front()));
+    const std::vector<Missing> missing = find_missing(list, light, options.paints, stats);
+    if (missing.empty()) {
+        return;
+    }
+    const scene::TileBuilder& builder = terrain.stream->maker();
+    const scene::TerrainIrradiance* const irradiance =
+        light && options.paints ? &irradiance_of(terrain, *light) : nullptr;
+    const auto make_one = [&](int index) {
+        const Missing& one = missing[static_cast<std::size_t>(index)];
+        if (!one.content->pieces.front()) {
+            make_pieces(builder, one);
+        }
+        if (options.paints) {
+            one.content->levels.emplace(irradiance != nullptr
+                                            ? scene::lit_tile(builder, *one.tile, *irradiance, 1)
+                                            : one.tile->albedo,
+                                        one.tile->cells + 1);
+            one.content->light = light;
+        }
+    };
+    ParallelOptions parallel;
+    parallel.threads = options.threads;
+    parallel_for(static_cast<int>(missing.size()), make_one, parallel);
+    stats.uploads += static_cast<int>(missing.size());
+    for (const Missing& made : missing) {
+        stats.upload_bytes += bytes_of(*made.content);
+    }
+}
+
+namespace {
+
+// Places the pieces of tiles.
+class Placer {
+public:
+    Placer(const view::DrawList& list, const PictureRays& rays,
+           const TileContents::Options& options)
+        : list_(list), rays_(rays), options_(options), draw_(list.tiles.front()),
+          builder_(draw_.terrain->stream->maker()), zero_(builder_.from_overview(glm::dvec2(0.0))),
+          scale_(builder_.from_overview(glm::dvec2(1.0)) - zero_),
+          last_(builder_.sample(builder_.tree().root(),
+                                builder_.tree().cells(builder_.tree().root()))),
+          metres_(draw_.terrain->surface->placement().spacing() / scale_),
+          seen_(list, draw_.terrain->surface->placement(), list.world_from_local(draw_)) {}
+
+    [[nodiscard]] std::vector<TilePiece> pieces(const view::TileDraw& draw) const {
+        return pieces_of(builder_.lattice(draw.tile->id), last_, from());
+    }
+    // Where all rays begin, samples of the terrain; infinite along the axes of parallel ones.
+    [[nodiscard]] glm::dvec2 from() const {
+        if (options_.is_curved) {
+            return glm::dvec2(0.0); // there is no such place
+        }
+        if (list_.camera.projection == scene::ProjectionKind::perspective) {
+            return zero_ + scale_ * glm::dvec2(rays_.origin.first);
+        }
+        const glm::dvec2 direction(rays_.direction.first);
+        const double far = std::numeric_limits<double>::infinity();
+        return {direction.x > 0.0 ? -far : far, direction.y > 0.0 ? -far : far};
+    }
+
+    // Without its paint.
+    [[nodiscard]] PlacedTile placed(const view::TileDraw& draw, const TilePiece& piece,
+                                    const RayTile& samples) const {
+        PlacedTile tile;
+        tile.tile = &samples;
+        tile.scale = scale_ / piece.step;
+        tile.by = (zero_ - piece.first) / piece.step;
+        tile.rays = options_.is_curved ? rays_ : in_samples(rays_, tile.scale, tile.by);
+        tile.walls = piece.walls;
+        tile.first = piece.first;
+        tile.step = piece.step;
+        tile.seen = options_.is_curved ? seen_.of_local(draw.tile->bounds)
+                                       : seen_.of(box(piece, samples.total()));
+        return tile;
+    }
+
+    [[nodiscard]] glm::vec2 longest(const TilePaint& paint, const TilePiece& piece) const {
+        return longest_texels(list_, paint, metres_ * piece.step);
+    }
+
+    // In samples of the overview.
+    [[nodiscard]] Box box(const TilePiece& piece, terrain::MinMax total) const {
+        const glm::dvec2 end = piece.first + piece.step * glm::dvec2(piece.cells);
+        Box box;
+        box.add(glm::dvec3(builder_.on_overview(piece.first), total.low));
+        box.add(glm::dvec3(builder_.on_overview(end), total.high));
+        return box;
+    }
+    [[nodiscard]] glm::dvec2 first_of(terrain::TreeTile tile) const {
+        return builder_.on_overview(builder_.first(tile));
+    }
+
+private:
+    const view::DrawList& list_;
+    const PictureRays& rays_;
+    const TileContents::Options& options_;
+    const view::TileDraw& draw_;
+    const scene::TileBuilder& builder_;
+    glm::dvec2 zero_; // sample of the terrain at the overview's first
+    glm::dvec2 scale_;
+    glm::dvec2 last_;   // sample of the terrain
+    glm::dvec2 metres_; // of a sample of the terrain
+    SeenPixels seen_;
+};
+
+// Where the pieces of a drawn tile meet, and their nodes.
+int add_pieces(std::span<const TilePiece> pieces, const Placer& placer,
+               const std::vector<PlacedTile>& tiles, std::size_t first, TileNodes& nodes) {
+    const std::size_t over = nodes.size();
+    if (pieces.size() > 1) {
+        nodes.emplace_back();
+    }
+    std::array<int, 4> parts{-1, -1, -1, -1};
+    glm::dvec3 lines(0.0);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const PlacedTile& tile = tiles[first + i];
+        TileNode node;
+        node.box = placer.box(pieces[i], tile.tile->total());
+        node.seen = tile.seen;
+        node.tile = static_cast<int>(first + i);
+        lines = i == 0 ? node.box.low : glm::max(lines, node.box.low);
+        parts[number_of(pieces[i])] = static_cast<int>(nodes.size());
+        nodes.push_back(node);
+    }
+    if (pieces.size() > 1) {
+        nodes[over] = node_over(nodes, parts, glm::dvec2(lines));
+    }
+    return static_cast<int>(over);
+}
+
+} // namespace
+
+PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& rays,
+                                const Options& options, view::FrameStats& stats) {
+    forget_unused();
+    make(list, options, stats);
+    const Placer placer(list, rays, options);
+    const scene::TileBuilder& builder = list.tiles.front().terrain->stream->maker();
+    std::vector<terrain::TreeTile> ids;
+    for (const view::TileDraw& draw : list.tiles) {
+        ids.push_back(draw.tile->id);
+    }
+    PlacedTiles placed;
+    placed.has_walls = true;
+    const auto add = [&](std::size_t index) {
+        const view::TileDraw& draw = list.tiles[index];
+        const Content& content = contents_.at(draw.tile.get());
+        std::vector<TilePiece> pieces = placer.pieces(draw);
+        for (const TilePiece& piece : pieces) {
+            PlacedTile& tile = placed.tiles.emplace_back(
+                placer.placed(draw, piece, *content.pieces[number_of(piece)]));
+            if (options.paints) {
+                tile.paint = content.levels->paint(glm::vec2(piece.vertex));
+                tile.paint.longest_texels = placer.longest(tile.paint, piece);
+            }
+        }
+        return pieces;
+    };
+    if (!options.is_curved) {
+        for (const std::size_t index :
+             front_to_back(builder.tree(), ids, builder.tree_sample(placer.from()))) {
+            add(index);
+        }
+        return placed;
+    }
+    placed.nodes = nodes_of(
+        builder.tree(), ids, [&](terrain::TreeTile tile) { return placer.first_of(tile); },
+        [&](std::size_t index, TileNodes& nodes) {
+            const std::size_t first = placed.tiles.size();
+            const std::vector<TilePiece> pieces = add(index);
+            return add_pieces(pieces, placer, placed.tiles, first, nodes);
+        });
+    return placed;
+}
+
+} // namespace reljef::cast

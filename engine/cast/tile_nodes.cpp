@@ -1,0 +1,215 @@
+#include "engine/cast/tile_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace reljef::cast {
+namespace {
+
+constexpr double far_beyond = std::numeric_limits<double>::infinity();
+
+// Floats have errors of 2^-24 of the distance from the rays' anchor, and a ray adds a few of them.
+constexpr double place_rounding = 0x1p-24;
+constexpr double ray_rounding = 0x1p-20;
+
+// Where the rays at the corners of a block begin and end.
+class Course {
+public:
+    Course(const PictureRays& rays, const PixelBlock& block) {
+        constexpr std::array corners{glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(1, 1),
+                                     glm::ivec2(0, 1)};
+        const PictureRays::Vectors from = places_at(rays, rays.range.begin);
+        const PictureRays::Vectors to = places_at(rays, rays.range.end);
+        const PictureRays::Vectors anchor = places_at(rays, rays.anchor);
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::dvec2 pixel(block.first + block.size * corners[i]);
+            begin_[i] = from.at(pixel);
+            end_[i] = to.at(pixel);
+            box_.add(begin_[i]);
+            box_.add(end_[i]);
+            const glm::dvec3 base = anchor.at(pixel);
+            reach_ =
+                glm::max(reach_, glm::max(glm::abs(begin_[i] - base), glm::abs(end_[i] - base)));
+        }
+        const double height = std::max(std::abs(box_.low.z), std::abs(box_.high.z));
+        const glm::dvec3 margin = ray_rounding * (1.0 + reach_ + glm::dvec3(0.0, 0.0, height));
+        box_ = {box_.low - margin, box_.high + margin};
+    }
+
+    // Around all rays, also rounded ones.
+    [[nodiscard]] const Box& box() const { return box_; }
+
+    // Whether rays pass lines of an axis from high to low; `turns`: some, others not.
+    [[nodiscard]] bool comes_from_high(int axis, double line, bool& turns) const {
+        const double on = past(axis, line, 1.0);
+        const double back = past(axis, line, -1.0);
+        turns = turns || std::min(on, back) > place_rounding * reach_[axis];
+        return back > on;
+    }
+
+private:
+    // How far the rays that begin before a line end behind it; in the direction of `sign`. The
+    // corners' polygon is cut there.
+    [[nodiscard]] double past(int axis, double line, double sign) const {
+        double farthest = -far_beyond;
+        for (std::size_t i = 0; i < begin_.size(); ++i) {
+            const std::size_t next = (i + 1) % begin_.size();
+            const double from = sign * (begin_[i][axis] - line);
+            const double next_from = sign * (begin_[next][axis] - line);
+            const double to = sign * (end_[i][axis] - line);
+            if (from <= 0.0) {
+                farthest = std::max(farthest, to);
+            }
+            if ((from <= 0.0) != (next_from <= 0.0)) {
+                const double next_to = sign * (end_[next][axis] - line);
+                farthest = std::max(farthest, glm::mix(to, next_to, from / (from - next_from)));
+            }
+        }
+        return farthest;
+    }
+
+    std::array<glm::dvec3, 4> begin_{};
+    std::array<glm::dvec3, 4> end_{};
+    glm::dvec3 reach_{0.0}; // from the anchor
+    Box box_;
+};
+
+bool are_apart(const PixelBlock& a, const PixelBlock& b) {
+    return glm::any(glm::greaterThanEqual(a.first, b.first + b.size)) ||
+           glm::any(glm::greaterThanEqual(b.first, a.first + a.size));
+}
+
+class NodeWalk {
+public:
+    NodeWalk(const TileNodes& nodes, const Course& course, const PixelBlock& block)
+        : nodes_(nodes), course_(course), block_(block) {}
+
+    TilesAlong run() {
+        if (!nodes_.empty()) {
+            visit(nodes_.front());
+        }
+        return std::move(along_);
+    }
+
+private:
+    // A ray passes the side where it begins, perhaps one beside it, and the opposite one last.
+    void visit(const TileNode& node) {
+        if (!may_hit(node)) {
+            return;
+        }
+        if (node.tile >= 0) {
+            along_.tiles.push_back(static_cast<std::size_t>(node.tile));
+            return;
+        }
+        const auto has = [&](std::size_t a, std::size_t b) {
+            return node.parts[a] >= 0 || node.parts[b] >= 0;
+        };
+        const bool is_east =
+            has(0, 2) && has(1, 3) && course_.comes_from_high(0, node.lines.x, along_.turns.x);
+        const bool is_south =
+            has(0, 1) && has(2, 3) && course_.comes_from_high(1, node.lines.y, along_.turns.y);
+        const unsigned first = (is_east ? 1U : 0U) + (is_south ? 2U : 0U);
+        for (unsigned order = 0; order < node.parts.size(); ++order) {
+            if (const int part = node.parts[first ^ order]; part >= 0) {
+                visit(nodes_[static_cast<std::size_t>(part)]);
+            }
+        }
+    }
+
+    // Rays pass above a tile; below one they may be, too, to hit a wall behind it.
+    [[nodiscard]] bool may_hit(const TileNode& node) const {
+        const Box& rays = course_.box();
+        return !are_apart(node.seen, block_) && node.box.low.x <= rays.high.x &&
+               rays.low.x <= node.box.high.x && node.box.low.y <= rays.high.y &&
+               rays.low.y <= node.box.high.y && rays.low.z <= node.box.high.z;
+    }
+
+    const TileNodes& nodes_;
+    const Course& course_;
+    PixelBlock block_;
+    TilesAlong along_;
+};
+
+// Changes of a place for a pixel to the right and a pixel down, along an axis.
+glm::dvec2 change(const PictureRays::Vectors& vectors, int axis) {
+    return {vectors.right[axis], vectors.down[axis]};
+}
+
+// Sets them; the place at the middle pixel remains. Returns by how much a corner is moved.
+double set_change(PictureRays::Vectors& vectors, int axis, glm::dvec2 to, const PixelBlock& block) {
+    const glm::dvec2 half = 0.5 * glm::dvec2(block.size);
+    const glm::dvec2 by = to - change(vectors, axis);
+    vectors.right[axis] = to.x;
+    vectors.down[axis] = to.y;
+    vectors.first[axis] -= glm::dot(by, glm::dvec2(block.first) + half);
+    return glm::dot(glm::abs(by), half);
+}
+
+class Turns {
+public:
+    Turns(const PictureRays& rays, const PixelBlock& block, glm::bvec2 axes,
+          const std::function<glm::dvec2(double t)>& tolerance)
+        : rays_(rays), block_(block), axes_(axes), tolerance_(tolerance) {}
+
+    std::vector<PictureRays> run() {
+        constexpr int max_halvings = 6;
+        add(rays_.range, max_halvings);
+        return std::move(parts_);
+    }
+
+private:
+    // Along an axis, places at both ends change with the pixel in the same direction.
+    void add(Interval depths, int halvings) {
+        PictureRays::Vectors from = places_at(rays_, depths.begin);
+        PictureRays::Vectors to = places_at(rays_, depths.end);
+        bool is_near = true;
+        for (int axis = 0; axis < 2; ++axis) {
+            const glm::dvec2 before = change(from, axis);
+            const glm::dvec2 after = change(to, axis);
+            const double length = glm::length(before + after);
+            if (!axes_[axis] || !(length > 0.0)) {
+                continue;
+            }
+            const glm::dvec2 way = (before + after) / length;
+            is_near = set_change(from, axis, glm::dot(before, way) * way, block_) <=
+                          tolerance_(depths.begin)[axis] &&
+                      is_near;
+            is_near = set_change(to, axis, glm::dot(after, way) * way, block_) <=
+                          tolerance_(depths.end)[axis] &&
+                      is_near;
+        }
+        const double middle = 0.5 * (depths.begin + depths.end);
+        if (is_near || halvings == 0) {
+            parts_.push_back(straight_between(from, to, depths, rays_));
+        } else {
+            add({depths.begin, middle}, halvings - 1);
+            add({middle, depths.end}, halvings - 1);
+        }
+    }
+
+    const PictureRays& rays_;
+    const PixelBlock& block_;
+    glm::bvec2 axes_;
+    const std::function<glm::dvec2(double t)>& tolerance_;
+    std::vector<PictureRays> parts_;
+};
+
+} // namespace
+
+TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const PixelBlock& block) {
+    const Course course(rays, block);
+    return NodeWalk(nodes, course, block).run();
+}
+
+std::vector<PictureRays> without_turns(const PictureRays& rays, const PixelBlock& block,
+                                       glm::bvec2 axes,
+                                       const std::function<glm::dvec2(double t)>& tolerance) {
+    return Turns(rays, block, axes, tolerance).run();
+}
+
+} // namespace reljef::cast
