@@ -101,7 +101,11 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
       metres_(metres_of(terrain.placement, terrain.samples)),
       pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
     width_ = block_side * pixel_at(depths_.end);
-    make_polynomial(has_eye(camera));
+    constexpr double share = share_of_map * chord_error;
+    map_.emplace(terrain.placement,
+                 SampleMap::Ground{terrain.local, terrain.samples, width_,
+                                   has_eye(camera) ? local_.origin.first : terrain.local.center()},
+                 SampleMap::Tolerance{share * pixel_.x, share * pixel_.y}, threads);
     const int rows = (size.y + block_side - 1) / block_side;
     const int count = cols_ * rows;
     blocks_.resize(static_cast<std::size_t>(count));
@@ -123,48 +127,9 @@ glm::dvec2 CurvedRays::unseen_samples(double t) const {
     return order_error * pixel_at(t) / (std::numbers::sqrt2 * glm::dvec2(metres_));
 }
 
-void CurvedRays::make_polynomial(bool is_fan) {
-    const Box& local = terrain_.local;
-    const glm::dvec3 eye = is_fan ? local_.origin.first : local.center();
-    auto above = terrain_.placement.sample_from_world(eye);
-    if (!above) {
-        return;
-    }
-    const Box& samples = terrain_.samples;
-    const glm::dvec3 middle = terrain_.placement.world_from_sample(glm::dvec3(
-        glm::clamp(glm::dvec2(*above), glm::dvec2(samples.low), glm::dvec2(samples.high)),
-        samples.center().z));
-    double reach = 0.0;
-    for (const double x : {local.low.x, local.high.x}) {
-        for (const double y : {local.low.y, local.high.y}) {
-            reach = std::max(reach, glm::length(glm::dvec2(x, y) - glm::dvec2(middle)));
-        }
-    }
-    const double heights = terrain_.placement.exaggeration() * samples.size().z + width_;
-    for (int halvings = 0; halvings < 4 && !polynomial_; ++halvings) {
-        const double fall = reach * reach / earth_radius;
-        auto made = terrain::SamplePolynomial::create(terrain_.placement, middle,
-                                                      {reach, reach, heights + fall});
-        const bool fits =
-            made && (is_fan ? made->angle_from(eye) <= share_of_map * chord_error * pixel_.y
-                            : made->error() <= share_of_map * chord_error * pixel_.x);
-        if (fits) {
-            polynomial_ = std::move(made);
-        }
-        reach *= 0.5;
-    }
-}
-
 std::optional<glm::dvec3> CurvedRays::sample_at(glm::dvec2 pixel, double t) const {
     const glm::dvec3 place = local_.origin.at(pixel) + t * local_.direction.at(pixel);
-    if (polynomial_) {
-        const glm::dvec3 inside = polynomial_->local(place);
-        const glm::dvec3 size = glm::abs(inside);
-        if (std::max({size.x, size.y, size.z}) <= 1.0) {
-            return polynomial_->at_local(inside);
-        }
-    }
-    return terrain_.placement.sample_from_world(place);
+    return map_->at(place, share_of_map * chord_error * pixel_at(t));
 }
 
 double CurvedRays::tolerance_at(double t) const {

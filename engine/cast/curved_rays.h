@@ -10,11 +10,11 @@
 #include "engine/cast/beam.h"
 #include "engine/cast/block_kernel.h"
 #include "engine/cast/picture_rays.h"
+#include "engine/cast/sample_map.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
-#include "engine/terrain/field/sample_polynomial.h"
 
 namespace reljef::cast {
 
@@ -62,7 +62,6 @@ private:
     struct Fan;
     class Pieces;
 
-    void make_polynomial(bool is_fan);
     void cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const;
     [[nodiscard]] std::optional<glm::dvec3> sample_at(glm::dvec2 pixel, double t) const;
     [[nodiscard]] std::optional<Fan> fan_at(const PixelBlock& block, double t) const;
@@ -73,7 +72,7 @@ private:
     Terrain terrain_;
     Interval depths_;        // of the surface
     glm::dvec3 metres_{1.0}; // of a column, a row and a metre of height, at most
-    std::optional<terrain::SamplePolynomial> polynomial_;
+    std::optional<SampleMap> map_;
     glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
     double width_ = 0.0;    // of a whole block at the farthest surface, metres
     int cols_;              // of blocks

@@ -20,7 +20,9 @@ SeenTerrain& found_or_added(std::vector<SeenTerrain>& seen, const scene::Terrain
                             const glm::dmat4& world_from_local) {
     const auto found = std::find_if(seen.begin(), seen.end(),
                                     [&](const SeenTerrain& one) { return one.node == node; });
-    return found != seen.end() ? *found : seen.emplace_back(SeenTerrain{node, world_from_local, {}, {}, false});
+    return found != seen.end()
+               ? *found
+               : seen.emplace_back(SeenTerrain{node, world_from_local, {}, {}, false});
 }
 
 void add_tile(SeenTerrain& seen, const scene::TerrainTile& tile) {

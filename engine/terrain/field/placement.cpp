@@ -61,6 +61,17 @@ double Placement::zero_at(glm::dvec2 latitude_longitude) const {
     return std::isnan(above) ? 0.0 : above;
 }
 
+Placement Placement::without_geoid() const {
+    Placement placement = *this;
+    placement.geoid_.reset();
+    placement.zero_range_ = {};
+    return placement;
+}
+
+double Placement::zero_at_sample(glm::dvec2 sample) const {
+    return zero_at(geodetic_->latitude_longitude(placed(sample)));
+}
+
 // Of a lattice over the terrain. Between its places the geoid differs by no more than they do.
 HeightRange Placement::find_zero_range() const {
     if (!geoid_) {

@@ -55,6 +55,12 @@ public:
     [[nodiscard]] HeightRange zero_range() const { return zero_range_; }
     /// South and north of a terrain that covers all longitudes, degrees; otherwise empty.
     [[nodiscard]] std::optional<glm::dvec2> latitudes_all_around() const;
+    [[nodiscard]] bool has_geoid() const { return geoid_.has_value(); }
+    /// The same with heights above the ellipsoid.
+    [[nodiscard]] Placement without_geoid() const;
+    /// The geoid's height above the ellipsoid at a sample, metres; 0 without one. Precondition: on
+    /// the ellipsoid.
+    [[nodiscard]] double zero_at_sample(glm::dvec2 sample) const;
     /// Columns around a terrain that covers all longitudes; otherwise empty.
     [[nodiscard]] std::optional<double> columns_all_around() const;
 

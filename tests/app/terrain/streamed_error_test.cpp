@@ -44,9 +44,6 @@ protected:
         choice_.memory_megabytes = 64;
         choice_.streamed = true;
         choice_.index = session::IndexUse::existing;
-        if (GetParam().context == session::BackendKind::cpu) {
-            choice_.placement = terrain::PlacementKind::plane;
-        }
     }
     [[nodiscard]] session::TerrainScene scene_from(const session::GeodeticView& from) const {
         session::SceneOptions view;
