@@ -16,6 +16,7 @@
 
 #include "engine/cast/packet_paint-inl.h"
 #include "engine/cast/packet_rays-inl.h"
+#include "engine/cast/packet_sun-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -80,6 +80,19 @@ struct TilePaint {
     glm::vec2 longest_texels{0.0F};
 };
 
+/// A tile that may hide the sun from hits on another one, or on itself.
+struct SunTile {
+    TileSamples tile;
+    float highest = 0.0F;   ///< no surface is above, metres
+    float lift = 0.0F;      ///< as BlockRays::lift
+    bool is_of_hits = true; ///< places are relative to the base of their rays
+    /// Sample − base = scale · sample of the hits' tile + offset.
+    glm::ivec2 base{0};
+    glm::vec2 scale{1.0F};
+    glm::vec2 offset{0.0F};
+    glm::vec3 to_sun{0.0F, 0.0F, 1.0F}; ///< samples and metres of height; it rises
+};
+
 /// The sides of a tile: bits of BlockJob::walls.
 inline constexpr unsigned west_wall = 1;
 inline constexpr unsigned east_wall = 2;
@@ -93,6 +106,9 @@ struct BlockJob {
     TileSamples tile;
     BlockRays rays;
     const TilePaint* paint = nullptr; ///< not needed for hits
+    /// What the sun adds to it where none of its tiles hides it; null: `paint` has its light.
+    const TilePaint* sun = nullptr;
+    std::span<const SunTile> sun_tiles = {};
     /// Sides at which other tiles begin. A ray that was above the tile before hits a wall where it
     /// comes in below the surface: neighbours may have other heights at their common border.
     unsigned walls = 0;

@@ -30,6 +30,12 @@ bool are_finite(const PictureRays::Vectors& vectors) {
     return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
 }
 
+// Metres by which a rounded ray may be above heights and still hit.
+double lift_of(terrain::MinMax total) {
+    return height_rounding * (std::max(std::abs(total.low), std::abs(total.high)) +
+                              std::numeric_limits<float>::min());
+}
+
 BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock& block) {
     const PictureRays::Vectors origin = places_at(rays, rays.anchor);
     const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
@@ -46,9 +52,7 @@ BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock
     block_rays.begin = static_cast<float>(rays.range.begin - rays.anchor);
     block_rays.end = static_cast<float>(
         std::min(rays.range.end - rays.anchor, 0.5 * std::numeric_limits<float>::max()));
-    const double lift =
-        height_rounding * (std::max(std::abs(total.low), std::abs(total.high)) +
-                           std::abs(base_height) + std::numeric_limits<float>::min());
+    const double lift = lift_of(total) + height_rounding * std::abs(base_height);
     block_rays.lift = static_cast<float>(lift);
     block_rays.lowest = static_cast<float>(total.low - base_height - lift);
     block_rays.highest = static_cast<float>(total.high - base_height + lift);
@@ -118,6 +122,8 @@ public:
         job.tile = samples_of(*tile.tile);
         job.rays = rays_of(*tile.tile, rays, block_);
         job.paint = &tile.paint;
+        job.sun = tile.sun_tiles.empty() ? nullptr : &tile.sun;
+        job.sun_tiles = tile.sun_tiles;
         job.walls = tile.walls | more_walls;
         if (indices_ != nullptr) {
             indices_->push_back(index);
@@ -183,6 +189,15 @@ private:
 };
 
 } // namespace
+
+SunTile sun_tile(const RayTile& tile, glm::dvec3 to_sun) {
+    SunTile made;
+    made.tile = samples_of(tile);
+    made.highest = static_cast<float>(tile.total().high);
+    made.lift = static_cast<float>(lift_of(tile.total()));
+    made.to_sun = glm::vec3(to_sun);
+    return made;
+}
 
 std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
                                  std::vector<std::size_t>* indices) {

@@ -21,7 +21,9 @@ struct PlacedTile {
     const RayTile* tile = nullptr;
     PictureRays rays; ///< in samples of the tile; on the ellipsoid only their range and anchor
     TilePaint paint = {};
-    unsigned walls = 0; ///< BlockJob::walls
+    TilePaint sun = {};                  ///< BlockJob::sun, if there are `sun_tiles`
+    std::vector<SunTile> sun_tiles = {}; ///< those that may hide the sun from it
+    unsigned walls = 0;                  ///< BlockJob::walls
     /// Sample of the terrain = first + step · sample of the tile.
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
@@ -39,6 +41,9 @@ struct PlacedTiles {
     std::shared_ptr<const CurvedRays> curve;
     TileNodes nodes; ///< on the ellipsoid, of several tiles
 };
+
+/// The tile as one that may hide the sun from its own hits. `to_sun`: in its samples; it rises.
+SunTile sun_tile(const RayTile& tile, glm::dvec3 to_sun);
 
 /// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays
 /// begin where their beams may hit. BlockHits::job counts them; `indices`: their tiles.

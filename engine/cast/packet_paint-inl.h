@@ -9,6 +9,7 @@
 
 #include <limits>
 
+#include "engine/cast/packet_sun-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -254,11 +255,31 @@ HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Float
     return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
 }
 
+// Of the hits.
+HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level) {
+    Color lit = map_color(*job.paint, hits, level);
+    if (job.sun == nullptr) {
+        return lit;
+    }
+    PacketHits sunny = hits;
+    sunny.found = hn::AndNot(hidden_from_sun(job, hits), hits.found);
+    if (!hn::AllFalse(floats, sunny.found)) {
+        const Color sun = map_color(*job.sun, sunny, level);
+        const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
+            channel = hn::Add(channel, hn::IfThenElseZero(sunny.found, part));
+        };
+        add(sun.r, lit.r);
+        add(sun.g, lit.g);
+        add(sun.b, lit.b);
+    }
+    return lit;
+}
+
 // Of the hits, seen through the air (Koschmieder 1924).
 HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
                               const ViewRays& view, const PacketHits& hits) {
     const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
-    const Color lit = map_color(*job.paint, hits, level_of(job, rays, hits, metres));
+    const Color lit = lit_color(job, hits, level_of(job, rays, hits, metres));
     if (paint.extinction <= 0.0F) {
         return lit;
     }

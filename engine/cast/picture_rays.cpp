@@ -116,6 +116,10 @@ PictureRays local_rays(const scene::Camera& camera, glm::ivec2 size,
     return rays;
 }
 
+glm::dvec3 direction_in_samples(const terrain::Placement& placement, glm::dvec3 local) {
+    return samples_from_local(placement) * local;
+}
+
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
                          const glm::dmat4& world_from_local, const terrain::Placement& placement,
                          const Box& bounds) {

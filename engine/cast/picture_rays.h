@@ -43,6 +43,10 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size,
 PictureRays local_rays(const scene::Camera& camera, glm::ivec2 size,
                        const glm::dmat4& world_from_local, const Box& bounds);
 
+/// A direction in samples (col, row, true metres) from one in local coordinates. Precondition: a
+/// plane placement.
+glm::dvec3 direction_in_samples(const terrain::Placement& placement, glm::dvec3 local);
+
 /// Depth along the view axis at which the rays meet the nearest and the farthest place of a box in
 /// their coordinates.
 Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspective);

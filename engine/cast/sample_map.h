@@ -12,7 +12,7 @@
 
 namespace reljef::cast {
 
-/// Placement::sample_from_world on the ellipsoid, from polynomials where they are precise enough.
+/// Placement::sample_from_world on the ellipsoid, by polynomials if these are precise enough.
 /// No polynomial follows a geoid, except over a few kilometres around the eye. Farther away, the
 /// geoid is interpolated between samples, beside a polynomial without it.
 class SampleMap {
@@ -21,7 +21,7 @@ public:
         Box local;          ///< around the surface, metres
         Box samples;        ///< the same in samples and metres of height
         double above = 0.0; ///< metres above and below it where rays are looked up
-        /// Where errors are to be smallest: the eye, or the middle of what parallel rays show.
+        /// Errors are smallest near it: the eye, or the middle of what parallel rays show.
         glm::dvec3 eye{0.0};
     };
     /// Errors that do not count, metres: `near`, plus `a_metre` for each metre from the eye.

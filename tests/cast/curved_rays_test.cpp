@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/cast/frame/driver.h"
+#include "tests/cast/streamed_samples.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/earth_stage.h"
 #include "tests/render/made_stream.h"
-#include "tests/terrain/made_tiles.h"
 
 namespace reljef::cast {
 namespace {
@@ -25,26 +25,7 @@ struct EarthStage : test::EarthStage {
 
     // From now on its samples are tiles of a stream.
     void stream() {
-        auto& node = *terrain->get<scene::TerrainNode>();
-        const terrain::TileTree tree(side, side);
-        const auto read = [surface = node.surface, tree](terrain::TreeTile tile,
-                                                         const std::stop_token& /*stop*/) {
-            scene::TileContent content;
-            content.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
-                const glm::ivec2 sample = tree.sample(tile, vertex);
-                return surface->heightfield().heights(sample.x, sample.y);
-            });
-            content.is_proven = true;
-            return content;
-        };
-        scene::TileStreamOptions options;
-        options.find_proof = [surface = node.surface](terrain::TreeTile tile) {
-            const terrain::MinMax total = surface->pyramid().total();
-            return std::optional(
-                terrain::TileProof{total.low, total.high, tile.level == 0 ? 0.0F : 1e3F});
-        };
-        node.stream = std::make_shared<scene::TileStream>(scene::TileBuilder(node.surface, tree, 1),
-                                                          read, options);
+        stream_samples(*terrain->get<scene::TerrainNode>());
         scene::Polygons bounded;
         bounded.error = 1e-6; // all samples
         set(scene::Technique{bounded});

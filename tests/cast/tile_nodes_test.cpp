@@ -107,6 +107,7 @@ void check_order(const TileNodes& nodes, const PictureRays& rays, test::Chance& 
                  Counts& counts) {
     const TilesAlong along = tiles_along(nodes, rays, block);
     std::vector<PictureRays> parts{rays};
+    const int turned = counts.turned;
     constexpr double tolerance = 5e-3; // samples
     if (along.turns.x || along.turns.y) {
         ++counts.turned;
@@ -116,7 +117,8 @@ void check_order(const TileNodes& nodes, const PictureRays& rays, test::Chance& 
     for (const PictureRays& part : parts) {
         const TilesAlong found = tiles_along(nodes, part, block);
         counts.turning += found.turns.x || found.turns.y ? 1 : 0;
-        for (int i = 0; i < 20; ++i) {
+        const int count = counts.turned > turned ? 400 : 20; // few rays of a block turn
+        for (int i = 0; i < count; ++i) {
             const glm::dvec2 pixel =
                 glm::dvec2(block.first) +
                 glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));

@@ -12,12 +12,14 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
-#include "engine/cast/frame/seen_terrain.h"
+#include "engine/cast/frame/sun_tiles.h"
 #include "engine/core/stopwatch.h"
+#include "engine/scene/tile_stream.h"
 
 namespace reljef::cast {
 
@@ -38,8 +40,9 @@ std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
     return largest ? std::optional(*largest + of_rays) : largest;
 }
 
-// The finest tiles of a relief over a stream, as tiles.
-view::DrawList with_tiles_of_reliefs(view::DrawList list) {
+// The finest tiles of reliefs over streams as tiles, and the others, above them.
+StreamedList with_tiles_of_reliefs(view::DrawList list) {
+    StreamedList made;
     for (view::ReliefDraw& relief : list.reliefs) {
         std::set<terrain::TreeTile> above;
         for (const auto& tile : relief.tiles) {
@@ -51,28 +54,26 @@ view::DrawList with_tiles_of_reliefs(view::DrawList list) {
             }
         }
         for (const auto& tile : relief.tiles) {
-            if (!above.contains(tile->id)) {
-                view::TileDraw& draw = list.tiles.emplace_back();
-                draw.terrain = relief.terrain;
-                draw.tile = tile;
-                draw.transform = static_cast<int>(list.transforms.size());
+            if (above.contains(tile->id)) {
+                made.above.push_back(tile);
+                continue;
             }
+            view::TileDraw& draw = list.tiles.emplace_back();
+            draw.terrain = relief.terrain;
+            draw.tile = tile;
+            draw.transform = static_cast<int>(list.transforms.size());
         }
         list.transforms.push_back(relief.world_from_local);
     }
     std::erase_if(list.reliefs,
                   [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
-    return list;
+    made.list = std::move(list);
+    return made;
 }
 
 // Tiles of a stream are drawn in up to four pieces.
 int tile_count(const view::DrawList& list, const PlacedTiles& placed) {
     return static_cast<int>(list.tiles.empty() ? placed.tiles.size() : list.tiles.size());
-}
-
-bool has_streamed_reliefs(const view::DrawList& list) {
-    return std::any_of(list.reliefs.begin(), list.reliefs.end(),
-                       [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
 }
 
 bool is_perspective(const view::DrawList& list) {
@@ -172,36 +173,52 @@ const RayTile& Driver::tile_of(const scene::TerrainNode& terrain, view::FrameSta
     return *surface.tile;
 }
 
-const LitLevels& Driver::levels_of(const scene::TerrainNode& terrain,
-                                   const std::optional<scene::TerrainLight>& light,
-                                   view::FrameStats& stats) {
-    Surface& surface = surface_of(terrain.surface);
-    if (surface.light.levels == nullptr || surface.light.light != light) {
-        const Grid<float>& heights = terrain.surface->heightfield().heights;
-        surface.light = {light, std::make_shared<const LitLevels>(
-                                    view::lit_map(*terrain.surface, light, max_texture_side()),
-                                    glm::ivec2(heights.cols(), heights.rows()))};
-        ++stats.uploads;
-        stats.upload_bytes += surface.light.levels->bytes();
-    } else {
+namespace {
+
+std::shared_ptr<const LitLevels> levels_over(const scene::TerrainSurface& surface,
+                                             const Image& lit) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    return std::make_shared<const LitLevels>(lit, glm::ivec2(heights.cols(), heights.rows()));
+}
+
+} // namespace
+
+const Driver::Light& Driver::light_of(const scene::TerrainNode& terrain,
+                                      const std::optional<scene::TerrainLight>& light,
+                                      view::FrameStats& stats) {
+    Light& made = surface_of(terrain.surface).light;
+    const bool in_parts = light && terrain.material.technique.options.shadow;
+    if (made.levels != nullptr && made.light == light && in_parts == (made.sun != nullptr)) {
         ++stats.skipped.uploads_unchanged;
+        return made;
     }
-    return *surface.light.levels;
+    made = {light, nullptr, nullptr};
+    const scene::TerrainSurface& surface = *terrain.surface;
+    if (in_parts) {
+        const view::LightParts parts = view::light_parts(surface, *light, max_texture_side());
+        made.levels = levels_over(surface, parts.sky);
+        made.sun = levels_over(surface, parts.sun);
+        stats.upload_bytes += made.sun->bytes();
+    } else {
+        made.levels = levels_over(surface, view::lit_map(surface, light, max_texture_side()));
+    }
+    ++stats.uploads;
+    stats.upload_bytes += made.levels->bytes();
+    return made;
 }
 
 Result<void> Driver::add_light(const view::PreparedLight& prepared) {
     const view::LightRequest& request = prepared.request;
-    if (request.in_parts) {
-        return {}; // not drawn by rays
-    }
     if (request.stream != nullptr) {
-        streamed_.add_light(prepared);
+        if (!request.in_parts) {
+            streamed_.add_light(prepared);
+        }
         return {};
     }
-    const Grid<float>& heights = request.surface->heightfield().heights;
-    surface_of(request.surface).light = {
-        request.light, std::make_shared<const LitLevels>(
-                           prepared.lit, glm::ivec2(heights.cols(), heights.rows()))};
+    const scene::TerrainSurface& surface = *request.surface;
+    surface_of(request.surface).light = {request.light, levels_over(surface, prepared.lit),
+                                         request.in_parts ? levels_over(surface, prepared.sun)
+                                                          : nullptr};
     return {};
 }
 
@@ -234,10 +251,29 @@ RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, unsigned
     return {straight, std::move(curve)};
 }
 
+// Where hits have the light of the sun: its map has no shadows. Of a terrain on a plane.
+void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::span<const SunSource> beside,
+             PlacedTiles& placed) {
+    const auto light = view::light_on(list, seen.world_from_local);
+    if (!light) {
+        return;
+    }
+    const glm::dvec3 local = glm::inverse(light->world_from_local) * scene::to_light(light->sun);
+    const scene::TerrainNode& node = *seen.node;
+    glm::dvec3 to_sun = direction_in_samples(node.surface->placement(), local);
+    if (seen.has_tiles) {
+        to_sun *= glm::dvec3(glm::dvec2(node.stream->maker().reduction()), 1.0);
+    }
+    if (to_sun.z > 0.0) { // else there is no such light
+        add_sun_tiles(placed, beside, to_sun);
+    }
+}
+
 } // namespace
 
 // Precondition: check_support().
-PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats) {
+PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats) {
+    const view::DrawList& list = frame.list;
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     if (terrains.empty()) {
         return {};
@@ -251,9 +287,17 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
                                                 (curve != nullptr ? curve->error() : 0.0));
     }
     if (seen.has_tiles) {
-        PlacedTiles placed =
-            streamed_.place(list, rays, {options_.threads, paints, curve != nullptr}, stats);
+        const bool in_parts = node.material.technique.options.shadow.has_value();
+        PlacedTiles placed = streamed_.place(
+            list, rays, {options_.threads, paints, curve != nullptr, in_parts}, stats);
         placed.curve = curve;
+        if (paints && in_parts) {
+            std::vector<TileContents::SharedTile> drawn;
+            for (const view::TileDraw& draw : list.tiles) {
+                drawn.push_back(draw.tile);
+            }
+            add_sun(list, seen, streamed_.beside(node.stream->maker(), drawn, frame.above), placed);
+        }
         return placed;
     }
     PlacedTiles placed;
@@ -264,11 +308,25 @@ PlacedTiles Driver::placed_tiles(const view::DrawList& list, bool paints, view::
     tile.rays = rays;
     tile.seen = {{0, 0}, list.size};
     if (paints) {
-        tile.paint = levels_of(node, view::light_on(list, seen.world_from_local), stats).paint();
-        tile.paint.longest_texels =
-            longest_texels(list, tile.paint, node.surface->placement().spacing());
+        paint_surface(list, seen, tile, stats);
+        if (node.material.technique.options.shadow) {
+            add_sun(list, seen, {}, placed);
+        }
     }
     return placed;
+}
+
+// A terrain in memory.
+void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
+                           view::FrameStats& stats) {
+    const auto on = view::light_on(list, seen.world_from_local);
+    const terrain::Placement& placement = seen.node->surface->placement();
+    const Light& light = light_of(*seen.node, on, stats);
+    tile.paint = light.levels->paint();
+    tile.paint.longest_texels = longest_texels(list, tile.paint, placement.spacing());
+    if (light.sun != nullptr) {
+        tile.sun = light.sun->paint();
+    }
 }
 
 namespace {
@@ -374,45 +432,38 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
 }
 
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
-    return has_streamed_reliefs(frame.list) ? draw(with_tiles_of_reliefs(frame.list))
-                                            : draw(frame.list);
-}
-
-Result<view::FrameStats> Driver::draw(const view::DrawList& list) {
     const Stopwatch watch;
-    if (auto possible = check_support(list); !possible) {
+    if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
     }
-    view::FrameStats stats = list.stats;
-    const PlacedTiles placed = placed_tiles(list, true, stats);
-    paint(list, placed);
+    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    view::FrameStats stats = frame.list.stats;
+    const PlacedTiles placed = placed_tiles(streamed, true, stats);
+    paint(streamed.list, placed);
     stats.rays = placed.tiles.empty() ? 0 : first_.picture.size();
-    stats.tiles = tile_count(list, placed);
+    stats.tiles = tile_count(streamed.list, placed);
     stats.cpu_ms = watch.milliseconds();
     return stats;
 }
 
 Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
-    return has_streamed_reliefs(frame.list) ? draw_hits(with_tiles_of_reliefs(frame.list))
-                                            : draw_hits(frame.list);
-}
-
-Result<view::DrawnHits> Driver::draw_hits(const view::DrawList& list) {
-    if (auto possible = check_support(list); !possible) {
+    if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
     }
-    view::DrawnHits drawn{HitBuffer(list.size.x, list.size.y), list.stats};
-    const PlacedTiles placed = placed_tiles(list, false, drawn.stats);
+    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    const glm::ivec2 size = frame.list.size;
+    view::DrawnHits drawn{HitBuffer(size.x, size.y), frame.list.stats};
+    const PlacedTiles placed = placed_tiles(streamed, false, drawn.stats);
     CastOptions options;
     options.parallel.threads = options_.threads;
     options.target = options_.target;
-    auto hits = cast_hits(placed, list.size, options);
+    auto hits = cast_hits(placed, size, options);
     if (!hits) {
         return hits.error();
     }
     drawn.hits = std::move(*hits);
     drawn.stats.rays = placed.tiles.empty() ? 0 : drawn.hits.size();
-    drawn.stats.tiles = tile_count(list, placed);
+    drawn.stats.tiles = tile_count(streamed.list, placed);
     return drawn;
 }
 

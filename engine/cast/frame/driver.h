@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/frame/ray_support.h"
+#include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/tile_contents.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/picture_rays.h"
@@ -38,6 +39,12 @@ struct DriverOptions {
 /// How far rounding of floats moves a hit at most, pixels: what exact rays keep of an error bound
 /// (docs/cast.md).
 double rounding_error(const scene::Camera& camera, glm::ivec2 size);
+
+/// What a frame draws; of reliefs over streams, tiles.
+struct StreamedList {
+    view::DrawList list;
+    std::vector<TileContents::SharedTile> above; ///< those above the drawn ones in their tree
+};
 
 /// Draws selected frames by rays on the CPU (cast_hits.h); light, air and sky are those of
 /// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
@@ -71,6 +78,7 @@ private:
     struct Light {
         std::optional<scene::TerrainLight> light;
         std::shared_ptr<const LitLevels> levels;
+        std::shared_ptr<const LitLevels> sun; // without shadows; null: the levels have its light
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
@@ -79,14 +87,13 @@ private:
     };
 
     explicit Driver(const DriverOptions& options);
-    Result<view::FrameStats> draw(const view::DrawList& list);
-    Result<view::DrawnHits> draw_hits(const view::DrawList& list);
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
     const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
-    const LitLevels& levels_of(const scene::TerrainNode& terrain,
-                               const std::optional<scene::TerrainLight>& light,
-                               view::FrameStats& stats);
-    PlacedTiles placed_tiles(const view::DrawList& list, bool paints, view::FrameStats& stats);
+    const Light& light_of(const scene::TerrainNode& terrain,
+                          const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
+    void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
+                       view::FrameStats& stats);
+    PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
     void paint(const view::DrawList& list, const PlacedTiles& placed);
 
     DriverOptions options_;

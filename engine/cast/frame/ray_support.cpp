@@ -13,7 +13,11 @@
 namespace reljef::cast {
 
 bool draws_technique(const scene::Technique& technique) {
-    return technique.options == scene::TechniqueOptions{} &&
+    scene::TechniqueOptions drawn;
+    if (technique.options.shadow) {
+        drawn.shadow = scene::Shadow{.depth = 0.0};
+    }
+    return technique.options == drawn &&
            (technique.id() == scene::TechniqueId::exact || scene::error_bound(technique) > 0.0);
 }
 

@@ -8,7 +8,7 @@
 namespace reljef::cast {
 
 /// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
-/// without options.
+/// without options, except hard shadows.
 bool draws_technique(const scene::Technique& technique);
 
 /// What rays on the CPU cannot draw of a terrain with a technique; empty if they draw it.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -94,19 +95,27 @@ const scene::TerrainIrradiance& TileContents::irradiance_of(const scene::Terrain
     return *light_.irradiance;
 }
 
+TileContents::Content&
+TileContents::content_of(const std::shared_ptr<const scene::TerrainTile>& tile) {
+    Content& content = contents_[tile.get()];
+    if (content.owner.lock() != tile) {
+        content = {};
+        content.owner = tile;
+    }
+    content.drawn = frame_;
+    return content;
+}
+
 std::vector<TileContents::Missing>
 TileContents::find_missing(const view::DrawList& list,
-                           const std::optional<scene::TerrainLight>& light, bool paints,
+                           const std::optional<scene::TerrainLight>& light, const Options& options,
                            view::FrameStats& stats) {
     std::vector<Missing> missing;
     for (const view::TileDraw& draw : list.tiles) {
-        Content& content = contents_[draw.tile.get()];
-        if (content.owner.lock() != draw.tile) {
-            content = {};
-            content.owner = draw.tile;
-        }
-        content.drawn = frame_;
-        const bool has_paint = !paints || (content.levels && content.light == light);
+        Content& content = content_of(draw.tile);
+        const bool has_paint =
+            !options.paints || (content.levels && content.light == light &&
+                                content.sun.has_value() == (options.in_parts && light));
         if (content.pieces.front() && has_paint) {
             ++stats.skipped.uploads_unchanged;
         } else {
@@ -114,6 +123,23 @@ TileContents::find_missing(const view::DrawList& list,
         }
     }
     return missing;
+}
+
+void TileContents::make_levels(const scene::TileBuilder& builder,
+                               const scene::TerrainIrradiance* irradiance, bool in_parts,
+                               const Missing& missing) {
+    const scene::TerrainTile& tile = *missing.tile;
+    const glm::ivec2 samples = tile.cells + 1;
+    missing.content->sun.reset();
+    if (irradiance == nullptr) {
+        missing.content->levels.emplace(tile.albedo, samples);
+    } else if (in_parts) {
+        const scene::LitTileParts parts = scene::lit_tile_parts(builder, tile, *irradiance);
+        missing.content->levels.emplace(parts.sky, samples);
+        missing.content->sun.emplace(parts.sun, samples);
+    } else {
+        missing.content->levels.emplace(scene::lit_tile(builder, tile, *irradiance, 1), samples);
+    }
 }
 
 void TileContents::make_pieces(const scene::TileBuilder& builder, const Missing& missing) {
@@ -127,6 +153,7 @@ void TileContents::make_pieces(const scene::TileBuilder& builder, const Missing&
 
 std::size_t TileContents::bytes_of(const Content& content) {
     std::size_t bytes = content.levels ? content.levels->bytes() : 0;
+    bytes += content.sun ? content.sun->bytes() : 0;
     for (const std::optional<RayTile>& piece : content.pieces) {
         bytes += piece ? piece->bytes() : 0;
     }
@@ -137,7 +164,7 @@ void TileContents::make(const view::DrawList& list, const Options& options,
                         view::FrameStats& stats) {
     const scene::TerrainNode& terrain = *list.tiles.front().terrain;
     const auto light = view::light_on(list, list.world_from_local(list.tiles.front()));
-    const std::vector<Missing> missing = find_missing(list, light, options.paints, stats);
+    const std::vector<Missing> missing = find_missing(list, light, options, stats);
     if (missing.empty()) {
         return;
     }
@@ -150,10 +177,7 @@ void TileContents::make(const view::DrawList& list, const Options& options,
             make_pieces(builder, one);
         }
         if (options.paints) {
-            one.content->levels.emplace(irradiance != nullptr
-                                            ? scene::lit_tile(builder, *one.tile, *irradiance, 1)
-                                            : one.tile->albedo,
-                                        one.tile->cells + 1);
+            make_levels(builder, irradiance, options.in_parts, one);
             one.content->light = light;
         }
     };
@@ -291,6 +315,9 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             if (options.paints) {
                 tile.paint = content.levels->paint(glm::vec2(piece.vertex));
                 tile.paint.longest_texels = placer.longest(tile.paint, piece);
+                if (content.sun) {
+                    tile.sun = content.sun->paint(glm::vec2(piece.vertex));
+                }
             }
         }
         return pieces;
@@ -310,6 +337,55 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             return add_pieces(pieces, placer, placed.tiles, first, nodes);
         });
     return placed;
+}
+
+namespace {
+
+// The cells of a tile that a child covers.
+struct Quarter {
+    glm::ivec2 first{0};
+    glm::ivec2 cells{0};
+};
+
+// Without a shorter last cell.
+Quarter quarter_of(const terrain::TileLattice& lattice, terrain::TreeTile child) {
+    constexpr int half = terrain::tree_tile_cells / 2;
+    const glm::ivec2 first = half * glm::ivec2(child.col % 2, child.row % 2);
+    const glm::ivec2 end = glm::min(first + half, glm::min(lattice.cells, lattice.shorter_from()));
+    return {first, end - first};
+}
+
+} // namespace
+
+std::vector<SunSource> TileContents::beside(const scene::TileBuilder& builder,
+                                            std::span<const SharedTile> drawn,
+                                            std::span<const SharedTile> above) {
+    std::set<terrain::TreeTile> loaded;
+    for (const auto& tiles : {drawn, above}) {
+        for (const SharedTile& tile : tiles) {
+            loaded.insert(tile->id);
+        }
+    }
+    std::vector<SunSource> sources;
+    for (const SharedTile& tile : above) {
+        const terrain::TileLattice lattice = builder.lattice(tile->id);
+        for (const terrain::TreeTile child : builder.tree().children(tile->id)) {
+            const Quarter quarter = quarter_of(lattice, child);
+            if (loaded.contains(child) || quarter.cells.x < 1 || quarter.cells.y < 1) {
+                continue;
+            }
+            auto& samples =
+                content_of(tile)
+                    .quarters[static_cast<std::size_t>(child.col % 2 + child.row % 2 * 2)];
+            if (!samples) {
+                samples.emplace(tile->heightfield.heights.view().window(
+                    quarter.first.x, quarter.first.y, quarter.cells.x + 1, quarter.cells.y + 1));
+            }
+            sources.push_back({&*samples, lattice.first + lattice.step * glm::dvec2(quarter.first),
+                               glm::dvec2(lattice.step)});
+        }
+    }
+    return sources;
 }
 
 } // namespace reljef::cast

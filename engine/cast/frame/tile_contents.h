@@ -6,9 +6,11 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/sun_tiles.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/view/draw_list.h"
@@ -24,12 +26,20 @@ public:
         unsigned threads = 0;
         bool paints = true;     ///< false: for hits only
         bool is_curved = false; ///< on the ellipsoid: PlacedTiles::nodes order the tiles
+        bool in_parts = false;  ///< the light of the sky, and that of the sun without shadows
     };
 
     /// The tiles of a list, placed; `rays`: in samples of the overview, on the ellipsoid their
     /// range and anchor. Precondition: all tiles are of one stream.
     PlacedTiles place(const view::DrawList& list, const PictureRays& rays, const Options& options,
                       view::FrameStats& stats);
+
+    using SharedTile = std::shared_ptr<const scene::TerrainTile>;
+    /// The parts of `above` without drawn tiles, beside the picture. `above`: the tiles above the
+    /// drawn ones in the tree. Valid until the next frame.
+    std::vector<SunSource> beside(const scene::TileBuilder& builder,
+                                  std::span<const SharedTile> drawn,
+                                  std::span<const SharedTile> above);
 
     /// Takes the light of a stream that was computed before.
     void add_light(const view::PreparedLight& prepared);
@@ -39,8 +49,10 @@ private:
         std::weak_ptr<const scene::TerrainTile> owner;
         std::array<std::optional<RayTile>, 4> pieces; // by the sides that their vertex is at
         std::optional<LitLevels> levels;
-        std::optional<scene::TerrainLight> light; // of the levels
-        std::uint64_t drawn = 0;                  // the last frame
+        std::optional<LitLevels> sun;                   // if these are only the sky's
+        std::array<std::optional<RayTile>, 4> quarters; // TileContents::beside()
+        std::optional<scene::TerrainLight> light;       // of the levels
+        std::uint64_t drawn = 0;                        // the last frame
     };
     struct StreamLight {
         std::weak_ptr<const scene::TileStream> owner;
@@ -56,8 +68,12 @@ private:
 
     void forget_unused();
     std::vector<Missing> find_missing(const view::DrawList& list,
-                                      const std::optional<scene::TerrainLight>& light, bool paints,
-                                      view::FrameStats& stats);
+                                      const std::optional<scene::TerrainLight>& light,
+                                      const Options& options, view::FrameStats& stats);
+    Content& content_of(const std::shared_ptr<const scene::TerrainTile>& tile);
+    static void make_levels(const scene::TileBuilder& builder,
+                            const scene::TerrainIrradiance* irradiance, bool in_parts,
+                            const Missing& missing);
     void make(const view::DrawList& list, const Options& options, view::FrameStats& stats);
     static void make_pieces(const scene::TileBuilder& builder, const Missing& missing);
     static std::size_t bytes_of(const Content& content);
