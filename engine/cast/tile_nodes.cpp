@@ -157,7 +157,7 @@ public:
         : rays_(rays), block_(block), axes_(axes), tolerance_(tolerance) {}
 
     std::vector<PictureRays> run() {
-        constexpr int max_halvings = 6;
+        constexpr int max_halvings = 8;
         add(rays_.range, max_halvings);
         return std::move(parts_);
     }

@@ -39,7 +39,7 @@ TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const Pi
 
 /// Rays of a block that turn along these axes, in parts in which none does: along an axis, the rays
 /// of a part pass one point, so each line is crossed in one direction. This moves no ray by more
-/// than `tolerance(t)` samples, unless a part would have less than a 64th of the range.
+/// than `tolerance(t)` samples, unless a part would have less than a 256th of the range.
 std::vector<PictureRays> without_turns(const PictureRays& rays, const PixelBlock& block,
                                        glm::bvec2 axes,
                                        const std::function<glm::dvec2(double t)>& tolerance);
