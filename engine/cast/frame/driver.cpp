@@ -251,6 +251,14 @@ RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, unsigned
     return {straight, std::move(curve)};
 }
 
+std::vector<TileContents::SharedTile> tiles_of(const view::DrawList& list) {
+    std::vector<TileContents::SharedTile> tiles;
+    for (const view::TileDraw& draw : list.tiles) {
+        tiles.push_back(draw.tile);
+    }
+    return tiles;
+}
+
 // Where hits have the light of the sun: its map has no shadows. Of a terrain on a plane.
 void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::span<const SunSource> beside,
              PlacedTiles& placed) {
@@ -292,11 +300,8 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
             list, rays, {options_.threads, paints, curve != nullptr, in_parts}, stats);
         placed.curve = curve;
         if (paints && in_parts) {
-            std::vector<TileContents::SharedTile> drawn;
-            for (const view::TileDraw& draw : list.tiles) {
-                drawn.push_back(draw.tile);
-            }
-            add_sun(list, seen, streamed_.beside(node.stream->maker(), drawn, frame.above), placed);
+            add_sun(list, seen, streamed_.beside(node.stream->maker(), tiles_of(list), frame.above),
+                    placed);
         }
         return placed;
     }

@@ -1,7 +1,9 @@
 #include "engine/cast/frame/sun_tiles.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -51,6 +53,22 @@ SunTile tile_between(const SunSource& from, const SunSource& to, glm::dvec3 to_s
     return made;
 }
 
+// The boxes that places of one may meet on their way to the sun: itself, then the nearest first.
+std::vector<std::size_t> met_from(std::size_t from, const std::vector<Box>& boxes,
+                                  glm::dvec3 to_sun) {
+    std::vector<std::pair<double, std::size_t>> met;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        if (const auto way = way_between(boxes[from], boxes[i], to_sun)) {
+            met.emplace_back(i == from ? -1.0 : *way, i);
+        }
+    }
+    std::sort(met.begin(), met.end());
+    std::vector<std::size_t> indices;
+    std::transform(met.begin(), met.end(), std::back_inserter(indices),
+                   [](const auto& one) { return one.second; });
+    return indices;
+}
+
 } // namespace
 
 void add_sun_tiles(PlacedTiles& placed, std::span<const SunSource> beside, glm::dvec3 to_sun) {
@@ -61,23 +79,9 @@ void add_sun_tiles(PlacedTiles& placed, std::span<const SunSource> beside, glm::
     sources.insert(sources.end(), beside.begin(), beside.end());
     std::vector<Box> boxes(sources.size());
     std::transform(sources.begin(), sources.end(), boxes.begin(), box_of);
-    struct Met {
-        double way = 0.0;
-        std::size_t source = 0;
-    };
     for (std::size_t i = 0; i < placed.tiles.size(); ++i) {
-        std::vector<Met> met;
-        for (std::size_t k = 0; k < sources.size(); ++k) {
-            if (const auto way = way_between(boxes[i], boxes[k], to_sun)) {
-                met.push_back({k == i ? -1.0 : *way, k});
-            }
-        }
-        std::sort(met.begin(), met.end(), [](const Met& a, const Met& b) {
-            return a.way != b.way ? a.way < b.way : a.source < b.source;
-        });
-        for (const Met& one : met) {
-            placed.tiles[i].sun_tiles.push_back(
-                tile_between(sources[i], sources[one.source], to_sun));
+        for (const std::size_t source : met_from(i, boxes, to_sun)) {
+            placed.tiles[i].sun_tiles.push_back(tile_between(sources[i], sources[source], to_sun));
         }
     }
 }
