@@ -54,12 +54,13 @@ HWY_INLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits) {
         target_sun_tile(job, tile, target);
         const Rays rays = sun_rays(job, tile, target, hits);
         const Entry entry = entry_of(rays);
-        Walk walk = walk_from(rays, target.tile, hn::Max(entry.t(), rays.begin));
+        Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
         walk.active = hn::And(walk.active, open);
         walk.entry = hn::Max(entry.t(), rays.begin);
         walk.walled = hn::Gt(entry.t(), rays.begin);
         walk.below = no_lanes();
-        hidden = hn::Or(hidden, find_hits<true>(rays, target, walk));
+        HitPieces pieces{};
+        hidden = hn::Or(hidden, find_hits<true>(rays, target, walk, pieces));
     }
     return hidden;
 }

@@ -160,16 +160,22 @@ void add_tiles(const Grid<TileProof>& below, float rounding, ChunkLevel& level) 
     }
 }
 
-void widen(Residuals& residuals, float rounding) {
+// Outwards. `largest`: height; none is farther than twice that from a surface between heights.
+void widen(Residuals& residuals, float rounding, float largest) {
+    const float limit = 2.0F * largest;
     for (std::size_t i = 0; i < residuals.low.size(); ++i) {
-        residuals.low.samples()[i] -= rounding; // ∞ stays ∞
-        residuals.high.samples()[i] += rounding;
+        float& low = residuals.low.samples()[i];
+        float& high = residuals.high.samples()[i];
+        if (low <= high) { // else there are no samples
+            low = std::max(std::nextafter(low - rounding, -infinite), -limit);
+            high = std::min(std::nextafter(high + rounding, infinite), limit);
+        }
     }
 }
 
 // Of errors of a level, in units of the largest height, 2^-24 each for: shares along both axes (4
 // and 4: two products, their sum, and the share itself), the difference of heights (2), and its sum
-// with a residual (4).
+// with a residual (4: widen() bounds it by twice the largest height).
 constexpr float rounding_of_errors = 14.0F / 16777216.0F;
 
 // Of heights of the next level, 2^-24 of the largest for each of nine sums.
@@ -256,7 +262,7 @@ ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& inpu
         add_tiles(*below, rounding, made);
         below = &made.tiles;
     }
-    widen(proof.levels.back().residuals, rounding);
+    widen(proof.levels.back().residuals, rounding, largest);
     proof.base = input.tiles != nullptr ? Grid<TileProof>() : std::move(ranges.tiles());
     return proof;
 }
