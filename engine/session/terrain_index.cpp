@@ -155,6 +155,11 @@ make_proofs(const TerrainSource& source, unsigned threads, Log& log, const std::
     }
     auto found = io::ErrorIndex::open(*index);
     if (!found || !*found || !(*found)->is_complete()) {
+        if (found && *found && (*found)->is_damaged()) {
+            log.note(fmt::format("{}: damaged parts found in the index, none were expected; it is "
+                                 "made anew",
+                                 index->file.string()));
+        }
         if (auto made = complete_index(source, *index, threads, log, stop); !made) {
             return made.error();
         }

@@ -77,7 +77,7 @@ HeightRange range_of(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec
 // All finer levels together move the ground by this many errors of a level.
 constexpr double all_finer = 2.0;
 
-// Four times as coarse as for a whole terrain: selection runs often, and hardly more is drawn.
+// Coarser than for a whole terrain: selection runs often, and hardly more is drawn.
 constexpr int sectors_of_tiles = 128;
 constexpr double stretch_growth_of_tiles = 1.0 + 1.0 / 8.0;
 
@@ -214,7 +214,10 @@ void NearerGround::make_horizon() {
          .last = glm::length(samples * overview.spacing),
          .sectors = sectors_of_tiles,
          .growth = stretch_growth_of_tiles,
-         .heights = {exaggeration * range.low, exaggeration * range.high}},
+         // The overview has averages: peaks are higher.
+         .heights = {exaggeration * (2.0 * range.low - range.high),
+                     exaggeration * (2.0 * range.high - range.low)},
+         .last_sample = samples - 1.0},
         *view_);
 }
 

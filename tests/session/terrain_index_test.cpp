@@ -190,6 +190,25 @@ TEST_F(TerrainIndex, OfAnotherStateIsNotUsedAndNoted) {
     EXPECT_THAT(log_.notes, testing::Not(testing::Contains(HasSubstr("present state of"))));
 }
 
+TEST_F(TerrainIndex, WithDamagedProofsIsReportedAndMadeAnew) {
+    ASSERT_TRUE(stream_of(IndexUse::made, bounded())->options().find_proof);
+    constexpr std::streamoff header = 48;
+    {
+        std::fstream index(indexes().front(), std::ios::in | std::ios::out | std::ios::binary);
+        index.seekp(header);
+        index.write(std::string(100, '\0').data(), 100);
+    }
+    log_.notes.clear();
+    log_.tasks.clear();
+    const auto stream = stream_of(IndexUse::made, bounded());
+    EXPECT_THAT(log_.notes, testing::Contains(HasSubstr("damaged parts")).Times(1));
+    EXPECT_THAT(log_.tasks, testing::Contains("indexing waves.tif"));
+    EXPECT_TRUE(stream->options().find_proof({0, 0, 0}));
+    log_.notes.clear();
+    ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
+    EXPECT_THAT(log_.notes, testing::Not(testing::Contains(HasSubstr("damaged parts"))));
+}
+
 TEST_F(TerrainIndex, OfNonsenseIsReportedOnceAndTheTilesAreRight) {
     ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
     const io::IndexSource source = index_source_of(opened());

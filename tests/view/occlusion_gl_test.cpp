@@ -39,6 +39,30 @@ Camera low_view(test::Chance& chance, const scene::TerrainSurface& surface) {
     return camera;
 }
 
+// The same ground on the Earth, with cells of 6 and of 200 m.
+terrain::Heightfield ridged_on_earth(unsigned seed, double degrees) {
+    const double steeper = degrees / 6e-5;
+    Grid<float> heights = ridged(seed).heights;
+    for (float& height : heights.samples()) {
+        height *= static_cast<float>(steeper);
+    }
+    return test::geographic_heightfield(std::move(heights), 46.0, 7.0, degrees);
+}
+
+Camera low_view_on_earth(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const auto& heights = surface.heightfield().heights;
+    const auto anywhere = [&](double above) {
+        const glm::dvec2 sample(chance.between(20.0, heights.cols() - 21.0),
+                                chance.between(20.0, heights.rows() - 21.0));
+        const double height = terrain::bilinear_height(heights.view(), sample);
+        return surface.placement().world_from_sample({sample, height + above});
+    };
+    const double cells = surface.heightfield().spacing.y; // metres
+    Camera camera = camera_at(anywhere(cells * chance.between(0.1, 7.0)), anywhere(0.0));
+    camera.near = 0.01;
+    return camera;
+}
+
 // From 200 to 20,000 km above a globe, towards it.
 Camera view_of_globe(test::Chance& chance, const scene::TerrainSurface& surface) {
     const auto& heights = surface.heightfield().heights;
@@ -97,6 +121,13 @@ TEST_F(Occlusion, ThePictureIsTheSameToTheBitWhereTilesAreLeftOut) {
     EXPECT_GT(compare("polygons:error=1", 20, 1), 10);
     EXPECT_GT(compare("polygons:error=4", 10, 2), 3);
     EXPECT_GT(compare("polygons", 6, 3), 3);
+}
+
+TEST_F(Occlusion, ThePictureIsTheSameWhereNearerGroundOfTheEarthHidesTiles) {
+    EXPECT_GT(compare("polygons:error=1", 20, 10, ridged_on_earth(10, 6e-5), low_view_on_earth),
+              10);
+    EXPECT_GT(compare("polygons:error=1", 10, 11, ridged_on_earth(11, 2e-3), low_view_on_earth), 3);
+    EXPECT_GT(compare("polygons", 6, 12, ridged_on_earth(12, 6e-5), low_view_on_earth), 3);
 }
 
 TEST_F(Occlusion, ThePictureOfAGlobeIsTheSameWithoutItsFarSide) {

@@ -214,7 +214,12 @@ Result<std::optional<ErrorIndex>> ErrorIndex::open(const IndexSource& source) {
     }
     std::error_code ignored;
     const std::uintmax_t bytes = std::filesystem::file_size(source.file, ignored);
-    index.is_complete_ = was_complete && !ignored && bytes >= index.interim_;
+    const std::vector<Level> levels = was_complete ? index.levels() : std::vector<Level>();
+    const bool is_whole = !ignored && bytes >= index.interim_ &&
+                          std::all_of(levels.begin(), levels.end(),
+                                      [](const Level& level) { return level.unproven == 0; });
+    index.is_complete_ = was_complete && is_whole;
+    index.is_damaged_ = was_complete && !is_whole;
     return std::optional(std::move(index));
 }
 

@@ -58,6 +58,8 @@ public:
     [[nodiscard]] std::optional<StoredTile> stored(terrain::TreeTile tile) const;
     /// Whether nothing is left to write, apart from damage.
     [[nodiscard]] bool is_complete() const { return is_complete_; }
+    /// Whether it was complete, and proofs are damaged or missing now.
+    [[nodiscard]] bool is_damaged() const { return is_damaged_; }
 
     struct Level {
         std::size_t tiles = 0;
@@ -109,6 +111,7 @@ private:
     std::vector<Place> places_; // by level
     std::uint64_t interim_ = 0; // where residuals begin
     bool is_complete_ = false;
+    bool is_damaged_ = false;
 };
 
 } // namespace reljef::io

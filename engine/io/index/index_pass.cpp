@@ -312,8 +312,14 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
     if (!result.proof || !result.errors.empty()) {
         return result;
     }
-    const terrain::ProofCheck check = check_proof(source.tree, tile, *result.proof, result.heights,
-                                                  samples.empty() ? nullptr : &samples);
+    terrain::ProofCheck check = check_proof(source.tree, tile, *result.proof, result.heights,
+                                            samples.empty() ? nullptr : &samples);
+    if (tile.level >= ErrorIndex::first_stored_level &&
+        !terrain::are_parts_of(result.parts, result.proof->block_shares)) {
+        check.contradiction =
+            "errors of its parts found that are not those of its blocks, the same "
+            "were expected";
+    }
     if (check.parts) {
         result.parts = *check.parts;
     }

@@ -41,13 +41,15 @@ glm::dvec2 middle_of(const SampleGrid& grid) {
     return 0.5 * glm::dvec2(grid.cols - 1, grid.rows - 1);
 }
 
-/// Mirrors the grid so that col grows along +x and row along −y, if the steps are not diagonal.
+/// Mirrors the grid so that col grows along +x, if the steps are not steep, and so that rows run to
+/// the right of columns, as seen from above.
 void orient(const Steps& steps, Place& place) {
     if (std::abs(steps.col.x) > std::abs(steps.col.y) && steps.col.x < 0.0) {
         place.grid.flip_cols();
         place.flipped_cols = true;
     }
-    if (std::abs(steps.row.y) > std::abs(steps.row.x) && steps.row.y > 0.0) {
+    const double to_left = steps.col.x * steps.row.y - steps.col.y * steps.row.x;
+    if (place.flipped_cols ? to_left < 0.0 : to_left > 0.0) {
         place.grid.flip_rows();
         place.flipped_rows = true;
     }

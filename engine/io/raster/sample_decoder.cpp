@@ -265,7 +265,8 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
 }
 
 bool SampleDecoder::decode_floats(std::span<float> stored) const {
-    // A declared void and the lowest numbers, and those whose meaning is unknown; NaN equals none.
+    // Known voids are the declared one and the lowest numbers. Unused places are NaN, which equals
+    // nothing.
     std::array<float, 3> voids{};
     std::array<float, usual_voids.size()> unknown{};
     voids.fill(std::numeric_limits<float>::quiet_NaN());

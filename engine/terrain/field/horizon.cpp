@@ -17,13 +17,15 @@
 // A ray that begins above the ground and is below it later has passed through it. A stretch is the
 // part of a sector between two radii a < b, with the lowest ground h. A ray of the slope s (height
 // over distance) crosses all of it and is below h at one end at least if s is less than the slope
-// of a place there: on a plane if s b < h for h < 0, else if s a < h.
+// of a place there: on a plane, with h from the eye's height, if s b < h for h < 0, else if s a <
+// h.
 //
 // On the Earth, distances are those along the surface of a ball. The smallest radius of curvature
 // of an ellipsoid with the axes a > b is b²/a. A ball of this radius that touches it from within
 // lies inside of it (Blaschke's rolling theorem), and the ball that is larger by h inside of all
-// places h above it. So what is inside of the larger ball is below ground that is higher than h.
-// The ball's centre is on the eye's vertical. A ray stays in a plane through that vertical.
+// places h above it (smaller, if h is below it). So what is inside of the larger ball is below
+// ground that is higher than h. The ball's centre is on the eye's vertical. A ray stays in a plane
+// through that vertical.
 
 namespace reljef::terrain {
 namespace {
@@ -241,14 +243,17 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
         options.growth = 1.0 + 2.0 * (options.growth - 1.0);
     }
     options.heights = {placement.exaggeration() * total.low, placement.exaggeration() * total.high};
+    options.cell = 2.0 * glm::length(spacing); // cells in degrees widen towards the equator
+    options.last_sample = last;
     return create(placement, std::move(ground), *below, options, view);
 }
 
 Horizon::Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach,
                  const HorizonView& view, HeightRange zero)
     : frame_(std::move(frame)), ground_(std::move(ground)), view_(view), lowest_zero_(zero.low),
-      sector_angle_(2.0 * std::numbers::pi / reach.sectors),
-      sectors_(static_cast<std::size_t>(reach.sectors)) {
+      sagitta_(frame_.is_on_plane() ? 0.0 : reach.cell * reach.cell / (8.0 * radius_of_ball())),
+      last_sample_(reach.last_sample), sector_angle_(2.0 * std::numbers::pi / reach.sectors),
+      sectors_(static_cast<std::size_t>(reach.sectors)), has_ended_(sectors_.size(), false) {
     const double last = std::min(reach.last, frame_.max_reach());
     // Between the eye and a place, a ray is below both by the sagitta of the arc at most.
     const double sagitta = frame_.is_on_plane() ? 0.0 : last * last / (8.0 * radius_of_ball());
@@ -293,9 +298,22 @@ double Horizon::steepest_before(int sector, std::size_t stretch) {
     std::vector<double>& slopes = sectors_[static_cast<std::size_t>(sector)];
     while (slopes.size() <= stretch) {
         const double before = slopes.empty() ? hides_nothing : slopes.back();
-        slopes.push_back(std::max(before, slope_of(sector, slopes.size()).value_or(hides_nothing)));
+        auto has_ended = has_ended_[static_cast<std::size_t>(sector)];
+        has_ended = has_ended || leaves_terrain(sector, slopes.size());
+        const auto slope = has_ended ? std::nullopt : slope_of(sector, slopes.size());
+        slopes.push_back(std::max(before, slope.value_or(hides_nothing)));
     }
     return slopes[stretch];
+}
+
+// On the Earth, a straight line may leave the terrain and come back, below its surface.
+bool Horizon::leaves_terrain(int sector, std::size_t stretch) const {
+    if (frame_.is_on_plane()) {
+        return false;
+    }
+    const auto samples = samples_of(sector, stretch);
+    return !samples || glm::any(glm::lessThan(samples->first, glm::dvec2(0.0))) ||
+           glm::any(glm::greaterThan(samples->last, last_sample_));
 }
 
 // Empty if the ground does not cover the stretch.
@@ -305,7 +323,7 @@ std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
     if (!ground) {
         return std::nullopt;
     }
-    const double height = lowest_zero_ + ground->low;
+    const double height = lowest_zero_ + ground->low - sagitta_;
     return std::max(frame_.slope_of(radii_[stretch], height),
                     frame_.slope_of(radii_[stretch + 1], height));
 }

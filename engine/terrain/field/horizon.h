@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -40,6 +39,11 @@ struct HorizonOptions {
     int sectors = 256;                ///< of azimuth, >= 8
     double growth = 1.0 + 1.0 / 16.0; ///< ratio of consecutive distances, > 1, at most 9/8
     HeightRange heights = {};         ///< of all ground that may hide or be hidden, as GroundRange
+    /// Metres across a cell of ground that may hide: its triangles are that far below its surface
+    /// as the Earth curves in it.
+    double cell = 0.0;
+    /// The last column and row of the placement's samples.
+    glm::dvec2 last_sample{0.0};
 };
 
 /// An eye's vertical, and how the ground lies around it: on a plane, or outside of a ball that
@@ -102,19 +106,23 @@ private:
             const HorizonView& view, HeightRange zero);
 
     double steepest_before(int sector, std::size_t stretch);
+    [[nodiscard]] bool leaves_terrain(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<double> slope_of(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<SampleRectangle> samples_of(int sector, std::size_t stretch) const;
 
     EyeFrame frame_;
     GroundRange ground_;
     HorizonView view_;
-    double lowest_zero_;            // metres: of a geoid
+    double lowest_zero_; // metres: of a geoid
+    double sagitta_;     // metres by which triangles are below the ground
+    glm::dvec2 last_sample_;
     double heights_apart_;          // metres: the most between a ray and the eye's or the ground's
     double sector_angle_ = 0.0;     // radians
     double rectangle_growth_ = 1.0; // reach of a stretch's bounding rectangle over its radius
     std::vector<double> radii_;     // metres; stretch i lies between radii i and i + 1
     // By sector, as far as evaluated: the steepest slope that is hidden behind stretches 0 … i.
     std::vector<std::vector<double>> sectors_;
+    std::vector<bool> has_ended_; // by sector: the terrain ends, what is farther hides nothing
 };
 
 } // namespace reljef::terrain

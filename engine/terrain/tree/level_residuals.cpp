@@ -37,7 +37,8 @@ struct Differences {
     /// `share`: of the lower row of the surface.
     void set(const float* heights, const std::vector<float>& above, const std::vector<float>& below,
              float share) {
-        const float beyond = infinite; // known here: g++ 12 finds the instructions for extremes
+        // Without a constant here, g++ 12 makes no vector code of the extremes.
+        const float beyond = infinite;
         const float* const a = share == 1.0F ? below.data() : above.data();
         const float* const b = share == 0.0F ? above.data() : below.data();
         const float of_a = 1.0F - share;
@@ -88,7 +89,7 @@ struct Ranges {
             into_high[i] = higher(into_high[i], own_high[i] + moved_up);
         }
     }
-    /// Joins those of each coarser cell; `count`: entries from the first to the last of a cell.
+    /// Joins those of each coarser cell, which the vertices on its sides belong to.
     void join(const CoarserAxis& axis, bool are_vertices, std::span<float> cells_low,
               std::span<float> cells_high) const {
         for (int cell = 0; cell < axis.cells; ++cell) {

@@ -106,14 +106,17 @@ Grid<PartErrors> part_errors(const Residuals& residuals, glm::ivec2 tiles) {
     return parts;
 }
 
+std::size_t block_of_part(std::size_t part) {
+    constexpr std::size_t parts_per_block = error_parts / error_blocks;
+    return part / error_parts / parts_per_block * error_blocks +
+           part % error_parts / parts_per_block;
+}
+
 BlockErrors block_errors(const PartErrors& parts) {
-    constexpr int parts_per_block = error_parts / error_blocks;
     BlockErrors blocks{};
-    for (int i = 0; i < error_parts * error_parts; ++i) {
-        const int block =
-            i / error_parts / parts_per_block * error_blocks + i % error_parts / parts_per_block;
-        float& largest = blocks.at(static_cast<std::size_t>(block));
-        largest = higher(largest, parts.at(static_cast<std::size_t>(i)));
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        float& largest = blocks.at(block_of_part(i));
+        largest = higher(largest, parts.at(i));
     }
     return blocks;
 }
@@ -403,6 +406,15 @@ std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeT
 }
 
 } // namespace
+
+bool are_parts_of(const PartShares& parts, const BlockShares& blocks) {
+    BlockShares largest{};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        std::uint8_t& share = largest.at(block_of_part(i));
+        share = std::max(share, parts.at(i));
+    }
+    return largest == blocks;
+}
 
 ProofCheck check_proof(const TileTree& tree, TreeTile tile, const TileProof& proof,
                        const Grid<float>& heights, const Grid<float>* samples) {

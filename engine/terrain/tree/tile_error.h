@@ -135,6 +135,9 @@ int sample_border(int level);
 /// samples around them; both repeat the raster's border.
 Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float> samples);
 
+/// Whether the largest shares of the parts of each block are those of the blocks.
+bool are_parts_of(const PartShares& parts, const BlockShares& blocks);
+
 /// What the heights of a tile say of its proof.
 struct ProofCheck {
     /// Why it is not that of the tile; absent if nothing contradicts it.

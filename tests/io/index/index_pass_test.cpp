@@ -294,6 +294,30 @@ TEST_F(IndexPass, FindsNonsenseBehindValidChecksums) {
     }
 }
 
+TEST_F(IndexPass, FindsErrorsOfPartsThatAreNotThoseOfTheBlocks) {
+    const IndexSource terrain = source();
+    ASSERT_TRUE(make_index(terrain, {}));
+    auto index = ErrorIndex::open_to_write(terrain);
+    ASSERT_TRUE(index);
+    terrain::ChunkProof proof = terrain::prove_chunk(
+        terrain.tree, {0, 0, 0}, {[](int row, std::span<float> heights) {
+            for (std::size_t i = 0; i < heights.size(); ++i) {
+                heights[i] = wavy_heights().clamped(static_cast<int>(i) - terrain::chunk_border,
+                                                    row - terrain::chunk_border);
+            }
+        }});
+    const TreeTile tile{ErrorIndex::first_stored_level, 0, 0};
+    ASSERT_TRUE(index->write({0, 0, 0}, proof));
+    EXPECT_TRUE(read_indexed_tile(terrain, *index, tile)->proof);
+    proof.levels.back().parts(0, 0).fill(0);
+    ASSERT_TRUE(index->write({0, 0, 0}, proof));
+    const auto read = read_indexed_tile(terrain, *index, tile);
+    ASSERT_TRUE(read);
+    EXPECT_FALSE(read->proof);
+    ASSERT_EQ(read->errors.size(), 1U);
+    EXPECT_THAT(read->errors.front().message, HasSubstr("errors of its parts"));
+}
+
 TEST_F(IndexPass, AnIndexThatWasCutIsMadeAnew) {
     const IndexSource terrain = source();
     ASSERT_TRUE(make_index(terrain, {}));

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <random>
 
 #include <cpl_conv.h>
@@ -12,6 +13,7 @@
 
 #include "engine/io/raster/raster.h"
 #include "engine/io/terrain_file.h"
+#include "engine/terrain/field/placement.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
 
@@ -120,6 +122,31 @@ TEST_F(Georeferencing, PositionsAreWithinATenthOfAMillimetreBetweenControlPoints
             ASSERT_TRUE(again) << c.crs;
             ASSERT_LT(glm::distance(*again, sample), 1e-6) << c.crs;
         }
+    }
+}
+
+// Rows run to the right of columns, as seen from above, however the file is turned or mirrored.
+TEST_F(Georeferencing, NoTurnOfARasterMirrorsItsGround) {
+    const auto expect_unmirrored = [this](const char* crs, std::array<double, 6> geotransform) {
+        const auto terrain = read(ramp(), crs, geotransform);
+        ASSERT_TRUE(terrain.heightfield.georeference) << crs << joined(terrain.notes);
+        const auto placement =
+            terrain::Placement::create(terrain.heightfield, terrain::PlacementKind::ellipsoid);
+        ASSERT_TRUE(placement);
+        const auto at = [&](double col, double row) {
+            return placement->world_from_sample({col, row, 0.0});
+        };
+        const glm::dvec3 along = at(40.0, 20.0) - at(20.0, 20.0);
+        const glm::dvec3 down = at(30.0, 30.0) - at(30.0, 10.0);
+        EXPECT_LT(glm::cross(along, down).z, 0.0) << crs << ' ' << geotransform[1];
+    };
+    expect_unmirrored("EPSG:3031", {1e6, 60.0, 0.0, -1e6, 0.0, -60.0}); // rows 135° from east
+    for (int eighth = 0; eighth < 8; ++eighth) {
+        const double angle = eighth * std::numbers::pi / 4.0;
+        const double x = 10.0 * std::cos(angle);
+        const double y = 10.0 * std::sin(angle);
+        expect_unmirrored("EPSG:32631", {5e5, x, y, 5.1e6, y, -x});
+        expect_unmirrored("EPSG:32631", {5e5, x, -y, 5.1e6, y, x}); // mirrored
     }
 }
 

@@ -212,9 +212,17 @@ ExactProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& s
                 raise(proof.block_errors.at(
                           static_cast<std::size_t>(block.y * error_blocks + block.x)),
                       std::abs(height - surface));
-                const glm::ivec2 part = cell / cells_per_error_part;
-                raise(proof.part_errors.at(static_cast<std::size_t>(part.y * error_parts + part.x)),
-                      std::abs(height - surface));
+                // A sample on a line between parts belongs to both.
+                const glm::ivec2 before =
+                    glm::max((glm::ivec2(col, row) - first - 1) >> tile.level, glm::ivec2(0));
+                for (const int part_row : {before.y, cell.y}) {
+                    for (const int part_col : {before.x, cell.x}) {
+                        const int part = part_row / cells_per_error_part * error_parts +
+                                         part_col / cells_per_error_part;
+                        raise(proof.part_errors.at(static_cast<std::size_t>(part)),
+                              std::abs(height - surface));
+                    }
+                }
             }
         }
     }
@@ -272,6 +280,7 @@ std::vector<double> expect_proven(const Grid<float>& samples) {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             EXPECT_GE(parts.at(i) / 255.0 * proof.error, exact.part_errors.at(i)) << i;
         }
+        EXPECT_TRUE(tile.level == 0 || are_parts_of(parts, proof.block_shares));
         if (tile.level > 0 && exact.error > 0.0F) {
             ratios.push_back(static_cast<double>(proof.error) / exact.error);
         }
