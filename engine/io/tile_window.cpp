@@ -246,6 +246,23 @@ void fill_with(const Grid<double>& cells, glm::ivec2 first, Grid<double>& height
     }
 }
 
+/// Fills samples without a height from the cells around them.
+void fill_between(const Grid<double>& cells, const CellWindow& window, const LayerPoints& points,
+                  TileWindow& result, Grid<double>& edges) {
+    for (int row = 0; row < edges.rows(); ++row) {
+        for (int col = 0; col < edges.cols(); ++col) {
+            const glm::dvec2 cell =
+                window.cell_from_lattice(points.at(col, row)) - glm::dvec2(window.first);
+            if (!std::isnan(result.heights(col, row)) || std::isnan(cell.x)) {
+                continue;
+            }
+            const HeightBetween found = height_between(cells, cell);
+            double& target = found.whole ? result.heights(col, row) : edges(col, row);
+            target = std::isnan(target) ? found.height : target;
+        }
+    }
+}
+
 /// `edges`: heights for samples near a tile's edge, where no layer has all surrounding cells.
 void fill_from(const TileLayer& layer, const LayerPoints& points, const TileContent& reading,
                const TileGrid& grid, TileWindow& result, Grid<double>& edges) {
@@ -257,19 +274,8 @@ void fill_from(const TileLayer& layer, const LayerPoints& points, const TileCont
     if (window.reduction == 1 && points.are_on_lattice()) {
         const glm::dvec2 first = window.cell_from_lattice(glm::round(points.at(0, 0)));
         fill_with(cells, glm::ivec2(first) - window.first, result.heights);
-        return;
-    }
-    for (int row = 0; row < grid.rows; ++row) {
-        for (int col = 0; col < grid.cols; ++col) {
-            const glm::dvec2 cell =
-                window.cell_from_lattice(points.at(col, row)) - glm::dvec2(window.first);
-            if (!std::isnan(result.heights(col, row)) || std::isnan(cell.x)) {
-                continue;
-            }
-            const HeightBetween found = height_between(cells, cell);
-            double& target = found.whole ? result.heights(col, row) : edges(col, row);
-            target = std::isnan(target) ? found.height : target;
-        }
+    } else {
+        fill_between(cells, window, points, result, edges);
     }
 }
 

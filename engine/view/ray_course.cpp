@@ -39,11 +39,10 @@ constexpr std::array<Monomial, RayCourse::term_count> monomials = [] {
 
 // Of a monomial among all.
 std::size_t index_of(Monomial term) {
-    constexpr std::array<int, degree + 1> first{0, 0, 3, 9, 19}; // of a degree
-    const int total = term.x + term.y + term.z;
-    const int less_x = total - term.x;
-    return static_cast<std::size_t>(first[static_cast<std::size_t>(total)] +
-                                    less_x * (less_x + 1) / 2 + term.z);
+    constexpr std::array<std::size_t, degree + 1> first{0, 0, 3, 9, 19}; // of a degree
+    const auto less_x = static_cast<std::size_t>(term.y + term.z);
+    return first[static_cast<std::size_t>(term.x) + less_x] + less_x * (less_x + 1) / 2 +
+           static_cast<std::size_t>(term.z);
 }
 
 double power(double base, int exponent) {
@@ -288,21 +287,19 @@ std::array<glm::dvec3, LightCourse::term_count>
 terms_along(const std::array<glm::dvec3, RayCourse::term_count>& terms, glm::dvec3 way) {
     constexpr std::array<std::size_t, degree> first{0, 20, 30, 34}; // of each power
     std::array<glm::dvec3, LightCourse::term_count> along{};
+    const auto add = [&](Monomial whole, Monomial part, std::size_t at) {
+        const int total = whole.x + whole.y + whole.z - part.x - part.y - part.z;
+        const double ways = binomial(whole.x, part.x) * binomial(whole.y, part.y) *
+                            binomial(whole.z, part.z) * power(way.x, whole.x - part.x) *
+                            power(way.y, whole.y - part.y) * power(way.z, whole.z - part.z);
+        along[first[static_cast<std::size_t>(total) - 1] + at] += ways * terms[index_of(whole)];
+    };
     for (const Monomial whole : monomials) {
-        const glm::dvec3 term = terms[index_of(whole)];
-        for (int x = 0; x <= whole.x; ++x) {
-            for (int y = 0; y <= whole.y; ++y) {
-                for (int z = 0; z <= whole.z; ++z) {
-                    const int total = whole.x + whole.y + whole.z - x - y - z;
-                    if (total == 0) {
-                        continue;
-                    }
-                    const double ways = binomial(whole.x, x) * binomial(whole.y, y) *
-                                        binomial(whole.z, z) * power(way.x, whole.x - x) *
-                                        power(way.y, whole.y - y) * power(way.z, whole.z - z);
-                    const std::size_t at = x + y + z == 0 ? 0 : 1 + index_of({x, y, z});
-                    along[first[static_cast<std::size_t>(total) - 1] + at] += ways * term;
-                }
+        add(whole, {0, 0, 0}, 0);
+        for (const Monomial part : monomials) {
+            const bool is_smaller = part.x + part.y + part.z < whole.x + whole.y + whole.z;
+            if (is_smaller && part.x <= whole.x && part.y <= whole.y && part.z <= whole.z) {
+                add(whole, part, 1 + index_of(part));
             }
         }
     }

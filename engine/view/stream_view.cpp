@@ -73,8 +73,9 @@ double share_between(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec
     std::uint8_t share = 0;
     for (int row = low.y; row <= high.y; ++row) {
         for (int col = low.x; col <= high.x; ++col) {
-            share = std::max(
-                share, tile.parts->at(static_cast<std::size_t>(row * terrain::error_parts + col)));
+            const auto part = static_cast<std::size_t>(row) * terrain::error_parts +
+                              static_cast<std::size_t>(col);
+            share = std::max(share, tile.parts->at(part));
         }
     }
     return share / 255.0;

@@ -274,6 +274,32 @@ Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions&
     return report;
 }
 
+namespace {
+
+/// Compares a tile with its proof. `samples`: empty from the first stored level on.
+IndexedTile checked(const IndexSource& source, TreeTile tile, IndexedTile result,
+                    const Grid<float>& samples) {
+    terrain::ProofCheck check = check_proof(source.tree, tile, *result.proof, result.heights,
+                                            samples.empty() ? nullptr : &samples);
+    if (samples.empty() && !terrain::are_parts_of(result.parts, result.proof->block_shares)) {
+        check.contradiction = "errors of its parts found that are not those of its blocks, the "
+                              "same were expected";
+    }
+    if (check.parts) {
+        result.parts = *check.parts;
+    }
+    if (const auto& wrong = check.contradiction) {
+        result.proof.reset();
+        result.errors.push_back(
+            {source.file,
+             fmt::format("{}: tile {} of level {}: {}", source.file.string(),
+                         fmt::format("({},{})", tile.col, tile.row), tile.level, *wrong)});
+    }
+    return result;
+}
+
+} // namespace
+
 std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const ErrorIndex& index,
                                              TreeTile tile, const std::stop_token& stop) {
     IndexedTile result;
@@ -312,25 +338,7 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
     if (!result.proof || !result.errors.empty()) {
         return result;
     }
-    terrain::ProofCheck check = check_proof(source.tree, tile, *result.proof, result.heights,
-                                            samples.empty() ? nullptr : &samples);
-    if (tile.level >= ErrorIndex::first_stored_level &&
-        !terrain::are_parts_of(result.parts, result.proof->block_shares)) {
-        check.contradiction =
-            "errors of its parts found that are not those of its blocks, the same "
-            "were expected";
-    }
-    if (check.parts) {
-        result.parts = *check.parts;
-    }
-    if (const auto& wrong = check.contradiction) {
-        result.proof.reset();
-        result.errors.push_back(
-            {source.file,
-             fmt::format("{}: tile {} of level {}: {}", source.file.string(),
-                         fmt::format("({},{})", tile.col, tile.row), tile.level, *wrong)});
-    }
-    return result;
+    return checked(source, tile, std::move(result), samples);
 }
 
 } // namespace reljef::io

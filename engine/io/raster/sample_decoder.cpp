@@ -264,40 +264,45 @@ void SampleDecoder::decode(std::span<double> first, std::span<const double> othe
     }
 }
 
-bool SampleDecoder::decode_floats(std::span<float> stored) const {
-    // Known voids are the declared one and the lowest numbers. Unused places are NaN, which equals
-    // nothing.
-    std::array<float, 3> voids{};
-    std::array<float, usual_voids.size()> unknown{};
-    voids.fill(std::numeric_limits<float>::quiet_NaN());
-    unknown.fill(std::numeric_limits<float>::quiet_NaN());
+SampleDecoder::FloatVoids SampleDecoder::float_voids() const {
+    FloatVoids voids;
+    voids.known.fill(std::numeric_limits<float>::quiet_NaN());
+    voids.unknown.fill(std::numeric_limits<float>::quiet_NaN());
     std::size_t known = 0;
     if (nodata_) {
-        voids.at(known++) = static_cast<float>(*nodata_);
+        voids.known.at(known++) = static_cast<float>(*nodata_);
     }
     for (std::size_t i = 0; i < usual_.size(); ++i) {
         const double value = usual_[i].value;
-        if (value == nodata_) {
-            continue;
+        if (value != nodata_) {
+            float& place = is_lowest(value) ? voids.known.at(known++) : voids.unknown.at(i);
+            place = static_cast<float>(value);
         }
-        (is_lowest(value) ? voids.at(known++) : unknown.at(i)) = static_cast<float>(value);
     }
+    return voids;
+}
+
+bool SampleDecoder::decode_floats(std::span<float> stored) const {
+    const FloatVoids voids = float_voids();
     // Plain pointers and no branches: vector code.
+    const auto is_any = [](float value, const auto& of) {
+        int found = 0;
+        for (const float one : of) {
+            found |= value == one ? 1 : 0;
+        }
+        return found;
+    };
     float* const values = stored.data();
     int found = 0;
     for (std::size_t i = 0; i < stored.size(); ++i) {
-        for (const float value : unknown) {
-            found |= values[i] == value ? 1 : 0;
-        }
+        found |= is_any(values[i], voids.unknown);
     }
     for (std::size_t i = 0; found == 0 && i < stored.size(); ++i) {
         const double height = scale_ * static_cast<double>(values[i]) + offset_;
-        int is_void = std::abs(height) <= highest_height ? 0 : 1;
-        for (const float value : voids) {
-            is_void |= values[i] == value ? 1 : 0;
-        }
-        values[i] =
-            is_void != 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height);
+        const int is_height = std::abs(height) <= highest_height ? 1 : 0;
+        values[i] = is_height > is_any(values[i], voids.known)
+                        ? static_cast<float>(height)
+                        : std::numeric_limits<float>::quiet_NaN();
     }
     return found == 0;
 }

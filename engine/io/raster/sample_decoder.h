@@ -79,6 +79,12 @@ private:
         bool is_void = true; ///< false: a height in this file
         std::size_t found = 0;
     };
+    /// Voids of a raster of floats; places without one are NaN, which equals nothing.
+    struct FloatVoids {
+        std::array<float, 3> known{};   ///< the declared one and the lowest numbers
+        std::array<float, 5> unknown{}; ///< whose meaning depends on the whole file
+    };
+    [[nodiscard]] FloatVoids float_voids() const;
     [[nodiscard]] std::vector<std::string> counts_of_usual(bool voids) const;
     [[nodiscard]] double metres(double value);
     [[nodiscard]] double of_color(double red, double green, double blue);

@@ -327,7 +327,8 @@ void add_error(glm::ivec2 from_first, int step, glm::ivec2 cells, float error, P
         glm::min(glm::max(from_first - 1, glm::ivec2(0)) / step, cells - 1) / cells_per_error_part;
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
-            float& largest = errors.at(static_cast<std::size_t>(row * error_parts + col));
+            float& largest = errors.at(static_cast<std::size_t>(row) * error_parts +
+                                       static_cast<std::size_t>(col));
             largest = higher(largest, error);
         }
     }

@@ -120,8 +120,7 @@ TEST_F(CurvedReliefGlTest, TheFirstHitIsFoundFromBelowTheBorderAndWhereConesRunO
         EarthStage stage({.step = 1e-5, .placement = kind}, towers());
         for (const glm::dvec2 from : {glm::dvec2(-13.0, 77.0), glm::dvec2(120.3, 201.7)}) {
             stage.look(from, 3.0, {128.0, 128.0});
-            for (const char* const technique :
-                 {"exact", "cone:n=1024,step=0", "cone:n=4,step=0"}) {
+            for (const char* const technique : {"exact", "cone:n=1024,step=0", "cone:n=4,step=0"}) {
                 const view::DrawnHits shown = hits(stage, technique);
                 ASSERT_EQ(shown.stats.reliefs_as_triangles, 0);
                 EXPECT_LE(stage.errors(shown.hits).wrong, shown.hits.size() / 1000)
