@@ -40,7 +40,7 @@ constexpr std::array<Monomial, RayCourse::term_count> monomials = [] {
 // Of a monomial among all.
 std::size_t index_of(Monomial term) {
     constexpr std::array<std::size_t, degree + 1> first{0, 0, 3, 9, 19}; // of a degree
-    const auto less_x = static_cast<std::size_t>(term.y + term.z);
+    const auto less_x = static_cast<std::size_t>(term.y) + static_cast<std::size_t>(term.z);
     return first[static_cast<std::size_t>(term.x) + less_x] + less_x * (less_x + 1) / 2 +
            static_cast<std::size_t>(term.z);
 }
