@@ -1,6 +1,7 @@
 #include "engine/cast/frame/tile_contents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -16,6 +17,7 @@
 #include "engine/cast/frame/tile_pieces.h"
 #include "engine/scene/tile_stream.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 #include "tests/terrain/made_tiles.h"
@@ -271,7 +273,8 @@ void add_faults(RandomCut& cut, Faults& faults) {
 TEST(TileContents, NoRayPassesBetweenTilesOfAnyLevels) {
     test::Chance chance(29);
     Faults faults;
-    for (int round = 0; round < 10; ++round) {
+    const int rounds = test::rounds(10, 1);
+    for (int round = 0; round < rounds; ++round) {
         RandomCut cut(chance);
         for (int view = 0; view < 3; ++view) {
             cut.list().camera = camera_over(cut, chance);
@@ -280,34 +283,35 @@ TEST(TileContents, NoRayPassesBetweenTilesOfAnyLevels) {
     }
     EXPECT_EQ(faults.passes, 0);
     EXPECT_EQ(faults.off, 0);
-    EXPECT_GT(faults.hits, 40'000);
-    EXPECT_GT(faults.on_walls, 20);
+    EXPECT_GT(faults.hits, 4'000 * rounds);
+    EXPECT_GE(faults.on_walls, 2 * rounds);
 }
 
 // From places above lines between tiles, too, along which bent rays pass to both sides.
 TEST(TileContents, NoRayPassesBetweenTilesOnTheEllipsoid) {
     test::Chance chance(41);
     Faults faults;
-    for (const double latitude : {45.0, 0.1, 60.0, 85.0, -45.0}) {
-        for (int round = 0; round < 2; ++round) {
-            RandomCut cut(chance, {.latitude = latitude,
-                                   .height_tolerance = 0.3,
-                                   .near = 0.05,
-                                   .place_tolerance = 0.1});
-            for (int view = 0; view < 3; ++view) {
-                cut.list().camera = camera_over(cut, chance);
-                if (view == 2) {
-                    cut.list().camera.eye = cut.world({128.0, chance.between(20.0, 60.0), 250.0});
-                    cut.list().camera.target = cut.world({128.0, 260.0, -100.0});
-                }
-                add_faults(cut, faults);
+    constexpr std::array latitudes{45.0, 0.1, 60.0, 85.0, -45.0};
+    const int rounds = test::rounds(10, 1);
+    for (int round = 0; round < rounds; ++round) {
+        RandomCut cut(chance,
+                      {.latitude = latitudes.at(static_cast<std::size_t>(round) % latitudes.size()),
+                       .height_tolerance = 0.3,
+                       .near = 0.05,
+                       .place_tolerance = 0.1});
+        for (int view = 0; view < 3; ++view) {
+            cut.list().camera = camera_over(cut, chance);
+            if (view == 2) {
+                cut.list().camera.eye = cut.world({128.0, chance.between(20.0, 60.0), 250.0});
+                cut.list().camera.target = cut.world({128.0, 260.0, -100.0});
             }
+            add_faults(cut, faults);
         }
     }
     EXPECT_EQ(faults.passes, 0);
     EXPECT_EQ(faults.off, 0);
-    EXPECT_GT(faults.hits, 40'000);
-    EXPECT_GT(faults.on_walls, 20);
+    EXPECT_GT(faults.hits, 4'000 * rounds);
+    EXPECT_GE(faults.on_walls, 2 * rounds);
 }
 
 TEST(TileContents, HitsHaveTheSameBitsOnAnyThreads) {
