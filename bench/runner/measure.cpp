@@ -98,7 +98,9 @@ private:
         ++frames_drawn_;
         if (options_.progress) {
             const double elapsed = seconds_until(now);
-            fraction_ = std::clamp(elapsed / expected_seconds(elapsed), fraction_, 1.0);
+            const double expected = expected_seconds(elapsed);
+            const double fraction = expected > 0.0 ? elapsed / expected : 0.0;
+            fraction_ = std::clamp(fraction, fraction_, 1.0);
             options_.progress(fraction_);
         }
     }

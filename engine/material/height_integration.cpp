@@ -174,8 +174,11 @@ void subtract_mean(Grid<double>& values) {
 
 // Rise from one sample to the next along an axis.
 double rise_along(glm::vec3 normal, glm::dvec2 spacing, bool south) {
+    if (!(normal.z > 0.0F)) {
+        return 0.0;
+    }
     const double rise = south ? spacing.y * normal.y / normal.z : -spacing.x * normal.x / normal.z;
-    return normal.z > 0.0F && std::isfinite(rise) ? rise : 0.0;
+    return std::isfinite(rise) ? rise : 0.0;
 }
 
 // The negative gradient of ½ Σ (difference − rise)² at heights 0.

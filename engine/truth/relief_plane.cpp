@@ -96,8 +96,11 @@ private:
 
     // Infinite if the ray does not move along the axis.
     [[nodiscard]] double time_at(int axis, double place) const {
+        if (ray_.direction[axis] == 0.0) {
+            return infinity;
+        }
         const double time = (place - ray_.origin[axis]) / ray_.direction[axis];
-        return ray_.direction[axis] == 0.0 || std::isnan(time) ? infinity : time;
+        return std::isnan(time) ? infinity : time;
     }
 
     // The ray without its way along the axes on which it is beyond the texels at t.
