@@ -1,7 +1,9 @@
 #include "engine/cast/lit_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -13,36 +15,61 @@
 namespace reljef::cast {
 namespace {
 
-std::uint32_t packed(glm::vec3 linear) {
-    const auto bits = [](float channel) {
-        constexpr float largest = 1023.0F;
-        return static_cast<std::uint32_t>(
-            std::lround(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest));
-    };
-    return bits(linear.r) | bits(linear.g) << 10U | bits(linear.b) << 20U;
+std::uint32_t root_bits(float channel) {
+    constexpr float largest = 1023.0F;
+    return static_cast<std::uint32_t>(
+        std::lround(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest));
 }
 
-Grid<glm::vec3> linear_texels(const Image& lit) {
-    Grid<glm::vec3> texels(lit.cols(), lit.rows());
-    std::transform(lit.samples().begin(), lit.samples().end(), texels.samples().begin(),
-                   linear_from_rgba8);
-    return texels;
+std::uint32_t packed(glm::vec3 linear) {
+    return root_bits(linear.r) | root_bits(linear.g) << 10U | root_bits(linear.b) << 20U;
 }
 
 // Means of two by two; the last column and row count twice where there is no next one.
-Grid<glm::vec3> half_of(const Grid<glm::vec3>& fine) {
+template <class T, class Linear>
+Grid<glm::vec3> half_of(const Grid<T>& fine, const Linear& linear) {
     Grid<glm::vec3> coarse((fine.cols() + 1) / 2, (fine.rows() + 1) / 2);
     parallel_for(coarse.rows(), [&](int row) {
         for (int col = 0; col < coarse.cols(); ++col) {
             const glm::ivec2 first(2 * col, 2 * row);
-            coarse(col, row) =
-                0.25F *
-                (fine(first.x, first.y) + fine.clamped(first.x + 1, first.y) +
-                 fine.clamped(first.x, first.y + 1) + fine.clamped(first.x + 1, first.y + 1));
+            coarse(col, row) = 0.25F * (linear(fine(first.x, first.y)) +
+                                        linear(fine.clamped(first.x + 1, first.y)) +
+                                        linear(fine.clamped(first.x, first.y + 1)) +
+                                        linear(fine.clamped(first.x + 1, first.y + 1)));
         }
     });
     return coarse;
 }
+
+// A texel more in each row and column repeats the last one.
+template <class T, class Pack>
+void add_level(const Grid<T>& level, const Pack& pack, std::vector<std::uint32_t>& texels) {
+    const std::size_t begin = texels.size();
+    const std::size_t pitch = static_cast<std::size_t>(level.cols()) + 1;
+    texels.resize(begin + pitch * (static_cast<std::size_t>(level.rows()) + 1));
+    parallel_for(level.rows() + 1, [&](int row) {
+        const auto to = std::span(texels).subspan(begin + static_cast<std::size_t>(row) * pitch);
+        for (int col = 0; col <= level.cols(); ++col) {
+            to[static_cast<std::size_t>(col)] = pack(level.clamped(col, row));
+        }
+    });
+}
+
+class BytePacker {
+public:
+    BytePacker() {
+        for (std::size_t byte = 0; byte < bits_.size(); ++byte) {
+            bits_[byte] =
+                root_bits(linear_from_rgba8({static_cast<std::uint8_t>(byte), 0, 0, 255}).r);
+        }
+    }
+    std::uint32_t operator()(Rgba8 texel) const {
+        return bits_[texel.r] | bits_[texel.g] << 10U | bits_[texel.b] << 20U;
+    }
+
+private:
+    std::array<std::uint32_t, 256> bits_{};
+};
 
 } // namespace
 
@@ -52,22 +79,26 @@ LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
     paint_.last = size - 1;
     paint_.texels_per_sample = glm::vec2(coordinate) * glm::vec2(size);
     paint_.first = glm::vec2(coordinate.z, coordinate.w) * glm::vec2(size) - 0.5F;
-    Grid<glm::vec3> level = linear_texels(lit);
-    for (std::int32_t& begin : paint_.begin) {
-        begin = static_cast<std::int32_t>(texels_.size());
-        ++paint_.level_count;
-        for (int row = 0; row <= level.rows(); ++row) {
-            for (int col = 0; col <= level.cols(); ++col) {
-                texels_.push_back(packed(level.clamped(col, row)));
-            }
-        }
-        if (level.size() == 1) {
-            break;
-        }
-        level = half_of(level);
+    add_level(lit, BytePacker(), texels_);
+    paint_.level_count = 1;
+    if (lit.size() > 1) {
+        add_coarse_levels(half_of(lit, linear_from_rgba8));
     }
     const auto last = static_cast<std::size_t>(paint_.level_count) - 1;
     std::fill(paint_.begin.begin() + paint_.level_count, paint_.begin.end(), paint_.begin[last]);
+}
+
+void LitLevels::add_coarse_levels(Grid<glm::vec3> level) {
+    while (true) {
+        paint_.begin.at(static_cast<std::size_t>(paint_.level_count++)) =
+            static_cast<std::int32_t>(texels_.size());
+        add_level(level, packed, texels_);
+        if (level.size() == 1 ||
+            static_cast<std::size_t>(paint_.level_count) == paint_.begin.size()) {
+            return;
+        }
+        level = half_of(level, [](glm::vec3 texel) { return texel; });
+    }
 }
 
 TilePaint LitLevels::paint(glm::vec2 first_sample) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "engine/cast/block_kernel.h"
 #include "engine/core/color.h"
@@ -25,6 +26,8 @@ public:
     [[nodiscard]] std::size_t bytes() const { return texels_.size() * sizeof(std::uint32_t); }
 
 private:
+    void add_coarse_levels(Grid<glm::vec3> level);
+
     std::vector<std::uint32_t> texels_;
     TilePaint paint_; // its texels are set when it is used
 };

@@ -13,8 +13,11 @@ template <class T, class Value>
 auto bilinear(const Grid<T>& grid, glm::dvec2 place, const Value& value) {
     const glm::ivec2 last(grid.cols() - 1, grid.rows() - 1);
     const glm::ivec2 near = glm::min(glm::ivec2(place), last);
-    const glm::ivec2 far = glm::min(near + 1, last);
     const glm::vec2 part(place - glm::dvec2(near));
+    if (part == glm::vec2(0.0F)) {
+        return decltype(glm::mix(value(T{}), value(T{}), 0.0F))(value(grid(near.x, near.y)));
+    }
+    const glm::ivec2 far = glm::min(near + 1, last);
     const auto north = glm::mix(value(grid(near.x, near.y)), value(grid(far.x, near.y)), part.x);
     const auto south = glm::mix(value(grid(near.x, far.y)), value(grid(far.x, far.y)), part.x);
     return glm::mix(north, south, part.y);

@@ -1,6 +1,11 @@
 #include "engine/terrain/field/gradient.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -90,12 +95,31 @@ public:
         }
     }
 
-    [[nodiscard]] Axes at(int col, int row) const {
-        const glm::dvec2 place = glm::dvec2(col, row) / step_;
-        const int c = std::min(static_cast<int>(place.x), axes_.cols() - 2);
-        const int r = std::min(static_cast<int>(place.y), axes_.rows() - 2);
-        return between(between(axes_(c, r), axes_(c + 1, r), place.x - c),
-                       between(axes_(c, r + 1), axes_(c + 1, r + 1), place.x - c), place.y - r);
+    // Along one row of samples.
+    class Row {
+    public:
+        Row(std::vector<Axes> axes, double step) : axes_(std::move(axes)), step_(step) {}
+
+        [[nodiscard]] Axes at(int col) const {
+            const double place = col / step_;
+            const auto c = std::min(static_cast<std::size_t>(place), axes_.size() - 2);
+            return between(axes_[c], axes_[c + 1], place - static_cast<double>(c));
+        }
+
+    private:
+        std::vector<Axes> axes_;
+        double step_;
+    };
+
+    [[nodiscard]] Row row(int row) const {
+        const double place = row / step_.y;
+        const int r = std::min(static_cast<int>(place), axes_.rows() - 2);
+        std::vector<Axes> axes;
+        axes.reserve(static_cast<std::size_t>(axes_.cols()));
+        for (int col = 0; col < axes_.cols(); ++col) {
+            axes.push_back(between(axes_(col, r), axes_(col, r + 1), place - r));
+        }
+        return {std::move(axes), step_.x};
     }
 
 private:
@@ -109,18 +133,21 @@ constexpr double min_upright = 1e-6;
 // Length of the east axis over that of the north axis; smaller ratios are at a pole.
 constexpr double min_east = 1e-6;
 
+// Of a normal of any length > 0.
 glm::vec2 slope_of(glm::dvec3 normal) {
-    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / std::max(normal.z, min_upright));
+    const double steep = std::abs(normal.x) + std::abs(normal.y);
+    const bool is_usual = normal.z > steep * min_upright; // so is the unit normal's z
+    const double z = is_usual ? normal.z : std::max(normal.z, min_upright * glm::length(normal));
+    return glm::vec2(glm::dvec2(-normal.x, -normal.y) / z);
 }
 
 glm::vec2 scene_slope(const Axes& axes, glm::dvec2 rise_per_sample) {
-    if (glm::length(axes.east) <= min_east * glm::length(axes.north)) {
+    if (glm::dot(axes.east, axes.east) <= min_east * min_east * glm::dot(axes.north, axes.north)) {
         return slope_of(axes.up);
     }
-    const glm::dvec3 cross = glm::cross(axes.east + rise_per_sample.x * axes.up,
-                                        axes.north + rise_per_sample.y * axes.up);
-    const double area = glm::length(cross);
-    return slope_of(area > 0.0 ? cross / area : axes.up);
+    const glm::dvec3 normal = glm::cross(axes.east + rise_per_sample.x * axes.up,
+                                         axes.north + rise_per_sample.y * axes.up);
+    return slope_of(normal == glm::dvec3(0.0) ? axes.up : normal);
 }
 
 } // namespace
@@ -135,11 +162,16 @@ Grid<glm::vec2> surface_gradients(const Heightfield& heightfield, const Placemen
         axes.emplace(placement, heights.cols(), heights.rows(), border);
     }
     parallel_for(heights.rows(), [&](int row) {
+        std::optional<AxesGrid::Row> along;
+        if (axes) {
+            along = axes->row(row);
+        }
+        const bool is_pole = border.is_pole(row);
         for (int col = 0; col < heights.cols(); ++col) {
             const glm::dvec2 slope = placement.exaggeration() * border.rise(heights, col, row);
-            gradients(col, row) = !axes                 ? glm::vec2(slope / heightfield.spacing)
-                                  : border.is_pole(row) ? slope_of(axes->at(col, row).up)
-                                                        : scene_slope(axes->at(col, row), slope);
+            gradients(col, row) = !along    ? glm::vec2(slope / heightfield.spacing)
+                                  : is_pole ? slope_of(along->at(col).up)
+                                            : scene_slope(along->at(col), slope);
         }
     });
     return gradients;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -44,70 +45,91 @@ float sample(GridView<const float> heights, bool by_rows, int line, int index) {
 // Rounding of a sun's direction, samples: places so close to the border count as on it.
 constexpr double border_slack = 1e-6;
 
-// The upper edge of a shadow over a sample.
-struct Edge {
-    double height = -1e30; // metres
-    double run = 0.0;      // horizontal metres from the occluder
+// Where a line's places lie on the previous line: so many samples farther, and a part of the next.
+struct Step {
+    int whole;
+    double part;
 };
 
-Edge between(Edge a, Edge b, double t) {
-    return {std::lerp(a.height, b.height, t), std::lerp(a.run, b.run, t)};
+Step step_of(double shift) {
+    const double whole = std::floor(shift + border_slack);
+    return {static_cast<int>(whole), std::max(shift - whole, 0.0)};
 }
 
-// The highest shadow edges over a line of samples.
+// The highest shadow edges over a line of samples: heights, and horizontal metres from what casts
+// them.
 class ShadowFront {
 public:
     // `drop`: metres that an edge falls from line to line. The highest edge is the one with the
     // largest height + widening * run.
-    ShadowFront(GridView<const float> heights, const Sweep& sweep, double exaggeration, double drop,
-                double widening)
-        : heights_(heights), sweep_(sweep), exaggeration_(exaggeration), drop_(drop),
-          widening_(widening), edges_(static_cast<std::size_t>(sweep.line_length)), next_(edges_) {}
+    ShadowFront(const Sweep& sweep, double drop, double widening)
+        : sweep_(sweep), drop_(drop), widening_(widening), step_(step_of(sweep.shift)),
+          height_(static_cast<std::size_t>(sweep.line_length), nothing), run_(height_.size(), 0.0),
+          top_height_(height_.size() + 1), top_run_(height_.size() + 1) {}
 
-    void advance(int previous) {
-        for (int i = 0; i < sweep_.line_length; ++i) {
-            const double last = sweep_.line_length - 1;
-            const double desired = on_line(i + sweep_.shift);
-            const double place = std::clamp(desired, 0.0, last);
-            Edge& edge = next_[static_cast<std::size_t>(i)];
-            if (std::abs(desired - place) > border_slack) {
-                edge = {}; // beyond the border
-                continue;
+    // `ground`: the heights of the previous line.
+    void advance(std::span<const double> ground) {
+        raise_to(ground);
+        const int last = sweep_.line_length - 1;
+        if (sweep_.around && sweep_.by_rows) {
+            for (int i = 0; i <= last; ++i) {
+                move(i, ((i + step_.whole) % last + last) % last, 1);
             }
-            const int left = static_cast<int>(place);
-            const int right = std::min(left + 1, sweep_.line_length - 1);
-            edge = between(top(previous, left), top(previous, right), place - left);
-            edge.height -= drop_;
-            edge.run += sweep_.run;
+            return;
         }
-        std::swap(edges_, next_);
+        const int last_from = step_.part > border_slack ? last - 1 : last;
+        const int begin = std::clamp(-step_.whole, 0, last + 1);
+        const int end = std::clamp(last_from + 1 - step_.whole, begin, last + 1);
+        forget(0, begin);
+        move(begin, begin + step_.whole, end - begin);
+        forget(end, last + 1);
     }
 
     // Visible share of the sun at a height over a sample, not clamped to [0,1]. The penumbra is
     // `spread` metres per metre of run to each side, and at least `min_height` metres high.
-    [[nodiscard]] double share(int index, double height, double spread, double min_height) const {
-        const Edge& edge = edges_[static_cast<std::size_t>(index)];
-        return 0.5 - (edge.height - height) / std::max(2.0 * spread * edge.run, min_height);
+    [[nodiscard]] double share(std::size_t index, double height, double spread,
+                               double min_height) const {
+        return 0.5 - (height_[index] - height) / std::max(2.0 * spread * run_[index], min_height);
     }
 
 private:
-    [[nodiscard]] double on_line(double place) const {
-        const double turn = sweep_.line_length - 1;
-        return sweep_.around && sweep_.by_rows ? place - turn * std::floor(place / turn) : place;
+    static constexpr double nothing = -1e30; // metres
+
+    void raise_to(std::span<const double> ground) {
+        for (std::size_t i = 0; i < height_.size(); ++i) {
+            const bool is_above = height_[i] + widening_ * run_[i] > ground[i];
+            top_height_[i] = is_above ? height_[i] : ground[i];
+            top_run_[i] = is_above ? run_[i] : 0.0;
+        }
+        top_height_.back() = top_height_[height_.size() - 1];
+        top_run_.back() = top_run_[height_.size() - 1];
     }
-    [[nodiscard]] Edge top(int line, int index) const {
-        const double ground = exaggeration_ * sample(heights_, sweep_.by_rows, line, index);
-        const Edge& edge = edges_[static_cast<std::size_t>(index)];
-        return edge.height + widening_ * edge.run > ground ? edge : Edge{ground, 0.0};
+    // Edges at `count` samples, from those between the previous line's samples `from` and the next.
+    void move(int to, int from, int count) {
+        const auto size = static_cast<std::size_t>(count);
+        const auto old_heights = std::span(top_height_).subspan(static_cast<std::size_t>(from));
+        const auto old_runs = std::span(top_run_).subspan(static_cast<std::size_t>(from));
+        const auto heights = std::span(height_).subspan(static_cast<std::size_t>(to), size);
+        const auto runs = std::span(run_).subspan(static_cast<std::size_t>(to), size);
+        for (std::size_t i = 0; i < size; ++i) {
+            heights[i] =
+                old_heights[i] + step_.part * (old_heights[i + 1] - old_heights[i]) - drop_;
+            runs[i] = old_runs[i] + step_.part * (old_runs[i + 1] - old_runs[i]) + sweep_.run;
+        }
+    }
+    void forget(int begin, int end) {
+        std::fill(height_.begin() + begin, height_.begin() + end, nothing);
+        std::fill(run_.begin() + begin, run_.begin() + end, 0.0);
     }
 
-    GridView<const float> heights_;
     Sweep sweep_;
-    double exaggeration_;
     double drop_;
     double widening_;
-    std::vector<Edge> edges_;
-    std::vector<Edge> next_;
+    Step step_;
+    std::vector<double> height_;
+    std::vector<double> run_;
+    std::vector<double> top_height_; // of the previous line and its ground; the last one twice
+    std::vector<double> top_run_;
 };
 
 // The lines in order, each with the previous one. Lines around the Earth are swept twice, so that
@@ -125,8 +147,33 @@ std::vector<std::pair<int, int>> lines_of(const Sweep& sweep) {
 
 std::uint8_t byte_share(double share) {
     const double smooth = std::clamp(share, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255.0 * smooth * smooth * (3.0 - 2.0 * smooth)));
+    return static_cast<std::uint8_t>(255.0 * smooth * smooth * (3.0 - 2.0 * smooth) + 0.5);
 }
+
+// The ground's heights along the lines, metres.
+class Ground {
+public:
+    Ground(GridView<const float> heights, const Sweep& sweep, double exaggeration)
+        : heights_(heights), by_rows_(sweep.by_rows), exaggeration_(exaggeration),
+          line_(static_cast<std::size_t>(sweep.line_length)) {}
+
+    std::span<const double> at(int line) {
+        if (line != read_) {
+            for (std::size_t i = 0; i < line_.size(); ++i) {
+                line_[i] = exaggeration_ * sample(heights_, by_rows_, line, static_cast<int>(i));
+            }
+            read_ = line;
+        }
+        return line_;
+    }
+
+private:
+    GridView<const float> heights_;
+    bool by_rows_;
+    double exaggeration_;
+    std::vector<double> line_;
+    int read_ = -1;
+};
 
 } // namespace
 
@@ -146,15 +193,17 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
     const double spread =
         std::min(sun_angular_radius * (1.0 + unit_run.z * unit_run.z), 0.5 * unit_run.z);
     // The edges that hide the disc's middle, and those that reach farthest into its upper half.
-    ShadowFront deep(heights, sweep, exaggeration, drop, 0.0);
-    ShadowFront wide(heights, sweep, exaggeration, drop, spread);
+    ShadowFront deep(sweep, drop, 0.0);
+    ShadowFront wide(sweep, drop, spread);
+    Ground ground(heights, sweep, exaggeration);
     for (const auto& [line, previous] : lines_of(sweep)) {
-        deep.advance(previous);
-        wide.advance(previous);
-        for (int i = 0; i < sweep.line_length; ++i) {
-            const double height = exaggeration * sample(heights, sweep.by_rows, line, i);
-            (sweep.by_rows ? visible(i, line) : visible(line, i)) = byte_share(
-                std::min(deep.share(i, height, spread, drop), wide.share(i, height, spread, drop)));
+        deep.advance(ground.at(previous));
+        wide.advance(ground.at(previous));
+        const std::span<const double> here = ground.at(line);
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            const int at = static_cast<int>(i);
+            (sweep.by_rows ? visible(at, line) : visible(line, at)) = byte_share(std::min(
+                deep.share(i, here[i], spread, drop), wide.share(i, here[i], spread, drop)));
         }
     }
     for (int row = 0; sweep.around && row < heights.rows(); ++row) {
