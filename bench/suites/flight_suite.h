@@ -8,7 +8,7 @@
 #include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
 #include "bench/report/figure_table.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/frame_maker.h"
 
 namespace reljef::bench {

@@ -10,7 +10,7 @@
 #include "engine/core/hit.h"
 #include "engine/core/parallel_for.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/ground.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"

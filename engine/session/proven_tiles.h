@@ -7,7 +7,7 @@
 #include <stop_token>
 
 #include "engine/io/index/error_index.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::session {

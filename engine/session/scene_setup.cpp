@@ -9,7 +9,7 @@
 
 #include "engine/cast/frame/driver.h"
 #include "engine/io/formats/flight_file.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"

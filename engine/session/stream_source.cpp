@@ -6,7 +6,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/tree_tile.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::session {
 namespace {

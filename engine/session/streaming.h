@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/log.h"
 #include "engine/session/terrain_source.h"
 #include "engine/view/select.h"

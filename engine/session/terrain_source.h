@@ -7,7 +7,7 @@
 #include "engine/io/formats/scene_file.h"
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
-#include "engine/scene/streamed_tile.h"
+#include "engine/scene/streaming/tile_builder.h"
 #include "engine/session/log.h"
 #include "engine/session/options.h"
 #include "engine/session/proven_tiles.h"

@@ -8,7 +8,7 @@
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/streaming/terrain_light.h"
 #include "engine/truth/scene_caster.h"
 
 namespace reljef::truth {

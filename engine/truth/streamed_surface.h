@@ -13,7 +13,7 @@
 
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/field/tiled_surface.h"
 
 namespace reljef::truth {

@@ -11,7 +11,7 @@
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/streaming/terrain_light.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/eye.h"
 #include "engine/truth/geometric_error.h"

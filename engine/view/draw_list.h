@@ -11,7 +11,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/streaming/terrain_light.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
 #include "engine/view/ray_course.h"

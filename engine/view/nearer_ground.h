@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/geometry.h"
-#include "engine/scene/streamed_tile.h"
+#include "engine/scene/streaming/tile_builder.h"
 #include "engine/terrain/field/earth_horizon.h"
 #include "engine/terrain/field/horizon.h"
 

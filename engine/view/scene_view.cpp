@@ -1,6 +1,6 @@
 #include "engine/view/scene_view.h"
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::view {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/field/earth_horizon.h"
 #include "engine/view/error_view.h"
 

@@ -8,8 +8,8 @@
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
-#include "engine/scene/graph/terrain_light.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/terrain_light.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::view {
 

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::view {
 

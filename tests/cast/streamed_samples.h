@@ -4,7 +4,7 @@
 #include <optional>
 #include <stop_token>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "tests/terrain/made_tiles.h"
 
 namespace reljef::cast {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 

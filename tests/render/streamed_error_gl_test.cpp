@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/select.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/core/bilinear.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/tile_cut.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"

@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/field/surface_caster.h"
 #include "engine/view/select.h"
 #include "tests/render/driver_fixture.h"

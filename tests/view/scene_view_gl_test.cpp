@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/session/made_session.h"
 

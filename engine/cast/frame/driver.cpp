@@ -19,7 +19,7 @@
 #include "engine/cast/cast_hits.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/core/stopwatch.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
 

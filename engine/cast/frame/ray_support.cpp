@@ -8,7 +8,7 @@
 
 #include "engine/cast/curved_rays.h"
 #include "engine/cast/frame/seen_terrain.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
 

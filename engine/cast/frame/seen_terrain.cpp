@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
 namespace {

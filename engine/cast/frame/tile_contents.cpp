@@ -13,7 +13,7 @@
 
 #include "engine/cast/frame/tile_pieces.h"
 #include "engine/core/parallel_for.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/parallel_for.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::render {
 namespace {

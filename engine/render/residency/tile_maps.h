@@ -10,7 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
 #include "engine/render/residency/ground_residency.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::render {

@@ -10,7 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/surface_detail.h"
-#include "engine/scene/graph/terrain_tile.h"
+#include "engine/scene/streaming/terrain_tile.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/frame_maker.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"

@@ -15,7 +15,7 @@
 
 #include "engine/cast/frame/driver.h"
 #include "engine/cast/frame/tile_pieces.h"
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/view/stream_view.h"
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"

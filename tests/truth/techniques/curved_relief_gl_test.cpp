@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/streaming/terrain_light.h"
 #include "engine/truth/scene_caster.h"
 #include "engine/truth/shading.h"
 #include "tests/render/driver_fixture.h"

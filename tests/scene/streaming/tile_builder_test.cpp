@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/scene/streamed_tile.h"
-#include "tests/scene/made_plane_tiles.h"
+#include "engine/scene/streaming/tile_builder.h"
+#include "tests/scene/streaming/made_plane_tiles.h"
 
 namespace reljef::scene {
 namespace {

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "engine/core/back_off.h"
-#include "engine/scene/streamed_tile.h"
+#include "engine/scene/streaming/tile_builder.h"
 #include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::scene {

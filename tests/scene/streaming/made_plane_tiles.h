@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "tests/terrain/made_tiles.h"
 
 /// A terrain that is a plane, read tile by tile.

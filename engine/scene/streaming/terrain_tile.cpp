@@ -1,4 +1,4 @@
-#include "engine/scene/graph/terrain_tile.h"
+#include "engine/scene/streaming/terrain_tile.h"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 #include <algorithm>
 #include <cmath>

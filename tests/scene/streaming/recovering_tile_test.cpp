@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/scene/tile_stream.h"
-#include "tests/scene/made_plane_tiles.h"
+#include "engine/scene/streaming/tile_stream.h"
+#include "tests/scene/streaming/made_plane_tiles.h"
 
 namespace reljef::scene {
 namespace {

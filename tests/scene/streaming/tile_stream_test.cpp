@@ -1,4 +1,4 @@
-#include "engine/scene/tile_stream.h"
+#include "engine/scene/streaming/tile_stream.h"
 
 #include <array>
 #include <atomic>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/parallel_for.h"
-#include "tests/scene/made_plane_tiles.h"
+#include "tests/scene/streaming/made_plane_tiles.h"
 
 namespace reljef::scene {
 namespace {

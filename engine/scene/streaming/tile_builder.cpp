@@ -1,4 +1,4 @@
-#include "engine/scene/streamed_tile.h"
+#include "engine/scene/streaming/tile_builder.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "engine/scene/graph/terrain_light.h"
+#include "engine/scene/streaming/terrain_light.h"
 
 #include <algorithm>
 #include <functional>
