@@ -31,11 +31,11 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/io/index", {"engine/io"}},
         {"engine/io/formats", {"engine/io"}},
         {"engine/scene/technique", {"engine/material"}},
-        {"engine/scene/graph", {"engine/scene/technique", "engine/terrain/tree"}},
-        {"engine/scene", {"engine/scene/graph"}},
+        {"engine/scene/streaming", {"engine/material", "engine/terrain/tree"}},
+        {"engine/scene/graph", {"engine/scene/technique", "engine/scene/streaming"}},
         {"engine/scene/motion", {"engine/scene/graph"}},
-        {"engine/truth", {"engine/scene"}},
-        {"engine/view", {"engine/scene"}},
+        {"engine/truth", {"engine/scene/graph"}},
+        {"engine/view", {"engine/scene/graph"}},
         {"engine/cast", {"engine/view"}},
         {"engine/cast/frame", {"engine/cast"}},
         {"engine/gl", {"engine/core"}},
@@ -73,7 +73,6 @@ const std::map<std::string_view, Names>& include_table() {
 // that a new room of the engine is not theirs by chance.
 const std::map<std::string_view, Names>& named_rooms() {
     static const std::map<std::string_view, Names> rooms{
-        {"engine/scene/graph", {"engine/scene"}}, // until every terrain is one tree of tiles
         {"app/cli",
          {"engine/core", "engine/platform", "engine/scene/graph", "engine/scene/motion",
           "engine/scene/technique", "engine/session", "engine/view"}},
@@ -95,7 +94,7 @@ const std::map<std::string_view, Names>& named_rooms() {
           "terrains/gallery"}},
         {"bench/suites",
          {"app/cli", "bench/report", "bench/runner", "engine/core", "engine/io/formats",
-          "engine/scene", "engine/scene/graph", "engine/scene/motion", "engine/session",
+          "engine/scene/graph", "engine/scene/motion", "engine/scene/streaming", "engine/session",
           "engine/truth", "engine/view", "terrains", "terrains/natural"}},
         {"bench/stress",
          {"app/cli", "bench/report", "bench/runner", "bench/suites", "engine/core", "engine/geo",

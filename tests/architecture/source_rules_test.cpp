@@ -81,9 +81,9 @@ TEST(IncludeTable, RefusesUpwardAndSideways) {
     EXPECT_FALSE(may_include("engine/core", "engine/geo"));
     EXPECT_FALSE(may_include("engine/terrain/field", "engine/io/raster"));
     EXPECT_FALSE(may_include("engine/terrain/mesh", "engine/terrain/tree"));
-    EXPECT_FALSE(may_include("engine/io", "engine/scene"));
+    EXPECT_FALSE(may_include("engine/io", "engine/scene/graph"));
     EXPECT_FALSE(may_include("engine/io/raster", "engine/io"));
-    EXPECT_FALSE(may_include("engine/scene", "engine/gl"));
+    EXPECT_FALSE(may_include("engine/scene/graph", "engine/gl"));
     EXPECT_FALSE(may_include("engine/view", "engine/gl"));
     EXPECT_FALSE(may_include("engine/view", "engine/render"));
     EXPECT_FALSE(may_include("engine/gl", "engine/geo"));
@@ -94,18 +94,17 @@ TEST(IncludeTable, RefusesUpwardAndSideways) {
     EXPECT_FALSE(may_include("bench/suites", "app/viewer"));
     EXPECT_FALSE(may_include("app", "bench"));
     EXPECT_FALSE(may_include("terrains", "engine/io"));
-    EXPECT_FALSE(may_include("engine/scene", "app"));
+    EXPECT_FALSE(may_include("engine/scene/graph", "app"));
     EXPECT_FALSE(may_include("engine/render", "tests"));
 }
 
-TEST(IncludeTable, TheGraphsCircleWithTheStreamsIsItsOwn) {
-    EXPECT_TRUE(may_include("engine/scene/graph", "engine/scene"));
-    EXPECT_TRUE(may_include("engine/view", "engine/scene"));
-    EXPECT_TRUE(may_include("engine/truth", "engine/scene"));
+TEST(IncludeTable, TheGraphIsAboveTheStreams) {
+    EXPECT_TRUE(may_include("engine/scene/graph", "engine/scene/streaming"));
     EXPECT_TRUE(may_include("engine/scene/graph", "engine/terrain/tree"));
-    EXPECT_TRUE(may_include("engine/scene/motion", "engine/scene/graph"));
     EXPECT_TRUE(may_include("engine/scene/motion", "engine/terrain/field"));
-    EXPECT_FALSE(may_include("engine/scene/motion", "engine/scene"));
+    EXPECT_TRUE(may_include("engine/truth", "engine/scene/streaming"));
+    EXPECT_FALSE(may_include("engine/scene/streaming", "engine/scene/graph"));
+    EXPECT_FALSE(may_include("engine/scene/streaming", "engine/scene/technique"));
 }
 
 TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {
@@ -131,7 +130,7 @@ TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {
 TEST(IncludeTable, GivesTheShadersToRenderOnly) {
     EXPECT_TRUE(may_include("engine/render/shaders", "shaders/frame"));
     EXPECT_FALSE(may_include("app", "shaders/frame"));
-    EXPECT_FALSE(may_include("engine/scene", "shaders/frame"));
+    EXPECT_FALSE(may_include("engine/scene/graph", "shaders/frame"));
     EXPECT_FALSE(may_include("tests", "shaders/frame"));
 }
 

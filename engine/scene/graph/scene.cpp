@@ -8,8 +8,6 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/scene/streaming/tile_stream.h"
-
 namespace reljef::scene {
 namespace {
 
@@ -65,23 +63,6 @@ std::string_view reason_against_silhouettes(const TechniqueOptions& options) {
 }
 
 } // namespace
-
-glm::dvec3 to_light(const Light& light) {
-    const double azimuth = glm::radians(light.azimuth);
-    const double altitude = glm::radians(light.altitude);
-    return {std::sin(azimuth) * std::cos(altitude), std::cos(azimuth) * std::cos(altitude),
-            std::sin(altitude)};
-}
-
-Light turned(Light light, const glm::dmat4& world_from_local) {
-    const glm::dmat3 axes(world_from_local);
-    if (axes != glm::dmat3(1.0)) {
-        const glm::dvec3 direction = glm::normalize(axes * to_light(light));
-        light.azimuth = glm::degrees(std::atan2(direction.x, direction.y));
-        light.altitude = glm::degrees(std::asin(std::clamp(direction.z, -1.0, 1.0)));
-    }
-    return light;
-}
 
 Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
     const std::string_view name = technique_info(technique.id()).name;

@@ -4,18 +4,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <vector>
 
-#include "engine/core/geometry.h"
+#include <glm/vec3.hpp>
+
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/surface_detail.h"
-#include "engine/scene/streaming/terrain_tile.h"
+#include "engine/scene/streaming/terrain_surface.h"
 #include "engine/scene/technique/technique.h"
-#include "engine/terrain/field/heightfield.h"
-#include "engine/terrain/field/min_max_pyramid.h"
-#include "engine/terrain/field/placement.h"
-#include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/bisection.h"
 
 namespace reljef::scene {
@@ -34,50 +30,6 @@ SurfaceDetail visible_detail(const Material& material);
 
 /// Whether the inner side of a mesh is drawn, too.
 bool is_seen_from_behind(const Material& material);
-
-struct TerrainOptions {
-    /// Absent: ellipsoid for georeferenced heights, otherwise plane.
-    std::optional<terrain::PlacementKind> placement;
-    double exaggeration = 1.0;
-};
-
-/// A terrain in a node's local frame (metres, x east, y north, z up), for drawing and queries. The
-/// data is shared and never changes.
-class TerrainSurface {
-public:
-    static Result<TerrainSurface> create(std::shared_ptr<const terrain::Terrain> terrain,
-                                         const TerrainOptions& options = {});
-
-    [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
-    [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
-    [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
-    [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
-
-    /// Row after row. They borrow the samples of this surface.
-    [[nodiscard]] const std::vector<std::shared_ptr<const TerrainTile>>& tiles() const {
-        return tiles_;
-    }
-    /// Bounds of the tiles on the flat reference surface, with the same indices.
-    [[nodiscard]] const std::vector<Box>& flat_bounds() const { return flat_bounds_; }
-    [[nodiscard]] const Box& bounds() const { return bounds_; }
-
-    /// z of the surface at (x, y) in the local frame, exaggeration included; empty outside the
-    /// heightfield.
-    [[nodiscard]] std::optional<double> height_at(double x, double y) const;
-
-    /// The first hit of a ray in the local frame.
-    [[nodiscard]] std::optional<terrain::SurfaceHit> pick(const Ray& ray) const;
-
-private:
-    TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain, terrain::Placement placement);
-
-    std::shared_ptr<const terrain::Terrain> terrain_;
-    terrain::Placement placement_;
-    terrain::MinMaxPyramid pyramid_;
-    std::vector<std::shared_ptr<const TerrainTile>> tiles_;
-    std::vector<Box> flat_bounds_;
-    Box bounds_;
-};
 
 /// Fails if the technique cannot draw the surface, with the reason and a technique that can:
 /// techniques for meshes, rays on the ellipsoid, and options that only detail tiles have.
@@ -115,5 +67,8 @@ struct TerrainNode {
 
 /// Whether the technique draws the tiles of a stream; others draw the overview.
 bool draws_tiles(const Technique& technique);
+
+/// As TerrainSurface::height_at, of the finest loaded tile.
+std::optional<double> height_at(const TerrainNode& terrain, double x, double y);
 
 } // namespace reljef::scene

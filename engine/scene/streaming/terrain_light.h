@@ -7,8 +7,8 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/color.h"
-#include "engine/scene/graph/scene.h"
-#include "engine/scene/graph/terrain_node.h"
+#include "engine/scene/streaming/light.h"
+#include "engine/scene/streaming/terrain_surface.h"
 
 namespace reljef::scene {
 

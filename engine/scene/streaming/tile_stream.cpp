@@ -485,21 +485,4 @@ void TileStream::remember(const TileSummary& tile) const {
     }
 }
 
-std::optional<double> height_at(const TerrainNode& terrain, double x, double y) {
-    auto z = terrain.surface->height_at(x, y);
-    constexpr int rounds = 3; // see TerrainSurface::height_at
-    for (int i = 0; z && terrain.stream != nullptr && i < rounds; ++i) {
-        const terrain::Placement& placement = terrain.surface->placement();
-        const auto sample = placement.sample_from_world({x, y, *z});
-        const auto found = sample ? terrain.stream->finest_at(glm::dvec2(*sample)) : std::nullopt;
-        if (!found) {
-            return z;
-        }
-        const double height =
-            terrain::bilinear_height(found->tile->heightfield.heights.view(), found->place);
-        z = placement.world_from_sample({sample->x, sample->y, height}).z;
-    }
-    return z;
-}
-
 } // namespace reljef::scene

@@ -199,7 +199,4 @@ private:
     std::vector<std::jthread> threads_; // last: they stop before other members are destroyed
 };
 
-/// As TerrainSurface::height_at, of the finest loaded tile.
-std::optional<double> height_at(const TerrainNode& terrain, double x, double y);
-
 } // namespace reljef::scene
