@@ -12,10 +12,10 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
-#include "engine/io/dataset_pool.h"
+#include "engine/io/files/dataset_pool.h"
+#include "engine/io/files/file_index.h"
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/raster/crs_transform.h"
-#include "engine/io/tile_index.h"
 
 namespace reljef::io {
 

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "engine/io/dataset_pool.h"
+#include "engine/io/files/dataset_pool.h"
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/tile_layer.h"
 #include "engine/io/tile_set.h"

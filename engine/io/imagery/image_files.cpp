@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/files/file_index.h"
 #include "engine/io/imagery/rgb_image.h"
 #include "engine/io/raster/sample_decoder.h"
-#include "engine/io/tile_index.h"
 
 namespace reljef::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "engine/io/dataset_pool.h"
+#include "engine/io/files/dataset_pool.h"
 #include "engine/io/imagery/degree_box.h"
 #include "engine/io/imagery/image_files.h"
 #include "engine/io/imagery/rgb_image.h"

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/files/file_index.h"
 #include "engine/io/raster/georeferencing.h"
-#include "engine/io/tile_index.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 namespace reljef::io {

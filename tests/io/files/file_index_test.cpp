@@ -1,4 +1,4 @@
-#include "engine/io/tile_index.h"
+#include "engine/io/files/file_index.h"
 
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "engine/io/dataset_pool.h"
+#include "engine/io/files/dataset_pool.h"
 
 #include <chrono>
 
