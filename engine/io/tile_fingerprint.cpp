@@ -64,7 +64,7 @@ Result<std::uint64_t> TileSet::fingerprint() const {
         }
     }
     std::vector<std::string> ignored_notes;
-    const auto now = index_tiles(state_->name, state_->options, ignored_notes);
+    const auto now = index_files(state_->name, files_of(state_->options), ignored_notes);
     if (!now) {
         return now.error();
     }

@@ -17,9 +17,8 @@ namespace {
 constexpr double same_phase = 1e-2; // samples; for tile corners written with few digits
 // Samples over a whole tile: error of pixel sizes written with 12 digits.
 constexpr double same_step = 1e-5;
-constexpr int min_taps = 4;              // values per cell and side
-constexpr double closing_share = 0.75;   // of a cell: then older tiles do not add to it
-constexpr double same_resolution = 1.01; // ratio of spacings
+constexpr int min_taps = 4;            // values per cell and side
+constexpr double closing_share = 0.75; // of a cell: then older tiles do not add to it
 
 glm::dmat2 steps_matrix(const geo::PixelAffine& affine) {
     return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
@@ -360,10 +359,6 @@ void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
 }
 
 } // namespace
-
-double resolution(glm::dvec2 spacing) {
-    return std::round(0.5 * std::log(spacing.x * spacing.y) / std::log(same_resolution));
-}
 
 glm::dvec2 TileLayer::lattice_from_wrapped(glm::dvec2 point) const {
     if (period > 0.0) {

@@ -16,6 +16,8 @@
 #include "engine/io/files/file_index.h"
 #include "engine/io/raster/ascii_grid.h"
 #include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/raster.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 
@@ -71,9 +73,6 @@ struct PlacedFile {
     double period = 0.0;
 };
 
-/// Logarithmic resolution class in steps of 1 %; smaller is finer.
-double resolution(glm::dvec2 spacing);
-
 /// The layers of a set: finest first, then newest.
 std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
                                  std::span<const IndexedFile> files);
@@ -116,18 +115,9 @@ struct TileContent {
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
                         const TileContent& reading, std::vector<FileError>& errors);
 
-/// Affine of a grid's pixels around its samples; (0,0) is the outer corner.
-inline geo::PixelAffine outer_affine_of(const TileGrid& grid) {
-    const glm::dvec2 corner = grid.first - 0.5 * grid.step;
-    return {corner.x, grid.step.x, 0.0, corner.y, 0.0, grid.step.y};
-}
-
-/// Geodesic distance in metres between two (longitude, latitude) in degrees.
-double metres_between(glm::dvec2 a, glm::dvec2 b);
-
 /// Placed files of an index. Longitudes are continuous across the antimeridian, so that the set is
 /// as narrow as possible. Adds an error for each file without a sane position and scale on Earth.
-std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
+std::vector<PlacedFile> place_files(const FileIndex& index, const std::filesystem::path& folder,
                                     std::vector<FileError>& errors);
 
 struct ReplacedFile {

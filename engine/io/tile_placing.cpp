@@ -27,7 +27,7 @@ struct IndexedCrs {
     std::optional<CrsTransform> to_degrees;
 };
 
-std::vector<IndexedCrs> indexed_systems(const TileIndex& index) {
+std::vector<IndexedCrs> indexed_systems(const FileIndex& index) {
     std::vector<IndexedCrs> systems;
     for (const std::string& wkt : index.crs) {
         const OGRSpatialReference crs = crs_from_text(wkt);
@@ -160,7 +160,7 @@ double mean_spacing(const PlacedFile& file) {
 }
 
 /// Leaves out files of another scale than most of the set; of two files, none is.
-void drop_other_scales(std::vector<PlacedFile>& files, const TileIndex& index,
+void drop_other_scales(std::vector<PlacedFile>& files, const FileIndex& index,
                        const std::filesystem::path& folder, std::vector<FileError>& errors) {
     if (files.size() < 3) {
         return;
@@ -226,12 +226,7 @@ void make_continuous(std::vector<PlacedFile>& files, std::span<const IndexedFile
 
 } // namespace
 
-double metres_between(glm::dvec2 a, glm::dvec2 b) {
-    const auto latitude = [](double degrees) { return std::clamp(degrees, -90.0, 90.0); };
-    return geo::geodesic_distance({latitude(a.y), a.x, 0.0}, {latitude(b.y), b.x, 0.0});
-}
-
-std::vector<PlacedFile> place_files(const TileIndex& index, const std::filesystem::path& folder,
+std::vector<PlacedFile> place_files(const FileIndex& index, const std::filesystem::path& folder,
                                     std::vector<FileError>& errors) {
     const std::vector<IndexedCrs> systems = indexed_systems(index);
     std::vector<PlacedFile> files;

@@ -131,7 +131,7 @@ std::string shared_vertical_datum(std::span<const TileLayer> layers,
     return "";
 }
 
-void note_pictures(const TileIndex& index, std::vector<std::string>& notes) {
+void note_pictures(const FileIndex& index, std::vector<std::string>& notes) {
     const auto pictures =
         std::count_if(index.files.begin(), index.files.end(),
                       [](const IndexedFile& file) { return file.use == FileKind::picture; });
@@ -219,7 +219,7 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
     auto state = std::make_shared<State>();
     state->name = path.string();
     state->options = options;
-    auto index = index_tiles(path, options, state->notes);
+    auto index = index_files(path, files_of(options), state->notes);
     if (!index) {
         return index.error();
     }

@@ -15,6 +15,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
+#include "engine/io/files/tile_grid.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"
 #include "engine/terrain/field/heightfield.h"
@@ -50,14 +51,6 @@ bool reaches_into(const TileFile& file, const geo::GeodeticArea& area);
 
 /// Content of places without a file.
 enum class Gaps { holes, sea };
-
-/// Sample positions: first + step·(col, row) in the set's CRS.
-struct TileGrid {
-    glm::dvec2 first{0.0};
-    glm::dvec2 step{1.0, -1.0};
-    int cols = 0;
-    int rows = 0;
-};
 
 struct TileWindow {
     Grid<double> heights;          ///< metres; NaN at voids and holes

@@ -44,8 +44,9 @@ struct TileSet::State {
                                                      const GdalMessages& messages) const;
 };
 
-inline geo::PixelAffine affine_of(const TileGrid& grid) {
-    return {grid.first.x, grid.step.x, 0.0, grid.first.y, 0.0, grid.step.y};
+/// What index_files() needs of them.
+inline FileIndexOptions files_of(const TileSetOptions& options) {
+    return {options.cache_folder, options.threads, options.stop};
 }
 
 /// Sorts by file and keeps the first error of each file.

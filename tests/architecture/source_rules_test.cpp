@@ -66,7 +66,8 @@ TEST(RoomOf, IsTheFolderOfCode) {
 TEST(IncludeTable, AllowsWhatLiesBelow) {
     EXPECT_TRUE(may_include("engine/geo", "engine/core"));
     EXPECT_TRUE(may_include("engine/io/raster", "engine/core"));
-    EXPECT_TRUE(may_include("engine/io/imagery", "engine/io"));
+    EXPECT_TRUE(may_include("engine/io/imagery", "engine/io/files"));
+    EXPECT_FALSE(may_include("engine/io/imagery", "engine/io"));
     EXPECT_TRUE(may_include("engine/io", "engine/io/imagery"));
     EXPECT_TRUE(may_include("engine/render/passes", "engine/view"));
     EXPECT_TRUE(may_include("engine/render", "engine/gl"));

@@ -162,7 +162,7 @@ TEST(AnyGeoreference, IsLeftOutOrGivesSaneLayers) {
     std::size_t placed_files = 0;
     for (unsigned seed = 1; seed <= 10; ++seed) {
         AnyNumber any(seed);
-        TileIndex index{systems, {}};
+        FileIndex index{systems, {}};
         for (int i = 0; i < 500; ++i) {
             index.files.push_back(any_file(any, i));
         }

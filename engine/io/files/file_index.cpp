@@ -222,8 +222,8 @@ std::optional<Described> describe_if_raster(const fs::path& path, IndexedFile fi
 }
 
 /// Numbers the distinct WKTs.
-TileIndex numbered(std::vector<std::optional<Described>> all) {
-    TileIndex index;
+FileIndex numbered(std::vector<std::optional<Described>> all) {
+    FileIndex index;
     std::map<std::string, int> numbers;
     for (auto& described : all) {
         if (!described) {
@@ -242,7 +242,7 @@ TileIndex numbered(std::vector<std::optional<Described>> all) {
     return index;
 }
 
-fs::path cache_file(const fs::path& folder, const TileSetOptions& options) {
+fs::path cache_file(const fs::path& folder, const FileIndexOptions& options) {
     std::error_code ignored;
     const std::string whole = fs::weakly_canonical(folder, ignored).string();
     return options.cache_folder / fmt::format("tiles-{:016x}.index", fnv_hash(whole));
@@ -252,7 +252,7 @@ std::string indexed_anew(const std::string& why) {
     return why + ": the source files are indexed anew";
 }
 
-TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
+FileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
     const auto bytes = read_cache_file(file, max_index_bytes);
     if (!bytes) {
         notes.push_back(indexed_anew(bytes.error().message));
@@ -270,13 +270,13 @@ TileIndex read_cache(const fs::path& file, std::vector<std::string>& notes) {
 }
 
 /// A failure only costs time on the next start.
-Result<void> write_cache(const fs::path& file, const TileIndex& index) {
+Result<void> write_cache(const fs::path& file, const FileIndex& index) {
     const std::string bytes = bytes_of(index);
     return write_cache_file(file, {std::as_bytes(std::span(bytes))});
 }
 
 /// The entry of an unchanged file; absent for others.
-std::optional<Described> find_unchanged(const TileIndex& index, const IndexedFile& now) {
+std::optional<Described> find_unchanged(const FileIndex& index, const IndexedFile& now) {
     const auto found = std::lower_bound(
         index.files.begin(), index.files.end(), now.path,
         [](const IndexedFile& file, const std::string& path) { return file.path < path; });
@@ -326,7 +326,7 @@ bool are_right(const std::vector<std::optional<Described>>& known, const fs::pat
     return true;
 }
 
-Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& options,
+Result<FileIndex> index_folder(const fs::path& folder, const FileIndexOptions& options,
                                std::vector<std::string>& notes) {
     auto files = list_files(folder, options.stop);
     if (!files) {
@@ -334,7 +334,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
     }
     const bool cached = !options.cache_folder.empty();
     const std::size_t notes_before = notes.size();
-    const TileIndex old = cached ? read_cache(cache_file(folder, options), notes) : TileIndex{};
+    const FileIndex old = cached ? read_cache(cache_file(folder, options), notes) : FileIndex{};
     std::vector<std::optional<Described>> all(files->size());
     std::transform(files->begin(), files->end(), all.begin(),
                    [&](const IndexedFile& file) { return find_unchanged(old, file); });
@@ -357,7 +357,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
                       {.threads = options.threads, .stop = options.stop, .progress = {}})) {
         return Error{fmt::format("{}: reading was stopped", folder.string())};
     }
-    TileIndex index = numbered(std::move(all));
+    FileIndex index = numbered(std::move(all));
     if (cached && !(index == old)) {
         const auto written = write_cache(cache_file(folder, options), index);
         if (!written && notes.size() == notes_before) { // else a note names the cache already
@@ -370,7 +370,7 @@ Result<TileIndex> index_folder(const fs::path& folder, const TileSetOptions& opt
 
 } // namespace
 
-Result<TileIndex> index_tiles(const fs::path& path, const TileSetOptions& options,
+Result<FileIndex> index_files(const fs::path& path, const FileIndexOptions& options,
                               std::vector<std::string>& notes) {
     register_drivers();
     const ReadScope scope(options.stop);

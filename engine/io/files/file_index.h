@@ -2,13 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
-#include "engine/io/tile_set.h"
 
 namespace reljef::io {
 
@@ -25,7 +25,7 @@ struct IndexedFile {
     int cols = 0;
     int rows = 0;
     geo::PixelAffine crs_from_pixel; ///< (0,0) is the outer corner
-    int crs = 0;                     ///< index into TileIndex::crs
+    int crs = 0;                     ///< index into FileIndex::crs
     std::string format;
     std::string type;
     std::string vertical_datum;
@@ -34,22 +34,28 @@ struct IndexedFile {
     friend bool operator==(const IndexedFile&, const IndexedFile&) = default;
 };
 
-struct TileIndex {
+struct FileIndex {
     std::vector<std::string> crs;   ///< distinct WKTs
     std::vector<IndexedFile> files; ///< sorted by path
 
-    friend bool operator==(const TileIndex&, const TileIndex&) = default;
+    friend bool operator==(const FileIndex&, const FileIndex&) = default;
+};
+
+struct FileIndexOptions {
+    std::filesystem::path cache_folder; ///< for indexes of folders; empty: no cache
+    unsigned threads = 0;               ///< 0: one per hardware thread
+    std::stop_token stop;
 };
 
 /// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if
 /// it is right for the few of them that are opened; a hash of the cache's content chooses them.
 /// Adds a note on an unusable cache. Fails if the folder cannot be read.
-Result<TileIndex> index_tiles(const std::filesystem::path& path, const TileSetOptions& options,
+Result<FileIndex> index_files(const std::filesystem::path& path, const FileIndexOptions& options,
                               std::vector<std::string>& notes);
 
 /// Serializes an index with a version and a checksum.
-std::string bytes_of(const TileIndex& index);
+std::string bytes_of(const FileIndex& index);
 /// Fails for another version, damaged bytes, and values out of their range.
-Result<TileIndex> index_from_bytes(std::string_view bytes);
+Result<FileIndex> index_from_bytes(std::string_view bytes);
 
 } // namespace reljef::io

@@ -89,7 +89,7 @@ bool is_usable_file(const IndexedFile& file, std::size_t systems) {
            is_usable(file.crs_from_pixel);
 }
 
-bool is_consistent(const TileIndex& index) {
+bool is_consistent(const FileIndex& index) {
     const std::set<std::string_view> systems(index.crs.begin(), index.crs.end());
     const auto is_out_of_order = [](const IndexedFile& a, const IndexedFile& b) {
         return a.path >= b.path;
@@ -105,7 +105,7 @@ bool is_consistent(const TileIndex& index) {
 
 } // namespace
 
-std::string bytes_of(const TileIndex& index) {
+std::string bytes_of(const FileIndex& index) {
     IndexWriter writer;
     writer.put(static_cast<std::uint32_t>(index.crs.size()));
     for (const std::string& crs : index.crs) {
@@ -121,7 +121,7 @@ std::string bytes_of(const TileIndex& index) {
     return std::string(index_magic) + std::move(head).bytes() + content;
 }
 
-Result<TileIndex> index_from_bytes(std::string_view bytes) {
+Result<FileIndex> index_from_bytes(std::string_view bytes) {
     if (!bytes.starts_with(index_magic)) {
         return Error{"is of another version"};
     }
@@ -133,7 +133,7 @@ Result<TileIndex> index_from_bytes(std::string_view bytes) {
         return Error{"is cut or was changed"};
     }
     IndexReader reader(bytes);
-    TileIndex index;
+    FileIndex index;
     std::uint32_t count = 0;
     reader.get(count);
     for (std::uint32_t i = 0; i < count && reader.good(); ++i) {

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 void add_folder(const fs::path& folder, std::vector<fs::path>& paths,
                 std::vector<std::string>& errors) {
     std::vector<std::string> ignored;
-    const auto index = index_tiles(folder, {}, ignored);
+    const auto index = index_files(folder, {}, ignored);
     if (!index) {
         errors.push_back(index.error().message);
         return;

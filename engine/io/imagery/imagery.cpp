@@ -13,6 +13,7 @@
 #include <gdalwarper.h>
 #include <glm/common.hpp>
 
+#include "engine/io/files/tile_grid.h"
 #include "engine/io/imagery/degree_box.h"
 #include "engine/io/imagery/image_files.h"
 #include "engine/io/imagery/imagery_set.h"
@@ -20,7 +21,6 @@
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/raster/globe.h"
-#include "engine/io/tile_layer.h"
 
 namespace reljef::io {
 namespace {

@@ -15,7 +15,6 @@
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
 #include "engine/io/remote/read_scope.h"
-#include "engine/io/tile_layer.h"
 
 namespace reljef::io {
 /// Metadata of an image.

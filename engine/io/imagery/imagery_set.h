@@ -12,7 +12,8 @@
 #include "engine/core/back_off.h"
 #include "engine/core/color.h"
 #include "engine/core/result.h"
-#include "engine/io/tile_set.h"
+#include "engine/io/files/tile_grid.h"
+#include "engine/io/raster/web_tiles.h"
 
 namespace reljef::io {
 

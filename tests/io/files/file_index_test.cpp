@@ -45,22 +45,22 @@ protected:
         }
         ASSERT_TRUE(test::write(made, folder_.path() / name));
     }
-    [[nodiscard]] TileIndex index() const {
+    [[nodiscard]] FileIndex index() const {
         std::vector<std::string> notes;
-        auto found = index_tiles(folder_.path(), options_, notes);
+        auto found = index_files(folder_.path(), options_, notes);
         EXPECT_TRUE(found) << (found ? "" : found.error().message);
         EXPECT_EQ(test::joined(notes), "");
-        return found ? std::move(*found) : TileIndex{};
+        return found ? std::move(*found) : FileIndex{};
     }
     /// Of the only file; empty where it is usable.
     [[nodiscard]] std::string error() const {
-        const TileIndex found = index();
+        const FileIndex found = index();
         EXPECT_EQ(found.files.size(), 1U);
         return found.files.empty() ? "no file" : found.files.front().error;
     }
     /// The index that is kept says of every file that its format is "kept".
     void mark_what_is_kept() const {
-        TileIndex marked = index();
+        FileIndex marked = index();
         for (IndexedFile& file : marked.files) {
             file.format = "kept";
         }
@@ -71,7 +71,7 @@ protected:
 
     const test::TemporaryFolder folder_;
     const test::TemporaryFolder cache_;
-    const TileSetOptions options_{cache_.path(), 0, 1.0, 0.0, {}};
+    const FileIndexOptions options_{cache_.path(), 0, {}};
 };
 
 TEST_F(TileIndices, SeeASystemThatIsAddedBesideAFileAndTakenAway) {
@@ -101,7 +101,7 @@ TEST_F(TileIndices, TakeWhatLiesBesideOneFileForNoReasonToReadAnother) {
                                "b.wld", "B.tifw"}) {
         mark_what_is_kept();
         folder_.write(beside, "");
-        const TileIndex found = index();
+        const FileIndex found = index();
         ASSERT_EQ(found.files.size(), 3U);
         EXPECT_EQ(found.files[0].format, "kept") << beside;
         EXPECT_EQ(found.files[1].format, "GTiff") << beside;
@@ -113,9 +113,9 @@ TEST_F(TileIndices, ReadAGridOfManyFilesAgainWhereOneOfThemChanges) {
     for (const char* name : {"grid/w001001.adf", "grid/hdr.adf"}) {
         folder_.write(name, "x");
     }
-    const TileIndex before = index();
+    const FileIndex before = index();
     folder_.write("grid/prj.adf", "Projection UTM");
-    const TileIndex after = index();
+    const FileIndex after = index();
     EXPECT_NE(before.files.back().sidecar_hash, after.files.back().sidecar_hash);
 }
 
@@ -123,30 +123,30 @@ TEST_F(TileIndices, ReadAGridOfManyFilesAgainWhereOneOfThemChanges) {
 TEST_F(TileIndices, NonsenseBehindAValidChecksumIsFound) {
     raster("a.tif", true);
     raster("b.tif", true);
-    const TileIndex good = index();
+    const FileIndex good = index();
     ASSERT_TRUE(index_from_bytes(bytes_of(good)));
-    const std::vector<std::function<void(TileIndex&)>> changes{
-        [](TileIndex& bad) { bad.files[0].use = static_cast<FileKind>(3); },
-        [](TileIndex& bad) { bad.files[0].crs = static_cast<int>(bad.crs.size()); },
-        [](TileIndex& bad) { bad.files[0].crs = -1; },
-        [](TileIndex& bad) { bad.files[0].cols = 1; },
-        [](TileIndex& bad) { bad.files[0].rows = std::numeric_limits<int>::max(); },
-        [](TileIndex& bad) {
+    const std::vector<std::function<void(FileIndex&)>> changes{
+        [](FileIndex& bad) { bad.files[0].use = static_cast<FileKind>(3); },
+        [](FileIndex& bad) { bad.files[0].crs = static_cast<int>(bad.crs.size()); },
+        [](FileIndex& bad) { bad.files[0].crs = -1; },
+        [](FileIndex& bad) { bad.files[0].cols = 1; },
+        [](FileIndex& bad) { bad.files[0].rows = std::numeric_limits<int>::max(); },
+        [](FileIndex& bad) {
             bad.files[0].use = FileKind::picture;
             bad.files[0].rows = -1;
         },
-        [](TileIndex& bad) { bad.files[0].crs_from_pixel.x0 = NAN; },
-        [](TileIndex& bad) { bad.files[0].crs_from_pixel.x_col = 0.0; },
-        [](TileIndex& bad) { bad.files[0].opened = false; },
-        [](TileIndex& bad) { bad.files[0].error = "unusable"; },
-        [](TileIndex& bad) { bad.files[1].path = bad.files[0].path; },
-        [](TileIndex& bad) { std::swap(bad.files[0], bad.files[1]); },
-        [](TileIndex& bad) { bad.files[0].path = ""; },
-        [](TileIndex& bad) { bad.crs.push_back(bad.crs[0]); },
-        [](TileIndex& bad) { bad.crs.clear(); },
+        [](FileIndex& bad) { bad.files[0].crs_from_pixel.x0 = NAN; },
+        [](FileIndex& bad) { bad.files[0].crs_from_pixel.x_col = 0.0; },
+        [](FileIndex& bad) { bad.files[0].opened = false; },
+        [](FileIndex& bad) { bad.files[0].error = "unusable"; },
+        [](FileIndex& bad) { bad.files[1].path = bad.files[0].path; },
+        [](FileIndex& bad) { std::swap(bad.files[0], bad.files[1]); },
+        [](FileIndex& bad) { bad.files[0].path = ""; },
+        [](FileIndex& bad) { bad.crs.push_back(bad.crs[0]); },
+        [](FileIndex& bad) { bad.crs.clear(); },
     };
     for (std::size_t i = 0; i < changes.size(); ++i) {
-        TileIndex bad = good;
+        FileIndex bad = good;
         changes[i](bad);
         EXPECT_FALSE(index_from_bytes(bytes_of(bad))) << "change " << i;
     }
@@ -155,7 +155,7 @@ TEST_F(TileIndices, NonsenseBehindAValidChecksumIsFound) {
 // A bool that is neither 0 nor 1 would be undefined behaviour.
 TEST_F(TileIndices, ABoolIsNoOtherByte) {
     raster("a.tif", true);
-    TileIndex good = index();
+    FileIndex good = index();
     good.files[0].declares_voids = true;
     std::string bytes = bytes_of(good);
     ASSERT_EQ(bytes.back(), 1);
@@ -173,13 +173,13 @@ TEST_F(TileIndices, ABoolIsNoOtherByte) {
 TEST_F(TileIndices, PlacesThatAreNotThoseOfTheFilesAreFound) {
     raster("a.tif", true);
     raster("b.tif", true);
-    TileIndex moved = index();
+    FileIndex moved = index();
     const double x0 = moved.files[1].crs_from_pixel.x0;
     moved.files[1].crs_from_pixel.x0 += 10.0;
     const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
     ASSERT_TRUE(write_text_file(kept, bytes_of(moved)));
     std::vector<std::string> notes;
-    const auto found = index_tiles(folder_.path(), options_, notes);
+    const auto found = index_files(folder_.path(), options_, notes);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->files[1].crs_from_pixel.x0, x0);
     ASSERT_EQ(notes.size(), 1U);
@@ -193,15 +193,15 @@ TEST_F(TileIndices, NonsenseOfNoFileEscapesForEver) {
     for (int i = 0; i < 16; ++i) {
         raster(fmt::format("{:02d}.tif", i), true);
     }
-    const TileIndex good = index();
+    const FileIndex good = index();
     const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
     for (const std::size_t wrong : {1U, 15U}) {
         std::vector<std::string> notes;
         for (int i = 1; i <= 64 && notes.empty(); ++i) {
-            TileIndex moved = good;
+            FileIndex moved = good;
             moved.files[wrong].crs_from_pixel.x0 += 10.0 * i;
             ASSERT_TRUE(write_text_file(kept, bytes_of(moved)));
-            ASSERT_TRUE(index_tiles(folder_.path(), options_, notes));
+            ASSERT_TRUE(index_files(folder_.path(), options_, notes));
         }
         EXPECT_EQ(notes.size(), 1U) << wrong;
     }
@@ -209,11 +209,11 @@ TEST_F(TileIndices, NonsenseOfNoFileEscapesForEver) {
 
 TEST_F(TileIndices, ACacheThatIsAPipeALinkOrForeignCostsOnlySpeed) {
     raster("a.tif", true);
-    const TileIndex good = index();
+    const FileIndex good = index();
     const std::filesystem::path kept = *std::filesystem::directory_iterator(cache_.path());
     const auto expect_note = [&](const std::string& why) {
         std::vector<std::string> notes;
-        const auto found = index_tiles(folder_.path(), options_, notes);
+        const auto found = index_files(folder_.path(), options_, notes);
         ASSERT_TRUE(found);
         EXPECT_EQ(found->files[0].crs_from_pixel, good.files[0].crs_from_pixel);
         ASSERT_EQ(notes.size(), 1U);
@@ -235,7 +235,7 @@ TEST_F(TileIndices, ACacheThatCannotBeWrittenIsNotedOnce) {
     std::filesystem::permissions(cache_.path(), std::filesystem::perms::owner_write,
                                  std::filesystem::perm_options::remove);
     std::vector<std::string> notes;
-    EXPECT_TRUE(index_tiles(folder_.path(), options_, notes));
+    EXPECT_TRUE(index_files(folder_.path(), options_, notes));
     ASSERT_EQ(notes.size(), 1U);
     EXPECT_THAT(notes[0], HasSubstr(cache_.path().string()));
     EXPECT_THAT(notes[0], HasSubstr("the source files are indexed anew at each start"));
