@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/parallel_for.h"
+#include "engine/scene/graph/terrain_node.h"
 #include "tests/scene/streaming/made_plane_tiles.h"
 
 namespace reljef::scene {
