@@ -75,6 +75,16 @@ std::string memory_text(std::size_t before) {
                        static_cast<double>(before) / megabyte);
 }
 
+// Of tiles whose errors are estimates nothing is kept.
+std::string kept_error_text(const view::FrameStats& stats) {
+    if (!stats.kept_error) {
+        return "none";
+    }
+    const bool is_partial = stats.tiles_unproven > 0;
+    return fmt::format("{:.2f} px{}", *stats.kept_error,
+                       is_partial ? " where tiles are proven" : "");
+}
+
 } // namespace
 
 DeviceFrames::DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options)
@@ -205,15 +215,12 @@ std::string DeviceFrames::stats() const {
                device_.info().renderer, stats_.nodes, stats_.tiles, stats_.triangles, stats_.rays,
                stats_.draws, stats_.state_changes, stats_.uploads,
                static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
-               stats_.tiles_unproven,
-               stats_.kept_error ? fmt::format("{:.2f} px", *stats_.kept_error)
-                                 : std::string("none"),
-               stats_.skipped.invisible_nodes, stats_.skipped.nodes_outside_frustum,
-               stats_.skipped.tiles_outside_frustum, stats_.skipped.triangles_outside_frustum,
-               stats_.skipped.tiles_occluded, stats_.skipped.triangles_under_error,
-               stats_.skipped.details_too_small, stats_.skipped.selections_unchanged,
-               stats_.skipped.cuts_unchanged, stats_.skipped.uploads_unchanged, stats_.cpu_ms,
-               stats_.gpu_ms);
+               stats_.tiles_unproven, kept_error_text(stats_), stats_.skipped.invisible_nodes,
+               stats_.skipped.nodes_outside_frustum, stats_.skipped.tiles_outside_frustum,
+               stats_.skipped.triangles_outside_frustum, stats_.skipped.tiles_occluded,
+               stats_.skipped.triangles_under_error, stats_.skipped.details_too_small,
+               stats_.skipped.selections_unchanged, stats_.skipped.cuts_unchanged,
+               stats_.skipped.uploads_unchanged, stats_.cpu_ms, stats_.gpu_ms);
 }
 
 void TruthFrames::wait_for_tiles(const scene::Scene& scene, const std::stop_token& stop) {

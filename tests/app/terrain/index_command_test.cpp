@@ -33,8 +33,9 @@ protected:
         options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
         return test::reljef(arguments, options);
     }
-    /// Draws with little memory; whether an index is there afterwards.
-    [[nodiscard]] bool render(std::vector<std::string> more, bool from_input = false) const {
+    /// Draws with little memory.
+    [[nodiscard]] test::ProgramResult drawn(std::vector<std::string> more,
+                                            bool from_input = false) const {
         const std::string dem = folder_.path() / "waves.tif";
         std::vector<std::string> arguments{"render",    from_input ? "-" : dem,
                                            "-o",        folder_.path() / "a.png",
@@ -45,7 +46,11 @@ protected:
         test::ProgramOptions options;
         options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
         options.input = from_input ? dem : "/dev/null";
-        const auto result = test::reljef(arguments, options);
+        return test::reljef(arguments, options);
+    }
+    /// The same; whether an index is there afterwards.
+    [[nodiscard]] bool render(std::vector<std::string> more, bool from_input = false) const {
+        const auto result = drawn(std::move(more), from_input);
         EXPECT_EQ(result.exit_code, 0) << result.err;
         EXPECT_NE(result.err.find("finer tiles are read"), std::string::npos) << result.err;
         std::error_code ignored;
@@ -104,6 +109,24 @@ TEST_F(IndexCommand, RefusesStandardInputAndWhatIsNoFolder) {
     const std::string dem = write_dem(folder_);
     { const std::ofstream file(folder_.path() / "cache"); }
     test::expect_refusal(index({dem, "--memory", "1"}), 1, {"cache"});
+}
+
+// Else "kept error: 0.00 px" beside tiles with estimated errors looked like a proof of them.
+TEST_F(IndexCommand, StatisticsSayWhichErrorsAreKept) {
+    // Around a void, errors are estimates.
+    test::write_waves(folder_.path() / "waves.tif", 300, 300);
+    const auto none = drawn({"--max-error", "2", "--no-index", "--stats"});
+    EXPECT_NE(none.out.find("unproven: 1, kept error: none"), std::string::npos) << none.out;
+    int partly_proven = 0;
+    for (const char* const bound : {"1", "0.7", "0.5", "0.3", "0.1"}) {
+        const std::string text = drawn({"--max-error", bound, "--stats"}).out;
+        const bool is_proven = text.find("unproven: 0,") != std::string::npos;
+        const bool is_none = text.find("kept error: none") != std::string::npos;
+        const bool is_limited = text.find(" px where tiles are proven\n") != std::string::npos;
+        EXPECT_EQ(is_limited, !is_proven && !is_none) << text;
+        partly_proven += is_limited ? 1 : 0;
+    }
+    EXPECT_GT(partly_proven, 0);
 }
 
 } // namespace
