@@ -11,6 +11,7 @@
 
 #include "app/cli/parsed_option.h"
 #include "engine/core/geometry.h"
+#include "engine/scene/graph/daylight.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/view/error_view.h"
 
@@ -226,6 +227,20 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "direction of the sun, degrees: clockwise from north, above the horizon (300,40)",
                "AZIMUTH,ALTITUDE");
+    add_parsed(command, "--turbidity", choice.turbidity,
+               number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),
+               "haze of the air, 1 (none) to 10: colours of sun, sky and distance (1.4)", "T");
+    add_parsed(command, "--visibility", choice.visibility,
+               number_in("--visibility", 0.0, 1e9, true),
+               "metres to 2 % contrast at the lowest ground (10 widths of the terrain)", "M");
+    add_parsed(command, "--base", choice.base,
+               word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
+                                                     {"none", session::BaseKind::none}}),
+               "plane: the terrain lies on an endless plane; none: it floats in the sky (plane)",
+               "KIND");
+    add_parsed(command, "--occlusion", choice.hides_sky,
+               word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
+               "on: valleys and streets get less light from the sky (on)", "on|off");
     command
         .add_option("--shader-dir", choice.shader_dir,
                     "use shader files of this folder instead of the built-in ones")
@@ -357,6 +372,11 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                     "gallery only: brick, rock, cobble, fence, rings, copper, mixed, or a folder "
                     "of pictures (colour, height, normal)")
         ->type_name("NAME|FOLDER");
+    command
+        .add_option("--ramp", choice.ramp,
+                    "colours by height: relief, natural, swiss, desert, clay, stretched, or a "
+                    "colour file of gdaldem color-relief (relief)")
+        ->type_name("NAME|FILE");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::max_exaggeration, true),
                "factor for the heights, in the picture only (1)", "X");

@@ -129,12 +129,23 @@ struct BlockJobs {
 struct BlockPaint {
     BlockRays::Vectors view; ///< world directions of the rays, metres per t
     float anchor = 0.0F;     ///< depth at t = 0, metres
-    float extinction = 0.0F; ///< of the air, 1/metre; 0 without air, and on maps
+    bool has_air = false; ///< not on maps
+    glm::vec3 extinction{0.0F}; ///< of the air at the base, 1/metre
+    float eye_above = 0.0F;     ///< as scene::AirSeen
+    float eye_density = 1.0F;
+    float per_height = 0.0F;
     bool is_perspective = true;
     bool needs_nearness = false;
     bool has_sky = false;
     glm::vec3 horizon{0.0F}; ///< linear
     glm::vec3 zenith{0.0F};
+    glm::vec3 glow{0.0F};
+    float curve = 1.0F;
+    bool has_plane = false;
+    glm::vec3 plane{0.0F};
+    bool has_sun = false;
+    /// The middle of the block in pixels from the lower left corner of the picture.
+    glm::vec2 from_corner{0.0F};
     glm::vec3 sun{0.0F}; ///< 0 without a sun
     glm::vec3 to_sun{0.0F};
 };

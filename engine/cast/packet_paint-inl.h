@@ -101,38 +101,120 @@ HWY_INLINE ViewRays view_rays(const BlockPaint& paint, const PixelOffsets& pixel
     return view;
 }
 
-// Forward scattering: a wide glow around the disc.
-HWY_INLINE Floats sun_glow(const BlockPaint& paint, const ViewRays& view, Floats per_length) {
-    const Floats zero = hn::Zero(floats);
+// Unit vectors of the view rays: their rise, and the cosine of the angle to the sun.
+struct ViewAngles {
+    Floats rise;
+    Floats to_sun;
+};
+
+HWY_INLINE ViewAngles angles_of(const BlockPaint& paint, const ViewRays& view) {
+    const Floats per_length = hn::Div(all(1.0F), view.length);
     const Floats along =
         hn::MulAdd(view.x, all(paint.to_sun.x),
                    hn::MulAdd(view.y, all(paint.to_sun.y), hn::Mul(view.z, all(paint.to_sun.z))));
-    const Floats toward = hn::Max(hn::Mul(along, per_length), zero);
-    const Floats square = hn::Mul(toward, toward);
-    const Floats fourth = hn::Mul(square, square);
-    constexpr float disc_begin = 0.99985F;
-    constexpr float disc_width = 0.0001F;
-    const Floats into =
-        hn::Min(hn::Max(hn::Mul(hn::Sub(toward, all(disc_begin)), all(1.0F / disc_width)), zero),
-                all(1.0F));
-    const Floats disc = hn::Mul(hn::Mul(into, into), hn::NegMulAdd(all(2.0F), into, all(3.0F)));
-    return hn::MulAdd(all(0.18F), hn::Mul(fourth, fourth), disc);
+    return {hn::Mul(view.z, per_length), hn::Mul(along, per_length)};
 }
 
-HWY_INLINE Color sky_color(const BlockPaint& paint, const ViewRays& view) {
+HWY_INLINE Color with_added(const Color& color, glm::vec3 added, Floats share) {
+    return {hn::MulAdd(all(added.r), share, color.r), hn::MulAdd(all(added.g), share, color.g),
+            hn::MulAdd(all(added.b), share, color.b)};
+}
+
+// Forward scattering.
+HWY_INLINE Color with_glow(const BlockPaint& paint, const ViewAngles& angles, const Color& color) {
+    if (!paint.has_sun) {
+        return color;
+    }
+    const Floats toward = hn::Max(angles.to_sun, hn::Zero(floats));
+    const Floats square = hn::Mul(toward, toward);
+    const Floats fourth = hn::Mul(square, square);
+    return with_added(color, paint.glow, hn::Mul(fourth, fourth));
+}
+
+// A colour behind air whose density falls exponentially with height (Koschmieder 1924).
+HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, const Color& color,
+                             Floats metres) {
+    constexpr float log2_e = 1.4426950F;
+    const Floats eye_above = all(paint.eye_above);
+    const Floats eye_density = all(paint.eye_density);
+    const Floats above = hn::Max(hn::MulAdd(angles.rise, metres, eye_above), hn::Zero(floats));
+    const Floats density = exp2_of(hn::Mul(above, all(-log2_e * paint.per_height)));
+    const Floats rise = hn::Mul(hn::Sub(above, eye_above), all(paint.per_height));
+    const Floats even = hn::Mul(all(0.5F), hn::Add(eye_density, density));
+    const Floats mean = hn::IfThenElse(hn::Lt(hn::Abs(rise), all(0.1F)), even,
+                                       hn::Div(hn::Sub(eye_density, density), rise));
+    const Floats air = hn::Mul(mean, metres);
+    const auto left = [&](float extinction) HWY_ATTR {
+        return exp2_of(hn::Mul(air, all(-log2_e * extinction)));
+    };
+    const Color haze = with_glow(paint, angles, all(paint.horizon));
+    return {mixed(haze.r, color.r, left(paint.extinction.r)),
+            mixed(haze.g, color.g, left(paint.extinction.g)),
+            mixed(haze.b, color.b, left(paint.extinction.b))};
+}
+
+HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewAngles& angles) {
+    const Floats zero = hn::Zero(floats);
+    const Floats height = hn::Max(angles.rise, zero);
+    const Floats share = hn::Div(hn::Mul(height, all(1.0F + paint.curve)),
+                                 hn::Add(height, all(paint.curve)));
+    const Color sky =
+        with_glow(paint, angles, mixed(all(paint.horizon), all(paint.zenith), share));
+    if (!paint.has_sun) {
+        return sky;
+    }
+    constexpr float disc_begin = 0.99985F;
+    constexpr float disc_width = 0.0001F;
+    const Floats into = hn::Min(
+        hn::Max(hn::Mul(hn::Sub(angles.to_sun, all(disc_begin)), all(1.0F / disc_width)), zero),
+        all(1.0F));
+    const Floats disc = hn::Mul(hn::Mul(into, into), hn::NegMulAdd(all(2.0F), into, all(3.0F)));
+    return with_added(sky, paint.sun, disc);
+}
+
+HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) {
+    if (!paint.has_air) {
+        return all(paint.plane);
+    }
+    const Floats lowest = all(-1e-9F); // the rise of lanes above the horizon, which show no plane
+    const Floats metres = hn::Div(all(-paint.eye_above), hn::Min(angles.rise, lowest));
+    return through_air(paint, angles, all(paint.plane), metres);
+}
+
+HWY_INLINE Floats fraction_of(Floats x) {
+    return hn::Sub(x, hn::Floor(x));
+}
+
+// As in the shader of the sky.
+HWY_INLINE Color dithered(const BlockPaint& paint, const PixelOffsets& pixels, const Color& color) {
+    constexpr float repeat = 64.0F;
+    const auto place_of = [](Floats pixel) HWY_ATTR {
+        return hn::MulSub(fraction_of(hn::Mul(hn::Floor(pixel), all(1.0F / repeat))), all(repeat),
+                          hn::Zero(floats));
+    };
+    const Floats x = place_of(hn::Add(pixels.right, all(paint.from_corner.x)));
+    const Floats y = place_of(hn::Sub(all(paint.from_corner.y), pixels.down));
+    const Floats inner = fraction_of(hn::MulAdd(x, all(0.06711056F), hn::Mul(y, all(0.00583715F))));
+    const Floats noise = fraction_of(hn::Mul(all(52.9829189F), inner));
+    const Floats scale = hn::Mul(hn::Sub(noise, all(0.5F)), all(2.1F / 255.0F));
+    const auto moved = [&](Floats channel) HWY_ATTR {
+        return hn::MulAdd(scale, hn::Sqrt(hn::Max(channel, hn::Zero(floats))), channel);
+    };
+    return {moved(color.r), moved(color.g), moved(color.b)};
+}
+
+HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
+                           const ViewRays& view) {
     if (!paint.has_sky) {
         return all(glm::vec3(0.0F));
     }
-    const Floats zero = hn::Zero(floats);
-    const Floats per_length = hn::Div(all(1.0F), view.length);
-    const Floats height = hn::Mul(view.z, per_length);
-    const Color horizon = all(paint.horizon);
-    const Color above = mixed(horizon, all(paint.zenith), hn::Sqrt(hn::Max(height, zero)));
-    const Floats darker = hn::MulAdd(all(0.35F), hn::Max(height, all(-1.0F)), all(1.0F));
-    const Color sky = chosen(hn::Gt(height, zero), above, scaled(horizon, darker));
-    const Floats glow = sun_glow(paint, view, per_length);
-    return {hn::MulAdd(all(paint.sun.r), glow, sky.r), hn::MulAdd(all(paint.sun.g), glow, sky.g),
-            hn::MulAdd(all(paint.sun.b), glow, sky.b)};
+    const ViewAngles angles = angles_of(paint, view);
+    const Lanes below = hn::Lt(angles.rise, hn::Zero(floats));
+    if (!paint.has_plane || hn::AllFalse(floats, below)) {
+        return dithered(paint, pixels, above_horizon(paint, angles));
+    }
+    return dithered(paint, pixels,
+                    chosen(below, plane_color(paint, angles), above_horizon(paint, angles)));
 }
 
 // How the surface lies: its slopes at the hits, metres per sample.
@@ -280,12 +362,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, cons
                               const ViewRays& view, const PacketHits& hits) {
     const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
     const Color lit = lit_color(job, hits, level_of(job, rays, hits, metres));
-    if (paint.extinction <= 0.0F) {
-        return lit;
-    }
-    constexpr float log2_e = 1.4426950F;
-    const Floats left = exp2_of(hn::Mul(metres, all(-log2_e * paint.extinction)));
-    return mixed(all(paint.horizon), lit, left);
+    return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }
 
 // What a packet shows.
@@ -318,7 +395,7 @@ HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const Pi
             return look;
         }
     }
-    look.color = chosen(met.found, look.color, sky_color(paint, view));
+    look.color = chosen(met.found, look.color, sky_color(paint, pixels, view));
     return look;
 }
 

@@ -43,6 +43,8 @@ struct SourceOptions {
     /// The gallery's materials: a built-in one, "mixed" or a folder; absent: the scene file's.
     std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
+    /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else "relief".
+    std::optional<std::string> ramp;
     /// Absent: the scene file's, else the ellipsoid for georeferenced terrain.
     std::optional<terrain::PlacementKind> placement;
     std::optional<geo::GeodeticArea> area; ///< absent: the scene file's, else all
@@ -74,6 +76,9 @@ struct DetailChoice {
     std::optional<double> scale; ///< absent: the scene file's, else the material's
 };
 
+/// What lies beyond the terrain's edge.
+enum class BaseKind { plane, none };
+
 /// The default error bound if no technique is named either, pixels.
 inline constexpr double default_max_error = 1.0;
 
@@ -94,6 +99,10 @@ struct SceneOptions {
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
     std::optional<glm::dvec2> sun;   ///< azimuth, altitude, degrees; absent: the scene file's
+    std::optional<double> turbidity;  ///< [1, 10]; absent: the scene file's, else clear air
+    std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
+    std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
+    std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
     bool prepares_maps = true;       ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/cast/frame/driver.h"
 #include "engine/io/formats/flight_file.h"
+#include "engine/io/formats/ramp_file.h"
+#include "engine/scene/graph/daylight.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
@@ -16,12 +21,13 @@
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"
+#include "engine/terrain/field/tint.h"
 
 namespace reljef::session {
 namespace {
 
-// Clear air: a fifth of the contrast is gone after one and a half widths.
-constexpr double visibility_in_widths = 25.0;
+// A third of the contrast is gone after one width, at the height of the lowest ground.
+constexpr double visibility_in_widths = 10.0;
 constexpr std::size_t part_for_triangles = 4; // of the memory
 
 // With little memory: a quarter of those of the tiles that are enough for any view.
@@ -33,9 +39,29 @@ std::size_t triangles_within(int megabytes) {
     return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
 }
 
-scene::TerrainOptions terrain_options(const SourceOptions& choice, const SceneOptions& view,
-                                      const io::SceneDescription& description) {
+Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice,
+                                   const io::SceneDescription& description) {
+    const std::string& name = choice.ramp ? *choice.ramp : description.ramp;
+    if (auto built_in = terrain::named_ramp(name.empty() ? terrain::default_ramp : name)) {
+        return std::move(*built_in);
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored)) {
+        const Error error{fmt::format("--ramp: '{}' found, a colour file or one of {} was expected",
+                                      name, fmt::join(terrain::ramp_names(), ", "))};
+        return choice.ramp ? usage_error(error.message) : error;
+    }
+    return io::read_ramp_file(name);
+}
+
+Result<scene::TerrainOptions> terrain_options(const SourceOptions& choice, const SceneOptions& view,
+                                              const io::SceneDescription& description) {
     scene::TerrainOptions options;
+    auto ramp = ramp_of(choice, description);
+    if (!ramp) {
+        return ramp.error();
+    }
+    options.ramp = std::move(*ramp);
     options.exaggeration = choice.exaggeration.value_or(description.exaggeration);
     options.placement = choice.placement;
     if (!options.placement && description.placement) {
@@ -210,13 +236,79 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
 
 } // namespace
 
+namespace {
+
+// Whether most of the border is level with the sea.
+bool is_in_sea(const terrain::Heightfield& heightfield) {
+    const Grid<float>& heights = heightfield.heights;
+    std::size_t sea = 0;
+    std::size_t count = 0;
+    const auto add = [&](int col, int row) {
+        sea += heights(col, row) == 0.0F ? 1U : 0U;
+        ++count;
+    };
+    for (int col = 0; col < heights.cols(); ++col) {
+        add(col, 0);
+        add(col, heights.rows() - 1);
+    }
+    for (int row = 0; row < heights.rows(); ++row) {
+        add(0, row);
+        add(heights.cols() - 1, row);
+    }
+    return 2 * sea > count;
+}
+
+// The sea around an island; else pale and of no colour, so that the terrain stands out from it.
+glm::vec3 base_albedo(const scene::TerrainSurface& surface) {
+    return is_in_sea(surface.heightfield()) ? linear_from_rgba8(terrain::HeightTint::water)
+                                            : glm::vec3(0.42F, 0.42F, 0.41F);
+}
+
+// Light, sky and air. Air gets thinner with the terrain's own heights, or with a part of its width.
+void add_daylight(TerrainScene& result, const io::SceneDescription& description,
+                  const SceneOptions& view) {
+    scene::Light sun;
+    sun.azimuth = view.sun ? view.sun->x : description.sun_azimuth;
+    sun.altitude = view.sun ? view.sun->y : description.sun_altitude;
+    sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
+    const double turbidity = view.turbidity.value_or(
+        description.turbidity.value_or(scene::default_turbidity));
+    const scene::Daylight daylight = scene::daylight_at(sun.altitude, turbidity);
+    sun.color = daylight.sun;
+    sun.ambient = daylight.ambient;
+    result.light = &result.scene.add_light(sun);
+
+    scene::Sky sky = daylight.sky;
+    const glm::dvec3 size = result.bounds.size();
+    const double width = std::max(size.x, size.y);
+    const auto visibility = view.visibility ? view.visibility : description.visibility;
+    sky.visibility = visibility.value_or(visibility_in_widths * std::max(width, size.z));
+    constexpr double in_heights = 1.5;
+    constexpr double in_widths = 0.05;
+    sky.air_height = std::max(in_heights * size.z, in_widths * width);
+    sky.base = result.bounds.low.z;
+    const bool has_plane = view.base ? *view.base == BaseKind::plane : description.base != "none";
+    constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
+    if (has_plane && width <= max_plane_width) {
+        const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
+        sky.plane = base_albedo(*result.terrain->get<scene::TerrainNode>()->surface) *
+                    (level * sun.color + sun.ambient);
+    }
+    result.scene.set_sky(sky);
+}
+
+} // namespace
+
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
     TerrainScene result;
     result.is_gallery = source.description.generator == "gallery";
     result.failed_files = source.terrain.errors.size();
     const auto options = terrain_options(terrain, view, source.description);
-    auto node = result.scene.add_terrain(std::move(source.terrain), options);
+    if (!options) {
+        return options.error();
+    }
+    auto node = result.scene.add_terrain(std::move(source.terrain), *options);
     if (!node) {
         return node.error();
     }
@@ -241,15 +333,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return done.error();
     }
 
-    scene::Light sun;
-    sun.azimuth = view.sun ? view.sun->x : source.description.sun_azimuth;
-    sun.altitude = view.sun ? view.sun->y : source.description.sun_altitude;
-    result.light = &result.scene.add_light(sun);
-    scene::Sky sky;
-    const glm::dvec3 size = result.bounds.size();
-    sky.visibility = source.description.visibility.value_or(visibility_in_widths *
-                                                            std::max({size.x, size.y, size.z}));
-    result.scene.set_sky(sky);
+    add_daylight(result, source.description, view);
 
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {

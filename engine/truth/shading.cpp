@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
@@ -11,12 +12,20 @@
 namespace reljef::truth {
 namespace {
 
-// Forward scattering: a wide glow around the disc.
-glm::vec3 sun_glow(const scene::Light& sun, glm::dvec3 direction) {
-    const double toward = std::max(glm::dot(direction, scene::to_light(sun)), 0.0);
-    const double glow = std::pow(toward, 8);
-    const double disc = glm::smoothstep(0.99985, 0.99995, toward);
-    return sun.color * static_cast<float>(0.18 * glow + disc);
+float toward_sun(const std::optional<scene::Light>& sun, glm::dvec3 direction) {
+    return sun ? static_cast<float>(
+                     std::pow(std::max(glm::dot(direction, scene::to_light(*sun)), 0.0), 8))
+               : 0.0F;
+}
+
+// Mean of exp(-z / height) between two heights above the base.
+double mean_density(const scene::Sky& sky, double from, double to) {
+    if (sky.air_height <= 0.0) {
+        return 1.0;
+    }
+    const double low = std::max(std::min(from, to), 0.0) / sky.air_height;
+    const double rise = std::abs(std::max(from, 0.0) - std::max(to, 0.0)) / sky.air_height;
+    return std::exp(-low) * (rise > 0.0 ? -std::expm1(-rise) / rise : 1.0);
 }
 
 bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
@@ -29,18 +38,35 @@ bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
 
 } // namespace
 
-glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun,
-                    glm::dvec3 direction) {
-    direction = glm::normalize(direction);
-    const auto height = static_cast<float>(direction.z);
-    const glm::vec3 color = height > 0.0F ? glm::mix(sky.horizon, sky.zenith, std::sqrt(height))
-                                          : sky.horizon * (1.0F + 0.35F * std::max(height, -1.0F));
-    return sun ? color + sun_glow(*sun, direction) : color;
+glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray) {
+    const glm::dvec3 direction = glm::normalize(ray.direction);
+    if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
+        return seen_through_air(sky, sun, *sky.plane, ray,
+                                (sky.base - ray.origin.z) / direction.z);
+    }
+    const auto height = static_cast<float>(std::max(direction.z, 0.0));
+    const float share = height * (1.0F + sky.curve) / (height + sky.curve);
+    const glm::vec3 color =
+        glm::mix(sky.horizon, sky.zenith, share) + sky.glow * toward_sun(sun, direction);
+    if (!sun) {
+        return color;
+    }
+    const double disc =
+        glm::smoothstep(0.99985, 0.99995, glm::dot(direction, scene::to_light(*sun)));
+    return color + sun->color * static_cast<float>(disc);
 }
 
-glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance) {
-    const double left = std::exp(-scene::extinction(sky) * distance);
-    return glm::mix(sky.horizon, color, static_cast<float>(left));
+glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Light>& sun,
+                           glm::vec3 color, const Ray& ray, double distance) {
+    if (sky.visibility <= 0.0) {
+        return color;
+    }
+    const glm::dvec3 direction = glm::normalize(ray.direction);
+    const double eye = ray.origin.z - sky.base;
+    const double depth = scene::extinction(sky) * distance *
+                         mean_density(sky, eye, eye + direction.z * distance);
+    const glm::vec3 left = glm::exp(-static_cast<float>(depth) * sky.fading);
+    return glm::mix(sky.horizon + sky.glow * toward_sun(sun, direction), color, left);
 }
 
 Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)
@@ -82,20 +108,20 @@ glm::vec3 Shading::irradiance(const Maps& maps, const SceneHit& hit, glm::dvec2 
                                                                     : parts.sky;
 }
 
-glm::vec3 Shading::at(const SceneHit& hit, double distance) const {
-    return backdrop_.through_air(at(hit), distance);
+glm::vec3 Shading::at(const SceneHit& hit, const Ray& ray, double distance) const {
+    return backdrop_.through_air(at(hit), ray, distance);
 }
 
-glm::vec3 Backdrop::through_air(glm::vec3 color, double distance) const {
-    return sky ? seen_through_air(*sky, color, distance) : color;
+glm::vec3 Backdrop::through_air(glm::vec3 color, const Ray& ray, double distance) const {
+    return sky ? seen_through_air(*sky, sun, color, ray, distance) : color;
 }
 
-glm::vec3 Backdrop::behind(glm::dvec3 direction) const {
-    return sky ? sky_color(*sky, sun, direction) : glm::vec3(0.0F);
+glm::vec3 Backdrop::behind(const Ray& ray) const {
+    return sky ? sky_color(*sky, sun, ray) : glm::vec3(0.0F);
 }
 
-glm::vec3 Shading::background(glm::dvec3 direction) const {
-    return backdrop_.behind(direction);
+glm::vec3 Shading::background(const Ray& ray) const {
+    return backdrop_.behind(ray);
 }
 
 bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun) {

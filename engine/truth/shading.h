@@ -13,23 +13,23 @@
 
 namespace reljef::truth {
 
-/// Linear sky colour in a direction of any length. From the horizon's to the zenith's colour it
-/// grows with the root of the height; it is darker below the horizon. A sun adds glow and disc.
-glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun,
-                    glm::dvec3 direction);
+/// Linear colour of the sky along a world ray (scene::Sky), or of the plane below it; a sun adds glow
+/// and disc.
+glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray);
 
-/// A linear colour seen through `distance` metres of air (Koschmieder 1924).
-glm::vec3 seen_through_air(const scene::Sky& sky, glm::vec3 color, double distance);
+/// A linear colour through `distance` metres of air along a world ray (Koschmieder 1924).
+glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Light>& sun,
+                           glm::vec3 color, const Ray& ray, double distance);
 
 /// The sky and the air of a scene.
 struct Backdrop {
     std::optional<scene::Light> sun;
     std::optional<scene::Sky> sky;
 
-    /// A linear colour through `distance` metres of air.
-    [[nodiscard]] glm::vec3 through_air(glm::vec3 color, double distance) const;
+    /// A linear colour through `distance` metres of air along a world ray.
+    [[nodiscard]] glm::vec3 through_air(glm::vec3 color, const Ray& ray, double distance) const;
     /// Linear; black without a sky.
-    [[nodiscard]] glm::vec3 behind(glm::dvec3 direction) const;
+    [[nodiscard]] glm::vec3 behind(const Ray& ray) const;
 };
 
 enum class SunShadow {
@@ -52,9 +52,9 @@ public:
     /// Albedo times irradiance (scene/terrain_light.h); without a light the albedo.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit) const;
     /// The same through `distance` metres of air.
-    [[nodiscard]] glm::vec3 at(const SceneHit& hit, double distance) const;
+    [[nodiscard]] glm::vec3 at(const SceneHit& hit, const Ray& ray, double distance) const;
     /// The sky; black without one.
-    [[nodiscard]] glm::vec3 background(glm::dvec3 direction) const;
+    [[nodiscard]] glm::vec3 background(const Ray& ray) const;
 
 private:
     struct Maps {

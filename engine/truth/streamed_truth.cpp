@@ -157,9 +157,9 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     const glm::dvec2 on_overview =
         builder.around_overview(builder.on_overview(glm::dvec2(hit.sample)));
-    const float visibility =
-        irradiance_->visibility(glm::clamp(on_overview, glm::dvec2(0.0), last));
-    return albedo * irradiance_->at(part.normal_at(place), part.up, visibility);
+    const glm::dvec2 inside = glm::clamp(on_overview, glm::dvec2(0.0), last);
+    return albedo * irradiance_->at(part.normal_at(place), part.up,
+                                    irradiance_->visibility(inside), irradiance_->openness(inside));
 }
 
 Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
@@ -167,7 +167,7 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
     batch.colors.resize(batch.places.size());
     for (std::size_t i = 0; i < batch.hits.size(); ++i) {
         if (!batch.hits[i]) {
-            batch.colors[i] = backdrop_.behind(eye.ray(batch.places[i]).direction);
+            batch.colors[i] = backdrop_.behind(eye.ray(batch.places[i]));
         }
     }
     const scene::TileStream& stream = surface_.stream();
@@ -206,8 +206,9 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
     for (const std::uint32_t ray : hits.rays) {
         const terrain::SurfaceHit& hit = *batch.hits[ray];
         const glm::vec3 color = color_in_tile(*content, whole ? &*whole : nullptr, hits.tile, hit);
+        const Ray view_ray = eye.ray(batch.places[ray]);
         batch.colors[ray] =
-            backdrop_.through_air(color, eye.distance(eye.ray(batch.places[ray]), hit.t));
+            backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.t));
     }
     return {};
 }

@@ -1,7 +1,32 @@
-// The fragment's light after absorption and scattering by the air (Koschmieder 1924).
+// The 8th power of the cosine of the angle to the sun: forward scattering.
+float toward_sun(vec3 direction) {
+#ifdef LIT
+    float toward = max(dot(direction, to_sun.xyz), 0.0);
+    toward *= toward;
+    toward *= toward;
+    return toward * toward;
+#else
+    return 0.0;
+#endif
+}
+
+// A colour behind air whose density falls exponentially with height (Koschmieder 1924). `direction`: unit.
+vec3 through_air(vec3 color, vec3 direction, float metres) {
+    float eye_density = sky_glow.a;
+    float above = max(sky_plane.a + direction.z * metres, 0.0);
+    float density = exp(-above * air.a);
+    float rise = (above - sky_plane.a) * air.a;
+    float mean = abs(rise) < 0.1 ? 0.5 * (eye_density + density) : (eye_density - density) / rise;
+    vec3 left = exp(-air.rgb * (mean * metres));
+    return mix(sky_horizon.rgb + sky_glow.rgb * toward_sun(direction), color, left);
+}
+
+// The fragment's light after absorption and scattering by the air.
 vec3 seen_through_air(vec3 color, float metres) {
 #ifdef FOG
-    return mix(sky_horizon.rgb, color, exp(-sky_horizon.a * metres));
+    vec2 place = gl_FragCoord.xy * pixel_share.xy;
+    vec3 direction = normalize(ray_corner.xyz + place.x * ray_right.xyz + place.y * ray_up.xyz);
+    return through_air(color, direction, metres);
 #else
     return color;
 #endif

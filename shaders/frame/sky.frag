@@ -1,21 +1,40 @@
 #include "frame/frame_block.glsl"
+#include "frame/air.glsl"
 
 in vec3 ray;
 
 layout(location = 0) out vec4 color;
 
+// Of the plane at the base, below the horizon.
+vec3 plane_color(vec3 direction) {
+#ifdef FOG
+    return through_air(sky_plane.rgb, direction, sky_plane.a / -direction.z);
+#else
+    return sky_plane.rgb;
+#endif
+}
+
+vec3 sky_color(vec3 direction) {
+    float height = max(direction.z, 0.0);
+    float curve = sky_zenith.a;
+    vec3 sky = mix(sky_horizon.rgb, sky_zenith.rgb, height * (1.0 + curve) / (height + curve));
+#ifdef LIT
+    sky += sky_glow.rgb * toward_sun(direction);
+    sky += sun_color.rgb * smoothstep(0.99985, 0.99995, dot(direction, to_sun.xyz));
+#endif
+    return sky;
+}
+
+// Spreads the error of 8 bits over neighbouring pixels (interleaved gradient noise, Jimenez 2014). 2.1 times
+// the root is nearly the derivative of linear light by its sRGB value.
+vec3 dithered(vec3 linear) {
+    vec2 place = mod(floor(gl_FragCoord.xy), 64.0);
+    float noise = fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715))));
+    return linear + (noise - 0.5) / 255.0 * 2.1 * sqrt(max(linear, 0.0));
+}
+
 void main() {
     vec3 direction = normalize(ray);
-    float height = direction.z;
-    vec3 sky = height > 0.0 ? mix(sky_horizon.rgb, sky_zenith.rgb, sqrt(height))
-                            : sky_horizon.rgb * (1.0 + 0.35 * max(height, -1.0));
-#ifdef LIT
-    // Forward scattering: a wide glow around the disc.
-    float toward = max(dot(direction, to_sun.xyz), 0.0);
-    float glow = toward * toward;
-    glow *= glow;
-    glow *= glow;
-    sky += sun_color.rgb * (0.18 * glow + smoothstep(0.99985, 0.99995, toward));
-#endif
-    color = vec4(sky, 1.0);
+    bool is_plane = sky_horizon.a > 0.0 && direction.z < 0.0;
+    color = vec4(dithered(is_plane ? plane_color(direction) : sky_color(direction)), 1.0);
 }

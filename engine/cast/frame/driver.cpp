@@ -95,13 +95,23 @@ BlockPaint backdrop_of(const view::DrawList& list) {
     BlockPaint paint;
     if (list.sky) {
         paint.has_sky = true;
-        paint.horizon = list.sky->horizon;
-        paint.zenith = list.sky->zenith;
+        const scene::Sky& sky = *list.sky;
+        const scene::AirSeen air = scene::air_seen(sky, list.camera);
+        paint.horizon = sky.horizon;
+        paint.zenith = sky.zenith;
+        paint.glow = sky.glow;
+        paint.curve = sky.curve;
+        paint.has_plane = air.has_plane;
+        paint.plane = sky.plane.value_or(glm::vec3(0.0F));
         // On a map there is no viewing distance.
-        paint.extinction =
-            is_perspective(list) ? static_cast<float>(scene::extinction(*list.sky)) : 0.0F;
+        paint.has_air = is_perspective(list) && sky.visibility > 0.0;
+        paint.extinction = air.extinction;
+        paint.eye_above = air.eye_above;
+        paint.eye_density = air.eye_density;
+        paint.per_height = air.per_height;
     }
     if (list.sun) {
+        paint.has_sun = true;
         paint.sun = list.sun->color;
         paint.to_sun = glm::vec3(scene::to_light(*list.sun));
     }
@@ -391,6 +401,7 @@ private:
         BlockPaint paint = shared_;
         const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
         paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
+        paint.from_corner = glm::vec2(middle.x, first_.picture.rows() - middle.y);
         return paint;
     }
 

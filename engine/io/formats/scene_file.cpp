@@ -28,6 +28,8 @@ constexpr NumberRange altitudes{0.0, 90.0, true};
 constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_width, false};
 constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
+constexpr NumberRange turbidities{1.0, 10.0, false};
+constexpr std::array<std::string_view, 2> bases{"plane", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
@@ -75,6 +77,10 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("placement", placement, placements);
     if (!placement.empty()) {
         scene.placement = placement;
+    }
+    table.read("ramp", scene.ramp);
+    if (!scene.ramp.empty() && !terrain::named_ramp(scene.ramp)) {
+        scene.ramp = (folder / scene.ramp).string();
     }
     if (scene.height_scale == 0.0) {
         table.fail("height_scale", "is 0, another number was expected");
@@ -173,6 +179,9 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     sun.read("azimuth", scene.sun_azimuth, azimuths);
     sun.read("altitude", scene.sun_altitude, altitudes);
     air.read("visibility", scene.visibility, positive);
+    air.read("turbidity", scene.turbidity, turbidities);
+    air.read("base", scene.base, bases);
+    sun.read("occlusion", scene.hides_sky);
     read_camera_keys(camera, scene);
     for (const TomlTable* table :
          {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {

@@ -41,6 +41,8 @@ struct SceneDescription {
     std::string gaps = "holes";                 ///< folder only: "holes" or "sea" outside the tiles
     double exaggeration = 1.0;                  ///< (0, 1000]
     std::optional<std::string> placement;       ///< "plane" or "ellipsoid"; absent: by the data
+    /// Colours by height: a built-in ramp, or a colour file relative to the scene file.
+    std::string ramp;
 
     // [area]: part of a folder to use
     std::optional<geo::GeodeticArea> area;
@@ -58,6 +60,9 @@ struct SceneDescription {
 
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility;
+    std::optional<double> turbidity;  ///< [1, 10]; absent: clear air
+    std::string base;                 ///< below the terrain's edge: "plane" or "none"; empty: plane
+    bool hides_sky = true;            ///< whether terrain keeps the sky's light from itself
 
     // [camera]: scene metres; absent: all of the terrain is seen
     std::optional<glm::dvec3> eye;

@@ -19,6 +19,7 @@ void set_rays(FrameBlock& block, const view::DrawList& list) {
     block.ray_right = glm::vec4(glm::vec3(right - corner), 0.0F);
     block.ray_up = glm::vec4(glm::vec3(up - corner), 0.0F);
     block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
+    block.pixel_share = glm::vec4(1.0F / glm::vec2(list.size), 0.0F, 0.0F);
 }
 
 } // namespace
@@ -39,9 +40,13 @@ FrameBlock frame_block(const view::DrawList& list) {
         block.ambient_color = glm::vec4(list.sun->ambient, 0.0F);
     }
     if (list.sky) {
-        block.sky_zenith = glm::vec4(list.sky->zenith, 0.0F);
-        block.sky_horizon =
-            glm::vec4(list.sky->horizon, static_cast<float>(scene::extinction(*list.sky)));
+        const scene::Sky& sky = *list.sky;
+        const scene::AirSeen air = scene::air_seen(sky, list.camera);
+        block.sky_zenith = glm::vec4(sky.zenith, sky.curve);
+        block.sky_horizon = glm::vec4(sky.horizon, air.has_plane ? 1.0F : 0.0F);
+        block.sky_glow = glm::vec4(sky.glow, air.eye_density);
+        block.air = glm::vec4(air.extinction, air.per_height);
+        block.sky_plane = glm::vec4(sky.plane.value_or(glm::vec3(0.0F)), air.eye_above);
     }
     return block;
 }

@@ -25,7 +25,8 @@ static_assert(offsetof(FrameBlock, ray_from_pixel) == 64 + 6 * 16);
 static_assert(offsetof(FrameBlock, vertex_grid) == 64 + 7 * 16);
 static_assert(offsetof(FrameBlock, projection) == 64 + 8 * 16);
 static_assert(offsetof(FrameBlock, ray_up) == 64 + 11 * 16);
-static_assert(sizeof(FrameBlock) == 64 + 12 * 16);
+static_assert(offsetof(FrameBlock, sky_plane) == 64 + 14 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 16 * 16);
 inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_block_binding,
                                                 sizeof(FrameBlock)};
 

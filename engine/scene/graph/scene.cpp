@@ -85,6 +85,19 @@ double extinction(const Sky& sky) {
     return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
 }
 
+AirSeen air_seen(const Sky& sky, const Camera& camera) {
+    AirSeen seen;
+    const double above = camera.eye.z - sky.base;
+    seen.extinction = static_cast<float>(extinction(sky)) * sky.fading;
+    seen.eye_above = static_cast<float>(std::max(above, 0.0));
+    if (sky.air_height > 0.0) {
+        seen.per_height = static_cast<float>(1.0 / sky.air_height);
+        seen.eye_density = static_cast<float>(std::exp(-std::max(above, 0.0) / sky.air_height));
+    }
+    seen.has_plane = sky.plane.has_value() && above > 0.0;
+    return seen;
+}
+
 Node::Node(std::string name, Content content)
     : name_(std::move(name)), content_(std::move(content)) {}
 

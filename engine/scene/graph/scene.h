@@ -18,17 +18,36 @@
 
 namespace reljef::scene {
 
-/// The background, and the air in front of it.
+/// The background, and the air in front of it. At a sine h of the height above the horizon the sky
+/// is a share h · (1 + curve) / (h + curve) of the way from the horizon's to the zenith's colour,
+/// plus the glow times the 8th power of the cosine of the angle to the sun. All colours are linear.
 struct Sky {
-    glm::vec3 zenith{0.13F, 0.30F, 0.62F};  ///< linear
-    glm::vec3 horizon{0.62F, 0.74F, 0.87F}; ///< linear
-    double visibility = 0.0;                ///< metres to 2 % contrast (Koschmieder); 0: no fog
+    glm::vec3 zenith{0.13F, 0.30F, 0.62F};
+    glm::vec3 horizon{0.62F, 0.74F, 0.87F};
+    glm::vec3 glow{0.30F, 0.28F, 0.25F};
+    float curve = 0.2F;      ///< > 0
+    double visibility = 0.0; ///< metres to 2 % contrast at `base` (Koschmieder); 0: no fog
+    glm::vec3 fading{1.0F};  ///< extinction of the three colours, relative to the mean one
+    double air_height = 0.0; ///< metres to 1/e of the air's density; 0: the same everywhere
+    double base = 0.0;       ///< z of the full density and of the plane, world metres
+    /// Reflected light of an endless plane at `base`; absent: the horizon's haze.
+    std::optional<glm::vec3> plane;
 
     friend bool operator==(const Sky&, const Sky&) = default;
 };
 
-/// Extinction coefficient of the air, 1/metre; 0 without fog.
+/// Extinction coefficient of the air at its base, 1/metre; 0 without fog.
 double extinction(const Sky& sky);
+
+/// The air as seen from an eye, for shaders and kernels.
+struct AirSeen {
+    glm::vec3 extinction{0.0F}; ///< 1/metre
+    float eye_above = 0.0F;     ///< metres above the base, >= 0
+    float eye_density = 1.0F;   ///< relative to that at the base
+    float per_height = 0.0F;    ///< 1/metre; 0: the same density everywhere
+    bool has_plane = false;     ///< and the eye is above it
+};
+AirSeen air_seen(const Sky& sky, const Camera& camera);
 
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;

@@ -8,11 +8,24 @@
 
 #include "engine/core/bilinear.h"
 #include "engine/terrain/field/gradient.h"
+#include "engine/terrain/field/sky_share.h"
 #include "engine/terrain/field/sun_visibility.h"
 #include "engine/terrain/field/tint.h"
 
 namespace reljef::scene {
 namespace {
+
+float share_of_byte(std::uint8_t byte) {
+    return static_cast<float>(byte) / 255.0F;
+}
+
+Grid<std::uint8_t> share_of_sky(const TerrainSurface& surface, const TerrainLight& light) {
+    const terrain::Heightfield& heightfield = surface.heightfield();
+    return light.sun.is_sky_hidden
+               ? terrain::sky_share(heightfield.heights.view(), heightfield.spacing,
+                                    surface.placement().exaggeration())
+               : Grid<std::uint8_t>();
+}
 
 Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const TerrainLight& light) {
     const terrain::Heightfield& heightfield = surface.heightfield();
@@ -36,12 +49,13 @@ Image albedo_map(const TerrainSurface& surface) {
                                     [](Rgba8 pixel) { return pixel.a == 255; });
     return opaque
                ? terrain.color
-               : terrain::composite(terrain.color, terrain::hypsometric_tint(terrain.heightfield));
+               : terrain::composite(terrain.color,
+                                    terrain::hypsometric_tint(terrain.heightfield, surface.ramp()));
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)
     : gradients_(terrain::surface_gradients(surface.heightfield(), surface.placement())),
-      visibility_(visibility_of_sun(surface, light)),
+      visibility_(visibility_of_sun(surface, light)), sky_share_(share_of_sky(surface, light)),
       world_from_normal_(glm::inverseTranspose(light.world_from_local)),
       to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient),
       is_day_((glm::inverse(light.world_from_local) * to_light(light.sun)).z > 0.0) {}
@@ -52,33 +66,48 @@ glm::vec3 TerrainIrradiance::normal_at(glm::dvec2 sample) const {
 }
 
 float TerrainIrradiance::visibility(glm::dvec2 sample) const {
-    return bilinear(visibility_, sample, [](std::uint8_t share) { return share / 255.0F; });
+    return bilinear(visibility_, sample, share_of_byte);
+}
+
+float TerrainIrradiance::sky_at(glm::dvec2 sample, glm::vec3 normal) const {
+    return sky_share_.empty() ? 0.5F + 0.5F * normal.z
+                              : bilinear(sky_share_, sample, share_of_byte);
+}
+
+float TerrainIrradiance::openness(glm::dvec2 sample) const {
+    if (sky_share_.empty()) {
+        return 1.0F;
+    }
+    const float free = 0.5F + 0.5F * normal_at(sample).z;
+    return std::min(bilinear(sky_share_, sample, share_of_byte) / free, 1.0F);
 }
 
 glm::vec3 TerrainIrradiance::at(glm::dvec2 sample) const {
     const glm::vec3 normal = normal_at(sample);
     const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility(sample);
-    return sun_ * sun + sky_ * (0.5F + 0.5F * normal.z);
+    return sun_ * sun + sky_ * sky_at(sample, normal);
 }
 
-glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility) const {
+glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility,
+                                float openness) const {
     const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
     const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
     const float sun = std::max(glm::dot(turned, to_sun_), 0.0F) * visibility;
-    return sun_ * sun + sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up));
+    return sun_ * sun + sky_ * (openness * (0.5F + 0.5F * glm::dot(turned, turned_up)));
 }
 
-IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up) const {
+IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up,
+                                            float openness) const {
     const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
     const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
     const float sun = is_day_ ? std::max(glm::dot(turned, to_sun_), 0.0F) : 0.0F;
-    return {sky_ * (0.5F + 0.5F * glm::dot(turned, turned_up)), sun_ * sun};
+    return {sky_ * (openness * (0.5F + 0.5F * glm::dot(turned, turned_up))), sun_ * sun};
 }
 
 IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {
     const glm::vec3 normal = normal_at(sample);
     const float sun = is_day_ ? std::max(glm::dot(normal, to_sun_), 0.0F) : 0.0F;
-    return {sky_ * (0.5F + 0.5F * normal.z), sun_ * sun};
+    return {sky_ * sky_at(sample, normal), sun_ * sun};
 }
 
 } // namespace reljef::scene

@@ -42,9 +42,13 @@ public:
 
     /// For a finer tile of the same terrain: its normal and up (unit vectors of the local frame),
     /// and the visible share of the sun.
-    [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility) const;
+    [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility,
+                               float openness = 1.0F) const;
     /// For callers that compute shadows themselves.
-    [[nodiscard]] IrradianceParts parts_at(glm::vec3 normal, glm::vec3 up) const;
+    [[nodiscard]] IrradianceParts parts_at(glm::vec3 normal, glm::vec3 up,
+                                           float openness = 1.0F) const;
+    /// Light of the sky as a share of that which a place of this slope has on a free plane.
+    [[nodiscard]] float openness(glm::dvec2 sample) const;
     /// The share of the sun that the terrain does not hide, [0, 1].
     [[nodiscard]] float visibility(glm::dvec2 sample) const;
 
@@ -53,9 +57,11 @@ public:
 
 private:
     [[nodiscard]] glm::vec3 normal_at(glm::dvec2 sample) const;
+    [[nodiscard]] float sky_at(glm::dvec2 sample, glm::vec3 normal) const;
 
     Grid<glm::vec2> gradients_;
     Grid<std::uint8_t> visibility_;
+    Grid<std::uint8_t> sky_share_; // empty: nothing hides the sky
     glm::mat3 world_from_normal_;
     glm::vec3 to_sun_;
     glm::vec3 sun_;

@@ -18,8 +18,8 @@ std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::Tile& samples) 
 } // namespace
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
-                               terrain::Placement placement)
-    : terrain_(std::move(terrain)), placement_(std::move(placement)),
+                               terrain::Placement placement, terrain::ColorRamp ramp)
+    : terrain_(std::move(terrain)), placement_(std::move(placement)), ramp_(std::move(ramp)),
       pyramid_(terrain_->heightfield.heights.view()) {
     const terrain::Heightfield& heightfield = terrain_->heightfield;
     for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement_)) {
@@ -45,7 +45,7 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
     if (!placement) {
         return placement.error();
     }
-    return TerrainSurface(std::move(terrain), std::move(*placement));
+    return TerrainSurface(std::move(terrain), std::move(*placement), options.ramp);
 }
 
 std::optional<double> TerrainSurface::height_at(double x, double y) const {

@@ -7,6 +7,7 @@
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/scene/streaming/terrain_tile.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/placement.h"
@@ -18,6 +19,7 @@ struct TerrainOptions {
     /// Absent: ellipsoid for georeferenced heights, otherwise plane.
     std::optional<terrain::PlacementKind> placement;
     double exaggeration = 1.0;
+    terrain::ColorRamp ramp = *terrain::named_ramp(terrain::default_ramp); ///< where no image lies
 };
 
 /// A terrain in a node's local frame (metres, x east, y north, z up), for drawing and queries. The
@@ -30,6 +32,7 @@ public:
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
+    [[nodiscard]] const terrain::ColorRamp& ramp() const { return ramp_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
 
     /// Row after row. They borrow the samples of this surface.
@@ -48,10 +51,12 @@ public:
     [[nodiscard]] std::optional<terrain::SurfaceHit> pick(const Ray& ray) const;
 
 private:
-    TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain, terrain::Placement placement);
+    TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain, terrain::Placement placement,
+                   terrain::ColorRamp ramp);
 
     std::shared_ptr<const terrain::Terrain> terrain_;
     terrain::Placement placement_;
+    terrain::ColorRamp ramp_;
     terrain::MinMaxPyramid pyramid_;
     std::vector<std::shared_ptr<const TerrainTile>> tiles_;
     std::vector<Box> flat_bounds_;

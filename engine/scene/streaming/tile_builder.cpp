@@ -105,6 +105,12 @@ bool is_sea(const Grid<float>& heights, int col, int row) {
     return true;
 }
 
+// Rise over run to the east and to the north. `spacing`: metres between samples.
+glm::vec2 gradient_at(const Grid<float>& heights, glm::ivec2 at, glm::vec2 spacing) {
+    return {(heights(at.x + 1, at.y) - heights(at.x - 1, at.y)) / (2.0F * spacing.x),
+            (heights(at.x, at.y - 1) - heights(at.x, at.y + 1)) / (2.0F * spacing.y)};
+}
+
 bool is_void_at(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
     const Grid<std::uint8_t>& voids = heightfield.void_mask;
     const glm::ivec2 nearest(glm::round(sample));
@@ -142,7 +148,10 @@ std::size_t bytes_of_tile(int texels_per_cell) {
 TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
                          int reduction, const ImageryDetail& imagery, const geo::GlobalWrap& wrap)
     : overview_(std::move(overview)), tree_(tree), reduction_{reduction, {}, {}}, imagery_(imagery),
-      tint_(overview_->heightfield()) {
+      tint_(overview_->ramp(), overview_->heightfield()) {
+    if (tint_.has_water()) {
+        water_ = terrain::water_mask(overview_->heightfield());
+    }
     check(reduction >= 1 && imagery.refinement >= 1,
           "an overview of a reduction of at least 1 was expected");
     reduction_.rows = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
@@ -312,8 +321,7 @@ double TileBuilder::overview_error(terrain::TreeTile tile) const {
     return overview_->placement().exaggeration() * largest;
 }
 
-Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
-    const Rgba8 tint = tint_.at(height);
+Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, Rgba8 tint) const {
     const Image& picture = overview_->terrain().color;
     if (picture.empty()) {
         return tint;
@@ -328,6 +336,14 @@ Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, float height) const {
     return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
 }
 
+bool TileBuilder::is_lake(glm::dvec2 overview_sample) const {
+    if (water_.empty()) {
+        return false;
+    }
+    const glm::ivec2 nearest(glm::round(around_overview(overview_sample)));
+    return water_.clamped(nearest.x, nearest.y) != 0;
+}
+
 float TileBuilder::void_height(glm::dvec2 sample) const {
     return static_cast<float>(terrain::bilinear_height(overview_->heightfield().heights.view(),
                                                        around_overview(on_overview(sample))));
@@ -337,15 +353,22 @@ Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
                                  const Grid<float>& around, const Grid<std::uint8_t>& voids,
                                  bool with_overview) const {
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
+    const glm::vec2 spacing(overview_->heightfield().spacing *
+                            (step(tile.id) / reduction_.factor));
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
-            const float height = tile.heightfield.heights(col, row);
-            colors(col, row) =
-                voids(col + 1, row + 1) != 0       ? terrain::HeightTint::no_data
-                : is_sea(around, col + 1, row + 1) ? terrain::HeightTint::water
-                : with_overview
-                    ? color_at(on_overview(sample(tile.id, first + glm::ivec2(col, row))), height)
-                    : tint_.at(height);
+            if (voids(col + 1, row + 1) != 0) {
+                colors(col, row) = tint_.no_data();
+                continue;
+            }
+            const glm::dvec2 at = on_overview(sample(tile.id, first + glm::ivec2(col, row)));
+            const bool is_water =
+                tint_.has_water() && (is_sea(around, col + 1, row + 1) || is_lake(at));
+            const Rgba8 tint =
+                is_water ? terrain::HeightTint::water
+                         : tint_.at(tile.heightfield.heights(col, row),
+                                    gradient_at(around, {col + 1, row + 1}, spacing));
+            colors(col, row) = with_overview ? color_at(at, tint) : tint;
         }
     }
     return colors;
@@ -435,10 +458,10 @@ Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
         for (int col = 0; col < light.cols(); ++col) {
             const glm::dvec2 sample =
                 builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
-            const float visibility =
-                irradiance.visibility(glm::clamp(sample, glm::dvec2(0.0), last));
+            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
             light(col, row) =
-                irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}), visibility);
+                irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}),
+                              irradiance.visibility(inside), irradiance.openness(inside));
         }
     }
     return reflected(tile, light, threads);
@@ -446,12 +469,17 @@ Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
 
 LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
                             const TerrainIrradiance& irradiance) {
+    const Grid<float>& overview = builder.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     Grid<glm::vec3> sky(tile.cells.x + 1, tile.cells.y + 1);
     Grid<glm::vec3> sun(tile.cells.x + 1, tile.cells.y + 1);
     for (int row = 0; row < sky.rows(); ++row) {
         for (int col = 0; col < sky.cols(); ++col) {
-            const IrradianceParts parts =
-                irradiance.parts_at(tile.normals(col, row), up_at(builder, tile, {col, row}));
+            const glm::dvec2 sample =
+                builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
+            const IrradianceParts parts = irradiance.parts_at(
+                tile.normals(col, row), up_at(builder, tile, {col, row}),
+                irradiance.openness(glm::clamp(sample, glm::dvec2(0.0), last)));
             sky(col, row) = parts.sky;
             sun(col, row) = parts.sun;
         }

@@ -115,7 +115,8 @@ public:
     [[nodiscard]] glm::dvec3 place(terrain::TreeTile tile, glm::ivec2 vertex, double height) const;
 
 private:
-    [[nodiscard]] Rgba8 color_at(glm::dvec2 overview_sample, float height) const;
+    [[nodiscard]] Rgba8 color_at(glm::dvec2 overview_sample, Rgba8 tint) const;
+    [[nodiscard]] bool is_lake(glm::dvec2 overview_sample) const;
     [[nodiscard]] TerrainTile make_part(terrain::TreeTile tile, glm::ivec2 first,
                                         Grid<float> heights, bool with_overview) const;
     [[nodiscard]] Image vertex_colors(const TerrainTile& tile, glm::ivec2 first,
@@ -128,6 +129,7 @@ private:
     terrain::Reduction reduction_;
     ImageryDetail imagery_;
     terrain::HeightTint tint_;
+    Grid<std::uint8_t> water_; // of the overview; empty: the ramp draws none
 };
 
 /// The lit albedo, sRGB. The light is interpolated between vertices. `threads` as parallel_for().

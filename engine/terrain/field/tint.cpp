@@ -3,82 +3,112 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/core/parallel_for.h"
 
 namespace reljef::terrain {
 namespace {
 
-struct Stop {
-    float at;        // share of the height range
-    glm::vec3 color; // sRGB, 0..255
-};
+constexpr Rgba8 grey{128, 128, 128, 255};
 
-// Imhof's tints, darkened to the albedo of ground.
-constexpr std::array<Stop, 7> scale{{{0.00F, {94.0F, 123.0F, 81.0F}},
-                                     {0.15F, {119.0F, 139.0F, 91.0F}},
-                                     {0.32F, {159.0F, 159.0F, 111.0F}},
-                                     {0.50F, {160.0F, 139.0F, 97.0F}},
-                                     {0.68F, {133.0F, 106.0F, 77.0F}},
-                                     {0.84F, {141.0F, 133.0F, 126.0F}},
-                                     {1.00F, {205.0F, 205.0F, 207.0F}}}};
-
-Rgba8 rgba8(glm::vec3 color) {
-    const glm::vec3 rounded = glm::clamp(color + 0.5F, glm::vec3(0.0F), glm::vec3(255.0F));
-    return {static_cast<std::uint8_t>(rounded.r), static_cast<std::uint8_t>(rounded.g),
-            static_cast<std::uint8_t>(rounded.b), 255};
-}
-
-Rgba8 tint(float share) {
-    const auto* upper = std::find_if(scale.begin() + 1, scale.end() - 1,
-                                     [&](const Stop& stop) { return share < stop.at; });
-    const Stop& lower = *(upper - 1);
-    const float t = std::clamp((share - lower.at) / (upper->at - lower.at), 0.0F, 1.0F);
-    return rgba8(glm::mix(lower.color, upper->color, t));
-}
-
-// About 2^16 evenly spread samples that are no voids.
-std::vector<float> some_heights(const Heightfield& heightfield) {
-    const auto heights = heightfield.heights.samples();
-    const auto voids = heightfield.void_mask.samples();
-    const auto void_count = static_cast<std::size_t>(
-        std::count_if(voids.begin(), voids.end(), [](auto v) { return v != 0; }));
-    const std::size_t step = std::max<std::size_t>(1, (heights.size() - void_count) >> 16U);
-    std::vector<float> picked;
-    std::size_t seen = 0;
-    for (std::size_t i = 0; i < heights.size(); ++i) {
-        if ((voids.empty() || voids[i] == 0) && seen++ % step == 0) {
-            picked.push_back(heights[i]);
-        }
-    }
-    return picked;
-}
-
-HeightRange percentiles(const Heightfield& heightfield, double low, double high) {
-    std::vector<float> picked = some_heights(heightfield);
-    if (picked.empty()) {
-        return heightfield.range;
-    }
-    const auto at = [&](double share) {
-        const auto nth = picked.begin() + static_cast<std::ptrdiff_t>(
-                                              share * static_cast<double>(picked.size() - 1));
-        std::nth_element(picked.begin(), nth, picked.end());
-        return static_cast<double>(*nth);
-    };
-    return {at(low), at(high)};
-}
-
-bool is_level_sea(const Heightfield& heightfield, int col, int row) {
-    const auto& heights = heightfield.heights;
+// Whether a sample and its eight neighbours have one height.
+bool is_level(const Grid<float>& heights, int col, int row) {
+    const float height = heights(col, row);
     for (int r = row - 1; r <= row + 1; ++r) {
         for (int c = col - 1; c <= col + 1; ++c) {
-            if (heights.clamped(c, r) != 0.0F) {
+            if (heights.clamped(c, r) != height) {
                 return false;
             }
         }
     }
     return true;
+}
+
+constexpr std::array<glm::ivec2, 8> around{
+    {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+
+// The samples of one height that are connected with level ones, and what lies around them.
+class LevelGround {
+public:
+    explicit LevelGround(const Heightfield& heightfield)
+        : heights_(heightfield.heights), voids_(heightfield.void_mask),
+          state_(heights_.cols(), heights_.rows(), unseen) {}
+
+    void visit(int col, int row, Grid<std::uint8_t>& water) {
+        if (state_(col, row) != unseen || is_void({col, row}) || !is_level(heights_, col, row)) {
+            return;
+        }
+        samples_.assign(1, {col, row});
+        state_(col, row) = seen;
+        higher_ = lower_ = 0;
+        for (std::size_t next = 0; next < samples_.size(); ++next) {
+            spread(samples_[next]);
+        }
+        if (is_water(heights_(col, row))) {
+            for (const glm::ivec2 sample : samples_) {
+                water(sample.x, sample.y) = 1;
+            }
+        }
+    }
+
+private:
+    static constexpr std::uint8_t unseen = 0;
+    static constexpr std::uint8_t seen = 1;
+
+    [[nodiscard]] bool is_void(glm::ivec2 sample) const {
+        return !voids_.empty() && voids_(sample.x, sample.y) != 0;
+    }
+    [[nodiscard]] bool is_inside(glm::ivec2 sample) const {
+        return sample.x >= 0 && sample.y >= 0 && sample.x < heights_.cols() &&
+               sample.y < heights_.rows();
+    }
+    // An outlet, or a river that flows in, is a small part of the shore.
+    [[nodiscard]] bool is_water(float height) const {
+        const bool is_basin = samples_.size() >= min_lake_samples && 20 * lower_ <= higher_;
+        return height == 0.0F || is_basin;
+    }
+    void spread(glm::ivec2 from) {
+        const float height = heights_(from.x, from.y);
+        for (const glm::ivec2 step : around) {
+            const glm::ivec2 to = from + step;
+            if (!is_inside(to) || is_void(to)) {
+                continue;
+            }
+            const float other = heights_(to.x, to.y);
+            if (other != height) {
+                ++(other > height ? higher_ : lower_);
+            } else if (state_(to.x, to.y) == unseen) {
+                state_(to.x, to.y) = seen;
+                samples_.push_back(to);
+            }
+        }
+    }
+
+    const Grid<float>& heights_;
+    const Grid<std::uint8_t>& voids_;
+    Grid<std::uint8_t> state_;
+    std::vector<glm::ivec2> samples_;
+    std::size_t higher_ = 0;
+    std::size_t lower_ = 0;
+};
+
+glm::vec2 gradient_at(const Heightfield& heightfield, int col, int row) {
+    const Grid<float>& heights = heightfield.heights;
+    const glm::vec2 spacing(heightfield.spacing);
+    const auto change = [](float ahead, float behind, int steps, float step) {
+        return steps > 0 ? (ahead - behind) / (static_cast<float>(steps) * step) : 0.0F;
+    };
+    const int east = std::min(col + 1, heights.cols() - 1);
+    const int west = std::max(col - 1, 0);
+    const int south = std::min(row + 1, heights.rows() - 1);
+    const int north = std::max(row - 1, 0);
+    return {change(heights(east, row), heights(west, row), east - west, spacing.x),
+            change(heights(col, north), heights(col, south), south - north, spacing.y)};
 }
 
 glm::vec3 vector_from(Rgba8 color) {
@@ -98,27 +128,39 @@ Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
 
 } // namespace
 
-HeightTint::HeightTint(const Heightfield& heightfield)
-    : range_(percentiles(heightfield, 0.01, 0.99)) {}
+HeightTint::HeightTint(const ColorRamp& ramp, const Heightfield& heightfield)
+    : colors_(ramp, heightfield), has_water_(ramp.has_water),
+      no_data_(ramp.no_data.value_or(grey)) {}
 
-Rgba8 HeightTint::at(double height) const {
-    const double extent = range_.high - range_.low;
-    return tint(extent > 0.0 ? static_cast<float>((height - range_.low) / extent) : 0.3F);
+Grid<std::uint8_t> water_mask(const Heightfield& heightfield) {
+    const Grid<float>& heights = heightfield.heights;
+    Grid<std::uint8_t> water(heights.cols(), heights.rows(), 0);
+    LevelGround level(heightfield);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            level.visit(col, row, water);
+        }
+    }
+    return water;
 }
 
-Image hypsometric_tint(const Heightfield& heightfield) {
+Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp) {
     const auto& heights = heightfield.heights;
-    const HeightTint tint(heightfield);
+    const HeightTint tint(ramp, heightfield);
+    const Grid<std::uint8_t> water =
+        tint.has_water() ? water_mask(heightfield) : Grid<std::uint8_t>();
     Image image(heights.cols(), heights.rows());
-    for (int row = 0; row < image.rows(); ++row) {
+    parallel_for(image.rows(), [&](int row) {
         for (int col = 0; col < image.cols(); ++col) {
             const bool is_void =
                 !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
-            image(col, row) = is_void                               ? HeightTint::no_data
-                              : is_level_sea(heightfield, col, row) ? HeightTint::water
-                                                                    : tint.at(heights(col, row));
+            image(col, row) =
+                is_void ? tint.no_data()
+                : !water.empty() && water(col, row) != 0
+                    ? HeightTint::water
+                    : tint.at(heights(col, row), gradient_at(heightfield, col, row));
         }
-    }
+    });
     return image;
 }
 

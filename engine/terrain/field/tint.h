@@ -1,25 +1,38 @@
 #pragma once
 
 #include "engine/core/color.h"
+#include "engine/core/grid.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::terrain {
 
-/// Imhof's colours, stretched over the 1st to 99th percentile of a heightfield.
+/// A ramp over a heightfield.
 class HeightTint {
 public:
-    explicit HeightTint(const Heightfield& heightfield);
+    HeightTint(const ColorRamp& ramp, const Heightfield& heightfield);
 
-    [[nodiscard]] Rgba8 at(double height) const; ///< metres
-    static constexpr Rgba8 water{82, 118, 148, 255};
-    static constexpr Rgba8 no_data{128, 128, 128, 255};
+    /// `height`: metres; `gradient`: ∂z/∂x, ∂z/∂y.
+    [[nodiscard]] Rgba8 at(double height, glm::vec2 gradient) const {
+        return rgba8(colors_.at(height, gradient));
+    }
+    [[nodiscard]] bool has_water() const { return has_water_; }
+    [[nodiscard]] Rgba8 no_data() const { return no_data_; }
+    static constexpr Rgba8 water{104, 137, 160, 255};
 
 private:
-    HeightRange range_;
+    RampColors colors_;
+    bool has_water_;
+    Rgba8 no_data_;
 };
 
-/// HeightTint for each sample. Level ground at exactly 0 m is water; voids are grey.
-Image hypsometric_tint(const Heightfield& heightfield);
+/// Of each sample, 1: water. Level ground at exactly 0 m is sea. Other level ground is a lake if it
+/// has at least `min_lake_samples` samples and nearly all ground around it is higher.
+Grid<std::uint8_t> water_mask(const Heightfield& heightfield);
+inline constexpr int min_lake_samples = 60;
+
+/// HeightTint, water and voids for each sample.
+Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp);
 
 /// Blends `color` over `beneath`. The result is opaque and has the size of `color`. If `color` is
 /// empty, it is `beneath`.
