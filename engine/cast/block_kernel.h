@@ -127,9 +127,9 @@ struct BlockJobs {
 
 /// What all of a block looks like.
 struct BlockPaint {
-    BlockRays::Vectors view; ///< world directions of the rays, metres per t
-    float anchor = 0.0F;     ///< depth at t = 0, metres
-    bool has_air = false; ///< not on maps
+    BlockRays::Vectors view;    ///< world directions of the rays, metres per t
+    float anchor = 0.0F;        ///< depth at t = 0, metres
+    bool has_air = false;       ///< not on maps
     glm::vec3 extinction{0.0F}; ///< of the air at the base, 1/metre
     float eye_above = 0.0F;     ///< as scene::AirSeen
     float eye_density = 1.0F;

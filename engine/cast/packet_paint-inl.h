@@ -144,9 +144,8 @@ HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, 
     const Floats mean = hn::IfThenElse(hn::Lt(hn::Abs(rise), all(0.1F)), even,
                                        hn::Div(hn::Sub(eye_density, density), rise));
     const Floats air = hn::Mul(mean, metres);
-    const auto left = [&](float extinction) HWY_ATTR {
-        return exp2_of(hn::Mul(air, all(-log2_e * extinction)));
-    };
+    const auto left = [&](float extinction)
+                          HWY_ATTR { return exp2_of(hn::Mul(air, all(-log2_e * extinction))); };
     const Color haze = with_glow(paint, angles, all(paint.horizon));
     return {mixed(haze.r, color.r, left(paint.extinction.r)),
             mixed(haze.g, color.g, left(paint.extinction.g)),
@@ -156,10 +155,9 @@ HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, 
 HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewAngles& angles) {
     const Floats zero = hn::Zero(floats);
     const Floats height = hn::Max(angles.rise, zero);
-    const Floats share = hn::Div(hn::Mul(height, all(1.0F + paint.curve)),
-                                 hn::Add(height, all(paint.curve)));
-    const Color sky =
-        with_glow(paint, angles, mixed(all(paint.horizon), all(paint.zenith), share));
+    const Floats share =
+        hn::Div(hn::Mul(height, all(1.0F + paint.curve)), hn::Add(height, all(paint.curve)));
+    const Color sky = with_glow(paint, angles, mixed(all(paint.horizon), all(paint.zenith), share));
     if (!paint.has_sun) {
         return sky;
     }

@@ -43,7 +43,8 @@ struct SourceOptions {
     /// The gallery's materials: a built-in one, "mixed" or a folder; absent: the scene file's.
     std::optional<std::string> textures;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
-    /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else "relief".
+    /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else
+    /// "relief".
     std::optional<std::string> ramp;
     /// Absent: the scene file's, else the ellipsoid for georeferenced terrain.
     std::optional<terrain::PlacementKind> placement;
@@ -97,13 +98,13 @@ struct SceneOptions {
     std::optional<glm::dvec3> eye;    ///< scene metres; together with `target`
     std::optional<glm::dvec3> target; ///< scene metres
     std::optional<GeodeticView> geodetic;
-    std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
-    std::optional<glm::dvec2> sun;   ///< azimuth, altitude, degrees; absent: the scene file's
+    std::optional<scene::Pose> pose;  ///< without any of these, the scene file's, else all is seen
+    std::optional<glm::dvec2> sun;    ///< azimuth, altitude, degrees; absent: the scene file's
     std::optional<double> turbidity;  ///< [1, 10]; absent: the scene file's, else clear air
     std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
     std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
-    bool prepares_maps = true;       ///< open_scene() makes the technique's maps (prepared_maps.h)
+    bool prepares_maps = true;        ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.
     RayUse rays = RayUse::none;

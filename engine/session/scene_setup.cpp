@@ -271,8 +271,8 @@ void add_daylight(TerrainScene& result, const io::SceneDescription& description,
     sun.azimuth = view.sun ? view.sun->x : description.sun_azimuth;
     sun.altitude = view.sun ? view.sun->y : description.sun_altitude;
     sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
-    const double turbidity = view.turbidity.value_or(
-        description.turbidity.value_or(scene::default_turbidity));
+    const double turbidity =
+        view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
     const scene::Daylight daylight = scene::daylight_at(sun.altitude, turbidity);
     sun.color = daylight.sun;
     sun.ambient = daylight.ambient;

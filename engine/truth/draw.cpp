@@ -7,8 +7,7 @@ namespace {
 
 glm::vec3 color_of(const Eye& eye, const Ray& ray, const std::optional<SceneHit>& hit,
                    const Shading& shading) {
-    return hit ? shading.at(*hit, ray, eye.distance(ray, hit->surface.t))
-               : shading.background(ray);
+    return hit ? shading.at(*hit, ray, eye.distance(ray, hit->surface.t)) : shading.background(ray);
 }
 
 Hit shown_hit(const std::optional<SceneHit>& hit) {

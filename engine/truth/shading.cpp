@@ -41,8 +41,7 @@ bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
 glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
     if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
-        return seen_through_air(sky, sun, *sky.plane, ray,
-                                (sky.base - ray.origin.z) / direction.z);
+        return seen_through_air(sky, sun, *sky.plane, ray, (sky.base - ray.origin.z) / direction.z);
     }
     const auto height = static_cast<float>(std::max(direction.z, 0.0));
     const float share = height * (1.0F + sky.curve) / (height + sky.curve);
@@ -63,8 +62,8 @@ glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Lig
     }
     const glm::dvec3 direction = glm::normalize(ray.direction);
     const double eye = ray.origin.z - sky.base;
-    const double depth = scene::extinction(sky) * distance *
-                         mean_density(sky, eye, eye + direction.z * distance);
+    const double depth =
+        scene::extinction(sky) * distance * mean_density(sky, eye, eye + direction.z * distance);
     const glm::vec3 left = glm::exp(-static_cast<float>(depth) * sky.fading);
     return glm::mix(sky.horizon + sky.glow * toward_sun(sun, direction), color, left);
 }

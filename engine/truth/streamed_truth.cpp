@@ -158,8 +158,8 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     const glm::dvec2 on_overview =
         builder.around_overview(builder.on_overview(glm::dvec2(hit.sample)));
     const glm::dvec2 inside = glm::clamp(on_overview, glm::dvec2(0.0), last);
-    return albedo * irradiance_->at(part.normal_at(place), part.up,
-                                    irradiance_->visibility(inside), irradiance_->openness(inside));
+    return albedo * irradiance_->at(part.normal_at(place), part.up, irradiance_->visibility(inside),
+                                    irradiance_->openness(inside));
 }
 
 Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
@@ -207,8 +207,7 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
         const terrain::SurfaceHit& hit = *batch.hits[ray];
         const glm::vec3 color = color_in_tile(*content, whole ? &*whole : nullptr, hits.tile, hit);
         const Ray view_ray = eye.ray(batch.places[ray]);
-        batch.colors[ray] =
-            backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.t));
+        batch.colors[ray] = backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.t));
     }
     return {};
 }

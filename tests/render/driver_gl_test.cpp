@@ -240,6 +240,7 @@ TEST_F(DriverGlTest, FogHidesWhatIsFarAway) {
     World world;
     scene::Sky sky;
     sky.visibility = 30.0;
+    sky.glow = glm::vec3(0.0F);
     const Image clear = draw(world.scene);
     world.scene.set_sky(sky);
     const Image foggy = draw(world.scene);

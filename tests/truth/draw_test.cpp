@@ -160,10 +160,10 @@ TEST(Draw, SeesThroughTheAirInPerspectiveOnly) {
             const Hit& hit = picture->hits(pixel.x, pixel.y);
             const double distance = glm::distance(ray.origin, ray.at(hit.depth));
             const glm::vec3 ground = kind == scene::ProjectionKind::perspective
-                                         ? seen_through_air(sky, albedo, distance)
+                                         ? seen_through_air(sky, {}, albedo, ray, distance)
                                          : albedo;
             const Rgba8 expected =
-                rgba8_from_linear(hit.is_sky() ? sky_color(sky, {}, ray.direction) : ground);
+                rgba8_from_linear(hit.is_sky() ? sky_color(sky, {}, ray) : ground);
             ASSERT_NEAR(picture->image(pixel.x, pixel.y).r, expected.r, 1) << i;
             ASSERT_NEAR(picture->image(pixel.x, pixel.y).b, expected.b, 1) << i;
         }

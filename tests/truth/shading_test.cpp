@@ -127,43 +127,90 @@ TEST(Shading, ManyPlanesAgainstTheFormula) {
     }
 }
 
+const Ray level_ray{glm::dvec3(0.0), {0.0, 1.0, 0.0}};
+
 TEST(Air, LeavesTwoPercentAtTheVisibility) {
     const scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0};
     const glm::vec3 color(1.0F, 0.0F, 0.25F);
-    expect_near(seen_through_air(sky, color, 0.0), color, 0.0F);
-    expect_near(seen_through_air(sky, color, 1000.0), glm::mix(glm::vec3(0.5F), color, 0.02F),
-                1e-6F);
-    expect_near(seen_through_air(sky, color, 500.0),
+    expect_near(seen_through_air(sky, {}, color, level_ray, 0.0), color, 0.0F);
+    expect_near(seen_through_air(sky, {}, color, level_ray, 1000.0),
+                glm::mix(glm::vec3(0.5F), color, 0.02F), 1e-6F);
+    expect_near(seen_through_air(sky, {}, color, level_ray, 500.0),
                 glm::mix(glm::vec3(0.5F), color, std::sqrt(0.02F)), 1e-6F);
-    expect_near(seen_through_air(sky, color, std::numeric_limits<double>::infinity()),
-                glm::vec3(0.5F), 0.0F);
+    expect_near(
+        seen_through_air(sky, {}, color, level_ray, std::numeric_limits<double>::infinity()),
+        glm::vec3(0.5F), 0.0F);
 }
 
 TEST(Air, WithoutFogChangesNothing) {
-    expect_near(seen_through_air({}, {0.1F, 0.2F, 0.3F}, 1e7), {0.1F, 0.2F, 0.3F}, 0.0F);
+    expect_near(seen_through_air({}, {}, {0.1F, 0.2F, 0.3F}, level_ray, 1e7), {0.1F, 0.2F, 0.3F},
+                0.0F);
 }
 
-TEST(Sky, GoesFromHorizonToZenithByTheRootOfTheHeight) {
+// The depth of exponential air along a ray is H / sin · (exp(-z0 / H) - exp(-z1 / H)).
+TEST(Air, IsThinnerAbove) {
+    const scene::Sky sky{
+        .horizon = glm::vec3(0.5F), .visibility = 4000.0, .air_height = 800.0, .base = 100.0};
+    const glm::vec3 black(0.0F);
+    for (const double sine : {-0.6, -0.1, 0.001, 0.3, 1.0}) {
+        const Ray ray{{0.0, 0.0, 1500.0}, {std::sqrt(1.0 - sine * sine), 0.0, sine}};
+        const double length = 2000.0;
+        const double depth =
+            scene::extinction(sky) * 800.0 / sine *
+            (std::exp(-1400.0 / 800.0) - std::exp(-(1400.0 + sine * length) / 800.0));
+        expect_near(seen_through_air(sky, {}, black, ray, length),
+                    glm::vec3(static_cast<float>(0.5 * -std::expm1(-depth))), 1e-5F);
+    }
+}
+
+TEST(Air, TakesEachColorByItsOwnFading) {
+    const scene::Sky sky{
+        .horizon = glm::vec3(0.0F), .visibility = 1000.0, .fading = {0.5F, 1.0F, 2.0F}};
+    const glm::vec3 left = seen_through_air(sky, {}, glm::vec3(1.0F), level_ray, 1000.0);
+    expect_near(left, {std::sqrt(0.02F), 0.02F, 0.0004F}, 1e-6F);
+}
+
+Ray ray_to(glm::dvec3 direction) {
+    return {glm::dvec3(0.0), direction};
+}
+
+TEST(Sky, GoesFromHorizonToZenithWithoutABand) {
     const scene::Sky sky;
-    expect_near(sky_color(sky, {}, {0.0, 0.0, 5.0}), sky.zenith, 1e-6F);
-    expect_near(sky_color(sky, {}, {3.0, 4.0, 0.0}), sky.horizon, 1e-6F);
-    expect_near(sky_color(sky, {}, {std::sqrt(15.0), 0.0, 1.0}),
-                glm::mix(sky.horizon, sky.zenith, 0.5F), 1e-6F);
-    expect_near(sky_color(sky, {}, {0.0, 0.0, -1.0}), 0.65F * sky.horizon, 1e-6F);
+    expect_near(sky_color(sky, {}, ray_to({0.0, 0.0, 5.0})), sky.zenith, 1e-6F);
+    expect_near(sky_color(sky, {}, ray_to({3.0, 4.0, 0.0})), sky.horizon, 1e-6F);
+    expect_near(sky_color(sky, {}, ray_to({std::sqrt(24.0), 0.0, 1.0})),
+                glm::mix(sky.horizon, sky.zenith, 0.2F * 1.2F / 0.4F), 1e-6F);
+    expect_near(sky_color(sky, {}, ray_to({0.0, 0.0, -1.0})), sky.horizon, 1e-6F);
+    // A minute of arc makes no step.
+    expect_near(sky_color(sky, {}, ray_to({1.0, 0.0, 3e-4})), sky.horizon, 3e-3F);
+}
+
+TEST(Sky, HasAPlaneBelowWhichFadesIntoTheHorizon) {
+    scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0, .base = -10.0};
+    sky.plane = glm::vec3(0.1F);
+    const Ray down{{0.0, 0.0, 90.0}, {0.0, 0.0, -1.0}};
+    const float left = std::pow(0.02F, 0.1F);
+    expect_near(sky_color(sky, {}, down), glm::mix(sky.horizon, *sky.plane, left), 1e-5F);
+    const Ray flat{{0.0, 0.0, 90.0}, {1.0, 0.0, -1e-5}};
+    expect_near(sky_color(sky, {}, flat), sky.horizon, 1e-5F);
+    const Ray below{{0.0, 0.0, -20.0}, {0.0, 0.0, -1.0}};
+    expect_near(sky_color(sky, {}, below), sky.horizon, 1e-6F);
 }
 
 TEST(Sky, HasTheSunWhereItIs) {
     const scene::Sky sky;
     const glm::dvec3 to_sun = scene::to_light(white_sun);
-    const glm::vec3 behind = sky_color(sky, {}, to_sun);
-    expect_near(sky_color(sky, white_sun, 3.0 * to_sun), behind + 1.18F * white_sun.color, 1e-5F);
+    const glm::vec3 behind = sky_color(sky, {}, ray_to(to_sun));
+    expect_near(sky_color(sky, white_sun, ray_to(3.0 * to_sun)),
+                behind + sky.glow + white_sun.color, 1e-5F);
     // 60 degrees off: cos⁸ = 1/256.
     const glm::dvec3 off =
         glm::dvec3(glm::rotate(glm::dmat4(1.0), glm::radians(60.0), glm::dvec3(0.0, 1.0, 0.0)) *
                    glm::dvec4(to_sun, 0.0));
-    expect_near(sky_color(sky, white_sun, off),
-                sky_color(sky, {}, off) + (0.18F / 256.0F) * white_sun.color, 1e-6F);
-    expect_near(sky_color(sky, white_sun, -to_sun), sky_color(sky, {}, -to_sun), 0.0F);
+    expect_near(sky_color(sky, white_sun, ray_to(off)),
+                sky_color(sky, {}, ray_to(off)) + sky.glow / 256.0F, 1e-6F);
+    expect_near(sky_color(sky, white_sun, ray_to(-to_sun)), sky_color(sky, {}, ray_to(-to_sun)),
+                0.0F);
 }
 
 } // namespace

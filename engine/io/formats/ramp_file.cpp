@@ -16,14 +16,22 @@ namespace {
 
 // Those of gdaldem.
 constexpr std::array<std::pair<std::string_view, glm::vec3>, 16> color_names{
-    {{"white", {255.0F, 255.0F, 255.0F}}, {"black", {0.0F, 0.0F, 0.0F}},
-     {"red", {255.0F, 0.0F, 0.0F}},       {"green", {0.0F, 255.0F, 0.0F}},
-     {"blue", {0.0F, 0.0F, 255.0F}},      {"yellow", {255.0F, 255.0F, 0.0F}},
-     {"magenta", {255.0F, 0.0F, 255.0F}}, {"cyan", {0.0F, 255.0F, 255.0F}},
-     {"aqua", {0.0F, 191.0F, 191.0F}},    {"grey", {191.0F, 191.0F, 191.0F}},
-     {"gray", {191.0F, 191.0F, 191.0F}},  {"orange", {255.0F, 128.0F, 0.0F}},
-     {"brown", {191.0F, 128.0F, 64.0F}}, {"purple", {128.0F, 0.0F, 255.0F}},
-     {"violet", {128.0F, 0.0F, 255.0F}}, {"indigo", {0.0F, 128.0F, 255.0F}}}};
+    {{"white", {255.0F, 255.0F, 255.0F}},
+     {"black", {0.0F, 0.0F, 0.0F}},
+     {"red", {255.0F, 0.0F, 0.0F}},
+     {"green", {0.0F, 255.0F, 0.0F}},
+     {"blue", {0.0F, 0.0F, 255.0F}},
+     {"yellow", {255.0F, 255.0F, 0.0F}},
+     {"magenta", {255.0F, 0.0F, 255.0F}},
+     {"cyan", {0.0F, 255.0F, 255.0F}},
+     {"aqua", {0.0F, 191.0F, 191.0F}},
+     {"grey", {191.0F, 191.0F, 191.0F}},
+     {"gray", {191.0F, 191.0F, 191.0F}},
+     {"orange", {255.0F, 128.0F, 0.0F}},
+     {"brown", {191.0F, 128.0F, 64.0F}},
+     {"purple", {128.0F, 0.0F, 255.0F}},
+     {"violet", {128.0F, 0.0F, 255.0F}},
+     {"indigo", {0.0F, 128.0F, 255.0F}}}};
 
 constexpr std::size_t max_file_bytes = std::size_t{1} << 20U;
 
@@ -119,8 +127,8 @@ Result<terrain::ColorRamp> parse_ramp(std::string_view text, const std::string& 
         ramp.stops.push_back(*stop);
     }
     if (ramp.stops.empty()) {
-        return Error{fmt::format("{}: no height with a colour found, at least one was expected",
-                                 name)};
+        return Error{
+            fmt::format("{}: no height with a colour found, at least one was expected", name)};
     }
     return ramp;
 }

@@ -73,8 +73,7 @@ double way_out(glm::dvec3 place, glm::dvec3 direction) {
 
 bool hits_earth(glm::dvec3 place, glm::dvec3 direction) {
     const double along = glm::dot(place, direction);
-    return along < 0.0 &&
-           along * along > glm::dot(place, place) - earth_radius * earth_radius;
+    return along < 0.0 && along * along > glm::dot(place, place) - earth_radius * earth_radius;
 }
 
 class Atmosphere {
@@ -146,8 +145,7 @@ private:
     static glm::dvec3 eye() { return {0.0, 0.0, earth_radius + 1.0}; }
 
     [[nodiscard]] glm::dvec3 extinction_of(const Density& density) const {
-        return molecules * density.molecules + aerosols_ * density.aerosols +
-               ozone * density.ozone;
+        return molecules * density.molecules + aerosols_ * density.aerosols + ozone * density.ozone;
     }
     [[nodiscard]] glm::dvec3 transmittance(glm::dvec3 place, glm::dvec3 direction) const {
         constexpr int count = 10;
@@ -188,9 +186,8 @@ constexpr double middle_sine = 0.25;
 float curve_through(double share) {
     constexpr double min_curve = 0.08;
     constexpr double max_curve = 2.0;
-    const double curve = share > middle_sine
-                             ? middle_sine * (1.0 - share) / (share - middle_sine)
-                             : max_curve;
+    const double curve =
+        share > middle_sine ? middle_sine * (1.0 - share) / (share - middle_sine) : max_curve;
     return static_cast<float>(std::clamp(curve, min_curve, max_curve));
 }
 
@@ -241,16 +238,16 @@ Daylight daylight_at(double altitude, double turbidity) {
     const glm::dvec3 sky = air.hemisphere(2.0) * std::numbers::pi; // irradiance of level ground
     // Half of the light on ground that faces the sun, and half of that on level ground: slopes are
     // not too bright at noon, plains not too dark in the evening. Night is as dark as dusk.
-    constexpr double desired = 1.42;
+    constexpr double desired = 1.38;
     constexpr double darkest = 0.02;
     const double sine = std::max(air.to_sun().z, 0.0);
     const double light = luminance(sun * (0.5 + 0.5 * sine) + sky);
     const double exposure = desired / std::max(light, darkest);
     Daylight result;
     result.sun = glm::vec3(exposure * white_balance * sun);
-    // Slopes also see sunny ground: as much as half of their surroundings.
-    result.ambient = glm::vec3(exposure * white_balance *
-                               (sky + 0.5 * ground_albedo * (sun * sine + sky)));
+    // Slopes and shadows also get light from sunny ground.
+    result.ambient =
+        glm::vec3(exposure * white_balance * (sky + 0.85 * ground_albedo * (sun * sine + sky)));
     // The sky is printed brighter than the ground, as eyes see it.
     constexpr double of_sky = 3.2;
     set_sky(air, of_sky * std::numbers::pi * exposure * white_balance, result.sky);

@@ -18,9 +18,9 @@ struct Daylight {
     Sky sky;                 ///< zenith, horizon, glow, curve and fading
 };
 
-/// The light of a sun at `altitude` degrees, [-90, 90], through an atmosphere of molecules, aerosols
-/// and ozone over a sphere: single scattering (Nishita et al. 1993), and further scattering as a
-/// uniform source. docs/daylight.md derives it, the exposure and the tone mapping.
+/// The light of a sun at `altitude` degrees, [-90, 90], through an atmosphere of molecules,
+/// aerosols and ozone over a sphere: single scattering (Nishita et al. 1993), and further
+/// scattering as a uniform source. docs/daylight.md derives it, the exposure and the tone mapping.
 Daylight daylight_at(double altitude, double turbidity);
 
 } // namespace reljef::scene

@@ -47,10 +47,9 @@ Image albedo_map(const TerrainSurface& surface) {
     const bool opaque = !terrain.color.empty() &&
                         std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
                                     [](Rgba8 pixel) { return pixel.a == 255; });
-    return opaque
-               ? terrain.color
-               : terrain::composite(terrain.color,
-                                    terrain::hypsometric_tint(terrain.heightfield, surface.ramp()));
+    return opaque ? terrain.color
+                  : terrain::composite(terrain.color, terrain::hypsometric_tint(terrain.heightfield,
+                                                                                surface.ramp()));
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)
@@ -96,8 +95,7 @@ glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility
     return sun_ * sun + sky_ * (openness * (0.5F + 0.5F * glm::dot(turned, turned_up)));
 }
 
-IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up,
-                                            float openness) const {
+IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up, float openness) const {
     const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
     const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
     const float sun = is_day_ ? std::max(glm::dot(turned, to_sun_), 0.0F) : 0.0F;

@@ -353,8 +353,7 @@ Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
                                  const Grid<float>& around, const Grid<std::uint8_t>& voids,
                                  bool with_overview) const {
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
-    const glm::vec2 spacing(overview_->heightfield().spacing *
-                            (step(tile.id) / reduction_.factor));
+    const glm::vec2 spacing(overview_->heightfield().spacing * (step(tile.id) / reduction_.factor));
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
             if (voids(col + 1, row + 1) != 0) {
@@ -364,10 +363,10 @@ Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
             const glm::dvec2 at = on_overview(sample(tile.id, first + glm::ivec2(col, row)));
             const bool is_water =
                 tint_.has_water() && (is_sea(around, col + 1, row + 1) || is_lake(at));
-            const Rgba8 tint =
-                is_water ? terrain::HeightTint::water
-                         : tint_.at(tile.heightfield.heights(col, row),
-                                    gradient_at(around, {col + 1, row + 1}, spacing));
+            const Rgba8 tint = is_water
+                                   ? terrain::HeightTint::water
+                                   : tint_.at(tile.heightfield.heights(col, row),
+                                              gradient_at(around, {col + 1, row + 1}, spacing));
             colors(col, row) = with_overview ? color_at(at, tint) : tint;
         }
     }
@@ -477,9 +476,9 @@ LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
         for (int col = 0; col < sky.cols(); ++col) {
             const glm::dvec2 sample =
                 builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
-            const IrradianceParts parts = irradiance.parts_at(
-                tile.normals(col, row), up_at(builder, tile, {col, row}),
-                irradiance.openness(glm::clamp(sample, glm::dvec2(0.0), last)));
+            const IrradianceParts parts =
+                irradiance.parts_at(tile.normals(col, row), up_at(builder, tile, {col, row}),
+                                    irradiance.openness(glm::clamp(sample, glm::dvec2(0.0), last)));
             sky(col, row) = parts.sky;
             sun(col, row) = parts.sun;
         }

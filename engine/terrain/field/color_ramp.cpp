@@ -25,12 +25,13 @@ ColorRamp relief_ramp() {
             {{-6000.0, {46.0F, 74.0F, 104.0F}},
              {-200.0, {90.0F, 124.0F, 150.0F}},
              {-1.0, {120.0F, 150.0F, 166.0F}},
-             {0.0, {128.0F, 146.0F, 120.0F}},
-             of_land(300.0, {138.0F, 152.0F, 123.0F}),
-             of_land(900.0, {152.0F, 158.0F, 131.0F}),
-             of_land(1600.0, {162.0F, 157.0F, 134.0F}),
-             of_land(2300.0, {158.0F, 151.0F, 136.0F}),
-             of_land(3200.0, {155.0F, 150.0F, 146.0F}),
+             {0.0, {143.0F, 151.0F, 120.0F}},
+             of_land(300.0, {148.0F, 155.0F, 121.0F}),
+             of_land(900.0, {147.0F, 153.0F, 120.0F}),
+             of_land(1600.0, {151.0F, 151.0F, 122.0F}),
+             of_land(2200.0, {152.0F, 148.0F, 127.0F}),
+             of_land(2700.0, {150.0F, 146.0F, 136.0F}),
+             of_land(3400.0, {158.0F, 155.0F, 152.0F}),
              of_land(5000.0, {178.0F, 176.0F, 176.0F})},
             true,
             true,
@@ -91,14 +92,13 @@ ColorRamp clay_ramp() {
 
 // Over the range of the terrain, however low it is.
 ColorRamp stretched_ramp() {
-    constexpr std::array<std::pair<double, glm::vec3>, 7> scale{
-        {{0.00, {94.0F, 123.0F, 81.0F}},
-         {0.15, {119.0F, 139.0F, 91.0F}},
-         {0.32, {159.0F, 159.0F, 111.0F}},
-         {0.50, {160.0F, 139.0F, 97.0F}},
-         {0.68, {133.0F, 106.0F, 77.0F}},
-         {0.84, {141.0F, 133.0F, 126.0F}},
-         {1.00, {205.0F, 205.0F, 207.0F}}}};
+    constexpr std::array<std::pair<double, glm::vec3>, 7> scale{{{0.00, {94.0F, 123.0F, 81.0F}},
+                                                                 {0.15, {119.0F, 139.0F, 91.0F}},
+                                                                 {0.32, {159.0F, 159.0F, 111.0F}},
+                                                                 {0.50, {160.0F, 139.0F, 97.0F}},
+                                                                 {0.68, {133.0F, 106.0F, 77.0F}},
+                                                                 {0.84, {141.0F, 133.0F, 126.0F}},
+                                                                 {1.00, {205.0F, 205.0F, 207.0F}}}};
     ColorRamp ramp{"stretched", {}, false, true, {}};
     for (const auto& [share, color] : scale) {
         ramp.stops.push_back({share, color, true, false});
@@ -107,13 +107,13 @@ ColorRamp stretched_ramp() {
 }
 
 using MakeRamp = ColorRamp (*)();
-constexpr std::array<std::pair<std::string_view, MakeRamp>, 6> ramps{{{"relief", relief_ramp},
-                                                                      {"natural", natural_ramp},
-                                                                      {"swiss", swiss_ramp},
-                                                                      {"desert", desert_ramp},
-                                                                      {"clay", clay_ramp},
-                                                                      {"stretched",
-                                                                       stretched_ramp}}};
+constexpr std::array<std::pair<std::string_view, MakeRamp>, 6> ramps{
+    {{"relief", relief_ramp},
+     {"natural", natural_ramp},
+     {"swiss", swiss_ramp},
+     {"desert", desert_ramp},
+     {"clay", clay_ramp},
+     {"stretched", stretched_ramp}}};
 
 // About 2^16 evenly spread samples that are no voids.
 std::vector<float> some_heights(const Heightfield& heightfield) {
@@ -203,8 +203,8 @@ float smooth(double from, double to, double value) {
 } // namespace
 
 std::optional<ColorRamp> named_ramp(std::string_view name) {
-    const auto* const found = std::find_if(
-        ramps.begin(), ramps.end(), [&](const auto& ramp) { return ramp.first == name; });
+    const auto* const found = std::find_if(ramps.begin(), ramps.end(),
+                                           [&](const auto& ramp) { return ramp.first == name; });
     return found == ramps.end() ? std::nullopt : std::optional(found->second());
 }
 
@@ -225,9 +225,8 @@ double snow_line(double latitude) {
                                                               {75.0, 500.0},
                                                               {90.0, 0.0}}};
     const double place = std::clamp(std::abs(latitude), 0.0, 90.0);
-    const auto* const upper =
-        std::find_if(zones.begin() + 1, zones.end() - 1,
-                     [&](const auto& zone) { return place < zone.first; });
+    const auto* const upper = std::find_if(zones.begin() + 1, zones.end() - 1,
+                                           [&](const auto& zone) { return place < zone.first; });
     const auto& lower = *(upper - 1);
     return std::lerp(lower.second, upper->second,
                      (place - lower.first) / (upper->first - lower.first));
@@ -243,9 +242,8 @@ RampColors::RampColors(const ColorRamp& ramp, const Heightfield& heightfield)
 }
 
 glm::vec3 RampColors::at(double height) const {
-    const auto above =
-        std::find_if(stops_.begin(), stops_.end(),
-                     [&](const RampStop& stop) { return height < stop.height; });
+    const auto above = std::find_if(stops_.begin(), stops_.end(),
+                                    [&](const RampStop& stop) { return height < stop.height; });
     if (above == stops_.begin()) {
         return stops_.front().color;
     }
@@ -265,12 +263,12 @@ glm::vec3 RampColors::at(double height, glm::vec2 gradient) const {
     // Rise over run. Soil holds to about 35 degrees, snow to about 50 degrees.
     const double slope = glm::length(gradient);
     const double height_share = height / std::max(snow_height_, 1.0);
-    const float rocky = smooth(0.6, 1.15, slope + 0.25 * (height_share - 0.7)) * 0.75F;
+    const float rocky = smooth(0.5, 1.0, slope + 0.25 * (height_share - 0.7)) * 0.75F;
     // Snow reaches 200 m deeper on slopes to the pole than on those to the equator.
     const double poleward = std::clamp(-poleward_ * static_cast<double>(gradient.y), -1.0, 1.0);
     const double line = snow_height_ - 200.0 * poleward;
-    const float snowy = smooth(line - 250.0, line + 250.0, height) *
-                        (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
+    const float snowy =
+        smooth(line - 250.0, line + 250.0, height) * (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
     return glm::mix(glm::mix(plain, rock, rocky), snow, snowy);
 }
 

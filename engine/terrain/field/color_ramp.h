@@ -44,8 +44,8 @@ std::optional<ColorRamp> named_ramp(std::string_view name);
 /// Their names, the default first.
 std::vector<std::string_view> ramp_names();
 
-/// Where the ramps begin to draw permanent snow, metres, by the latitude in degrees. It is chosen for
-/// the look of mountains from the equator to the poles; climates differ by hundreds of metres.
+/// Where the ramps begin to draw permanent snow, metres, by the latitude in degrees. It is chosen
+/// for the look of mountains from the equator to the poles; climates differ by hundreds of metres.
 double snow_line(double latitude);
 
 /// The nearest 8-bit colour of one in 0..255; opaque.

@@ -44,7 +44,8 @@ public:
 
     // The steepest slope from a new point back to the ground, at least 0; then adds the point.
     float add(HullPoint point) {
-        while (count_ >= 2 && slope(point, points_[count_ - 1]) <= slope(point, points_[count_ - 2])) {
+        while (count_ >= 2 &&
+               slope(point, points_[count_ - 1]) <= slope(point, points_[count_ - 2])) {
             --count_;
         }
         const float steepest = count_ > 0 ? slope(point, points_[count_ - 1]) : 0.0F;
@@ -83,7 +84,8 @@ public:
     void sweep(std::size_t index) {
         const glm::ivec2 step = steps[index];
         const auto weight = static_cast<float>(0.5 * weight_of(index, spacing_));
-        const auto length = static_cast<float>(std::hypot(step.x * spacing_.x, step.y * spacing_.y));
+        const auto length =
+            static_cast<float>(std::hypot(step.x * spacing_.x, step.y * spacing_.y));
         const std::vector<glm::ivec2> firsts =
             first_samples({heights_.cols(), heights_.rows()}, step);
         constexpr int lines_a_chunk = 64;
@@ -116,8 +118,8 @@ private:
     void sweep_line(glm::ivec2 first, glm::ivec2 step, const Scale& scale, Hull& hull) {
         glm::ivec2 last = first;
         const auto visit = [&](glm::ivec2 at, int place) {
-            const float slope = hull.add({static_cast<float>(place) * scale.length,
-                                          exaggeration_ * heights_(at.x, at.y)});
+            const float slope = hull.add(
+                {static_cast<float>(place) * scale.length, exaggeration_ * heights_(at.x, at.y)});
             share_(at.x, at.y) += scale.weight / (1.0F + slope * slope);
         };
         hull.clear();

@@ -154,11 +154,10 @@ Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp) {
         for (int col = 0; col < image.cols(); ++col) {
             const bool is_void =
                 !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
-            image(col, row) =
-                is_void ? tint.no_data()
-                : !water.empty() && water(col, row) != 0
-                    ? HeightTint::water
-                    : tint.at(heights(col, row), gradient_at(heightfield, col, row));
+            image(col, row) = is_void ? tint.no_data()
+                              : !water.empty() && water(col, row) != 0
+                                  ? HeightTint::water
+                                  : tint.at(heights(col, row), gradient_at(heightfield, col, row));
         }
     });
     return image;

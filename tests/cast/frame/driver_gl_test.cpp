@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/scene/graph/daylight.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "engine/view/sample_count.h"
@@ -22,10 +23,12 @@ constexpr glm::ivec2 small_picture{320, 240};
 // Hills below a sun and a hazy sky, drawn by exact rays.
 struct LitStage : Stage {
     LitStage() : Stage(test::hills(301, 257, 12.0), {1.0, 1.0}) {
-        scene.add_light();
+        light = &scene.add_light();
         scene.set_sky({.visibility = 900.0});
         use(scene::Technique{scene::Exact{}});
     }
+    scene::Node* light = nullptr;
+
     void use(const scene::Technique& technique) {
         terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
@@ -79,6 +82,37 @@ TEST_F(CastDriverGlTest, DrawsWhatTheShadersDraw) {
         EXPECT_LE(errors->rmse, 0.005) << scene::to_string(pose);
         EXPECT_LE(errors->flip.mean, 0.02) << scene::to_string(pose);
         EXPECT_LE(share_of_others(rays, shaders, 2), 0.01) << scene::to_string(pose);
+    }
+}
+
+// Low sun, thinning air of three colours and a plane: no channel of the background differs by more
+// than two levels, at every height of the eye.
+TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
+    for (const double altitude : {3.0, 40.0}) {
+        LitStage stage;
+        const scene::Daylight daylight = scene::daylight_at(altitude, 2.0);
+        scene::Light sun{.azimuth = 20.0, .altitude = altitude};
+        sun.color = daylight.sun;
+        sun.ambient = daylight.ambient;
+        *stage.light->get<scene::Light>() = sun;
+        scene::Sky sky = daylight.sky;
+        sky.visibility = 700.0;
+        sky.air_height = 60.0;
+        sky.base = stage.surface().bounds().low.z;
+        sky.plane = glm::vec3(0.4F, 0.5F, 0.6F);
+        stage.scene.set_sky(sky);
+        for (const scene::Pose pose :
+             {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
+            stage.terrain->set_visible(true);
+            stage.look_from(pose);
+            EXPECT_LE(share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2),
+                      0.01)
+                << scene::to_string(pose) << ' ' << altitude;
+            stage.terrain->set_visible(false);
+            EXPECT_EQ(share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2),
+                      0.0)
+                << scene::to_string(pose) << ' ' << altitude;
+        }
     }
 }
 

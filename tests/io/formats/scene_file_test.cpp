@@ -31,11 +31,15 @@ height_scale = 0.5
 height_offset = -10
 exaggeration = 1.5
 placement = "ellipsoid"
+ramp = "colors.txt"
 [sun]
 azimuth = 200
 altitude = 12.5
+occlusion = false
 [air]
 visibility = 50000.0
+turbidity = 3
+base = "none"
 [camera]
 eye = [1, 2.5, 3]
 look = [0, 0, 0]
@@ -52,6 +56,10 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->sun_azimuth, 200.0);
     EXPECT_EQ(scene->sun_altitude, 12.5);
     EXPECT_EQ(scene->visibility, 50000.0);
+    EXPECT_EQ(scene->ramp, "/data/colors.txt");
+    EXPECT_FALSE(scene->hides_sky);
+    EXPECT_EQ(scene->turbidity, 3.0);
+    EXPECT_EQ(scene->base, "none");
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));
     EXPECT_EQ(scene->target, glm::dvec3(0.0));
 }

@@ -46,7 +46,7 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     const TerrainTile made = maker().make({0, 3, 3}, std::move(heights));
     EXPECT_NEAR(made.heightfield.heights(59, 59),
                 height_of(glm::dvec2(3 * terrain::tree_tile_cells + 59)), 1e-3);
-    EXPECT_EQ(made.albedo(59, 59), terrain::HeightTint::no_data);
+    EXPECT_EQ(made.albedo(59, 59), (Rgba8{128, 128, 128, 255}));
 }
 
 TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {

@@ -1,5 +1,7 @@
 #include "engine/terrain/field/tint.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
@@ -11,13 +13,17 @@ namespace {
 
 constexpr Rgba8 grey{128, 128, 128, 255};
 
+Image tinted(const Heightfield& heightfield) {
+    return hypsometric_tint(heightfield, *named_ramp(default_ramp));
+}
+
 bool is_blue(Rgba8 color) {
     return color.b > color.g && color.g > color.r;
 }
 
 TEST(Tint, OneOpaquePixelPerSample) {
     const Image image =
-        hypsometric_tint(test::plane_heightfield(test::random_heights(13, 7, 1.0F, 900.0F, 1)));
+        tinted(test::plane_heightfield(test::random_heights(13, 7, 1.0F, 900.0F, 1)));
     EXPECT_EQ(image.cols(), 13);
     EXPECT_EQ(image.rows(), 7);
     for (const Rgba8& pixel : image.samples()) {
@@ -26,8 +32,9 @@ TEST(Tint, OneOpaquePixelPerSample) {
 }
 
 TEST(Tint, GoesFromGreenLowlandToLightSummits) {
-    const Image image = hypsometric_tint(test::plane_heightfield(
-        test::made_heights(101, 3, [](int col, int) { return 10.0 + col; })));
+    const Image image = tinted(test::plane_heightfield(
+        test::made_heights(101, 3, [](int col, int) { return 10.0 + 40.0 * col; }),
+        {1000.0, 1000.0}));
     const Rgba8 low = image(0, 1);
     EXPECT_GT(low.g, low.r);
     EXPECT_GT(low.g, low.b);
@@ -37,7 +44,7 @@ TEST(Tint, GoesFromGreenLowlandToLightSummits) {
 
 // A jump of the tint would show as a contour line that is not there.
 TEST(Tint, IsContinuousInTheHeight) {
-    const Image image = hypsometric_tint(test::plane_heightfield(
+    const Image image = tinted(test::plane_heightfield(
         test::made_heights(2001, 2, [](int col, int) { return 100.0 + 0.5 * col; })));
     for (int col = 1; col < image.cols(); ++col) {
         EXPECT_LE(std::abs(image(col, 0).r - image(col - 1, 0).r), 2) << col;
@@ -49,13 +56,13 @@ TEST(Tint, IsContinuousInTheHeight) {
 TEST(Tint, VoidsAreGreyAndDoNotStretchTheScale) {
     Heightfield heightfield = test::plane_heightfield(
         test::made_heights(60, 60, [](int col, int) { return 100.0 + col; }));
-    const Image whole = hypsometric_tint(heightfield);
+    const Image whole = tinted(heightfield);
     heightfield.void_mask = Grid<std::uint8_t>(60, 60, 0);
     for (int row = 0; row < 60; ++row) {
         heightfield.void_mask(30, row) = 1;
         heightfield.heights(30, row) = 1e6F;
     }
-    const Image holed = hypsometric_tint(heightfield);
+    const Image holed = tinted(heightfield);
     EXPECT_EQ(holed(30, 30), grey);
     for (const int col : {5, 20, 45, 58}) {
         EXPECT_LE(std::abs(holed(col, 9).r - whole(col, 9).r), 4);
@@ -75,21 +82,21 @@ TEST(Tint, FewHeightsInAWideVoidAreSeenAll) {
             heightfield.void_mask(col, row) = 0;
         }
     }
-    const HeightTint tint(heightfield);
-    EXPECT_NE(tint.at(0.0), tint.at(6299.0));
+    const HeightTint tint(*named_ramp("stretched"), heightfield);
+    EXPECT_NE(tint.at(0.0, {0.0F, 0.0F}), tint.at(6299.0, {0.0F, 0.0F}));
 }
 
 TEST(Tint, AllVoidIsGrey) {
     Heightfield heightfield = test::plane_heightfield(Grid<float>(4, 4, 0.0F));
     heightfield.void_mask = Grid<std::uint8_t>(4, 4, 1);
-    const Image image = hypsometric_tint(heightfield);
+    const Image image = tinted(heightfield);
     for (const Rgba8& pixel : image.samples()) {
         EXPECT_EQ(pixel, grey);
     }
 }
 
 TEST(Tint, LevelGroundAtZeroIsWaterAndItsShoreIsNot) {
-    const Image image = hypsometric_tint(test::plane_heightfield(test::made_heights(
+    const Image image = tinted(test::plane_heightfield(test::made_heights(
         20, 20, [](int col, int) { return col < 10 ? 0.0 : 30.0 * (col - 9); })));
     EXPECT_TRUE(is_blue(image(0, 0)));
     EXPECT_TRUE(is_blue(image(8, 19)));
@@ -99,13 +106,41 @@ TEST(Tint, LevelGroundAtZeroIsWaterAndItsShoreIsNot) {
 
 TEST(Tint, AConstantHeightIsOneColor) {
     for (const float height : {-5.0F, 1234.5F}) {
-        const Image image = hypsometric_tint(test::plane_heightfield(Grid<float>(9, 9, height)));
+        const Image image = tinted(test::plane_heightfield(Grid<float>(9, 9, height)));
         for (const Rgba8& pixel : image.samples()) {
             EXPECT_EQ(pixel, image(0, 0));
             EXPECT_NE(pixel, grey);
             EXPECT_GT(pixel.g, 60);
         }
     }
+}
+
+// The issue of stretched colours: a low coast was white with snow.
+TEST(Tint, ALowCoastHasNoSnow) {
+    const Image image = tinted(test::plane_heightfield(
+        test::made_heights(65, 3, [](int col, int) { return 4.0 * col; }), {90.0, 90.0}));
+    for (const Rgba8& pixel : image.samples()) {
+        EXPECT_LT(pixel.b, pixel.g);
+    }
+}
+
+// A basin of 20 × 20 level samples in a slope, and a shelf of the same size on it.
+TEST(Tint, ALevelBasinIsALakeAndAShelfIsNot) {
+    const auto height = [](int col, int row) {
+        const bool is_level = col >= 20 && col < 40 && row >= 20 && row < 40;
+        return 500.0 + (is_level ? 0.0 : 2.0 + std::abs(col - 30) + std::abs(row - 30));
+    };
+    const auto shelf = [](int col, int row) {
+        const bool is_level = col >= 20 && col < 40 && row >= 20 && row < 40;
+        return 500.0 + (is_level ? 30.0 : col);
+    };
+    const Grid<std::uint8_t> lake =
+        water_mask(test::plane_heightfield(test::made_heights(60, 60, height)));
+    const Grid<std::uint8_t> none =
+        water_mask(test::plane_heightfield(test::made_heights(60, 60, shelf)));
+    EXPECT_EQ(std::count(lake.samples().begin(), lake.samples().end(), 1), 20 * 20);
+    EXPECT_EQ(lake(30, 30), 1);
+    EXPECT_EQ(std::count(none.samples().begin(), none.samples().end(), 1), 0);
 }
 
 TEST(Composite, AnEmptyPictureLeavesWhatIsBeneath) {
