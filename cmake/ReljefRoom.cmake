@@ -12,7 +12,7 @@
 add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-  $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>
+  $<$<AND:$<BOOL:${PROJECT_IS_TOP_LEVEL}>,$<CXX_COMPILER_ID:GNU>>:-Werror> # warnings are gcc's to give
   # clang-tidy does not know the next one, and g++ not its name for that.
   -Wno-unknown-warning-option -Wno-restrict # g++ 12 sees overlaps in std::string that are none (GCC bug 105651)
   # A room compiled as one file: a local name may be that of another file's.
@@ -28,7 +28,10 @@ target_compile_definitions(reljef_options INTERFACE
   GLM_FORCE_EXPLICIT_CTOR GLM_FORCE_DEPTH_ZERO_TO_ONE GLM_ENABLE_EXPERIMENTAL)
 if(RELJEF_SANITIZE)
   if("undefined" IN_LIST RELJEF_SANITIZE) # g++ leaves these out of `undefined`
-    list(APPEND RELJEF_SANITIZE float-cast-overflow float-divide-by-zero bounds-strict)
+    list(APPEND RELJEF_SANITIZE float-cast-overflow float-divide-by-zero)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU) # clang has it in `undefined`
+      list(APPEND RELJEF_SANITIZE bounds-strict)
+    endif()
   endif()
   string(REPLACE ";" "," reljef_sanitizers "${RELJEF_SANITIZE}")
   target_compile_options(reljef_options INTERFACE
