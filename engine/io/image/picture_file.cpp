@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "engine/io/checks/exr_bytes.h"
 #include "engine/io/checks/picture_bytes.h"
 
 namespace reljef::io {
@@ -29,7 +30,8 @@ Result<void> check_image_file(const fs::path& path) {
     if (fs::file_size(path, code) == 0) {
         return Error{fmt::format("{}: is empty, a picture was expected", path.string())};
     }
-    return check_png(path.string(), PngPart::whole);
+    auto good = check_exr(path.string());
+    return good ? check_png(path.string(), PngPart::whole) : good;
 }
 
 Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec) {
