@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -92,10 +93,12 @@ Result<std::unique_ptr<OIIO::ImageOutput>> output_for(const fs::path& path, cons
                   : unknown_format(path);
 }
 
-OIIO::ImageSpec spec_of(const Image& image) {
+// OpenImageIO would write JPEG in a TIFF, too, which loses colours.
+OIIO::ImageSpec spec_of(const Image& image, const OIIO::ImageOutput& output) {
+    const bool is_jpeg = output.format_name() == std::string_view("jpeg");
     OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Compression", fmt::format("jpeg:{}", jpeg_quality));
+    spec.attribute("Compression", is_jpeg ? fmt::format("jpeg:{}", jpeg_quality) : "zip");
     return spec;
 }
 
@@ -131,9 +134,11 @@ Result<void> check_image_name(const fs::path& path) {
 
 Result<AtomicFile> prepare_image(const fs::path& path, const Image& image) {
     auto output = output_for(path, image);
-    return output ? prepare_encoded(std::move(*output), spec_of(image), image.samples().data(),
-                                    sizeof(Rgba8), path)
-                  : output.error();
+    if (!output) {
+        return output.error();
+    }
+    const OIIO::ImageSpec spec = spec_of(image, **output);
+    return prepare_encoded(std::move(*output), spec, image.samples().data(), sizeof(Rgba8), path);
 }
 
 Result<void> write_image(const fs::path& path, const Image& image) {
@@ -144,9 +149,11 @@ Result<void> write_image(const fs::path& path, const Image& image) {
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {
     const fs::path path = "a picture in memory" + extension;
     auto output = output_for(path, image);
-    return output
-               ? encoded(std::move(*output), spec_of(image), image.samples().data(), sizeof(Rgba8))
-               : output.error();
+    if (!output) {
+        return output.error();
+    }
+    const OIIO::ImageSpec spec = spec_of(image, **output);
+    return encoded(std::move(*output), spec, image.samples().data(), sizeof(Rgba8));
 }
 
 Image contact_sheet(std::span<const Image> pictures, int columns, int width) {

@@ -3,6 +3,7 @@
 #include <exception>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <OpenImageIO/filesystem.h>
@@ -56,7 +57,9 @@ Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output
                                        const OIIO::ImageSpec& spec, const void* pixels,
                                        std::size_t stride) {
     const GdalMessages ignored_messages; // of the TIFF library, about unknown tags
-    const bool in_memory = output->supports("ioproxy") != 0;
+    // OpenImageIO 2.4 writes TIFF directories to memory that no reader accepts.
+    const bool in_memory =
+        output->supports("ioproxy") != 0 && output->format_name() != std::string_view("tiff");
     try {
         auto bytes = in_memory ? encoded_in_memory(std::move(output), spec, pixels, stride)
                                : encoded_in_file(std::move(output), spec, pixels, stride);

@@ -1,5 +1,6 @@
 #include "engine/io/image/image.h"
 
+#include <algorithm>
 #include <random>
 
 #include <gmock/gmock.h>
@@ -108,6 +109,22 @@ TEST(ImageFile, AFullDiskIsAnErrorAndLeavesNothing) {
         ASSERT_FALSE(written) << name;
         EXPECT_THAT(written.error().message, HasSubstr(std::string(name) + ": cannot be written"));
         EXPECT_TRUE(folder.names().empty()) << name;
+    }
+}
+
+// TIFF was once JPEG in a file that nothing could read.
+TEST(ImageFile, WhatIsWrittenWithoutLossIsReadAgain) {
+    const test::TemporaryFolder folder;
+    Image image = random_image(30, 20);
+    for (Rgba8& pixel : image.samples()) {
+        pixel.a = 255;
+    }
+    for (const char* const name : {"a.png", "a.tif", "a.bmp", "a.tga", "a.ppm"}) {
+        const auto path = folder.path() / name;
+        ASSERT_TRUE(write_image(path, image)) << name;
+        const auto read = read_image(path);
+        ASSERT_TRUE(read) << read.error().message;
+        EXPECT_TRUE(std::ranges::equal(read->samples(), image.samples())) << name;
     }
 }
 
