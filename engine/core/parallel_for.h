@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stop_token>
 
@@ -10,6 +11,19 @@ using Progress = std::function<void(double fraction)>;
 
 /// `requested`, or the machine's number of threads if it is 0; at least 1.
 unsigned thread_count(unsigned requested);
+
+/// The items of a job that one process of several does: each item belongs to exactly one of `count`
+/// shards. Neighbours go to different shards, because they often cost the same.
+struct Shard {
+    int index = 0; ///< [0, count)
+    int count = 1; ///< at least 1
+
+    [[nodiscard]] bool has(std::size_t item) const {
+        return item % static_cast<std::size_t>(count) == static_cast<std::size_t>(index);
+    }
+    [[nodiscard]] bool is_whole() const { return count == 1; }
+    friend bool operator==(const Shard&, const Shard&) = default;
+};
 
 struct ParallelOptions {
     unsigned threads = 0; ///< 0: one per hardware thread

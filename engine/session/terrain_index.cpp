@@ -79,9 +79,11 @@ Result<void> complete_index(const TerrainSource& source, const io::IndexSource& 
     }
     const auto task = log.start("indexing " + source.description.name);
     const auto report =
-        io::make_index(index, {.threads = threads_within(source.stream->memory_budget, threads),
-                               .stop = stop,
-                               .progress = task->callback()});
+        io::make_index(index,
+                       {.threads = threads_within(source.stream->memory_budget, threads),
+                        .stop = stop,
+                        .progress = task->callback()},
+                       {.shard = {}, .waits = true});
     if (!report) {
         return report.error();
     }
@@ -97,7 +99,7 @@ Result<void> complete_index(const TerrainSource& source, const io::IndexSource& 
 } // namespace
 
 Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
-                                     const std::stop_token& stop) {
+                                     const std::stop_token& stop, const Shard& shard) {
     const io::ReadScope scope(stop);
     const Stopwatch watch;
     const auto description = describe(options.terrain);
@@ -134,9 +136,11 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
     const auto task = log.start("indexing " + description->name);
     const std::size_t memory_budget = static_cast<std::size_t>(options.memory_megabytes) << 20;
     const auto threads = static_cast<unsigned>(options.threads);
-    auto report = io::make_index(*index, {.threads = threads_within(memory_budget, threads),
-                                          .stop = stop,
-                                          .progress = task->callback()});
+    auto report = io::make_index(*index,
+                                 {.threads = threads_within(memory_budget, threads),
+                                  .stop = stop,
+                                  .progress = task->callback()},
+                                 {.shard = shard});
     if (!report) {
         return report.error();
     }

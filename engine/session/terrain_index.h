@@ -20,13 +20,15 @@ struct IndexedTerrain {
 };
 
 /// Makes or completes the index of a terrain that does not fit the memory. Logs progress. Fails as
-/// open_heights, io::index_source and io::make_index, and without a cache folder.
+/// open_heights, io::index_source and io::make_index, and without a cache folder. `shard`: the part
+/// of the index that this process makes; others may make theirs at the same time.
 Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
-                                     const std::stop_token& stop);
+                                     const std::stop_token& stop, const Shard& shard = {});
 
-/// The proofs of a streamed source, from its index, which is made or completed first. Logs
-/// progress, and a note if files cannot be read, whose tiles remain unproven. Fails as
-/// io::index_source and io::make_index, and for files on servers, because that reads all of them.
+/// The proofs of a streamed source, from its index, which is made or completed first; waits for
+/// other processes that do so. Logs progress, and a note if files cannot be read, whose tiles
+/// remain unproven. Fails as io::index_source and io::make_index, and for files on servers, because
+/// that reads all of them.
 Result<std::shared_ptr<const ProvenTiles>>
 make_proofs(const TerrainSource& source, unsigned threads, Log& log, const std::stop_token& stop);
 

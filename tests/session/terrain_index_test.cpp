@@ -1,10 +1,15 @@
 #include "engine/session/terrain_index.h"
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -301,11 +306,35 @@ TEST_F(TerrainIndex, OnAFullDiskANoteSaysWhy) {
     EXPECT_THAT(reason(), HasSubstr("cannot be written"));
 }
 
-TEST_F(TerrainIndex, WhileAnotherProcessWritesItANoteSaysSo) {
+TEST_F(TerrainIndex, WaitsForAnotherProcessThatWritesIt) {
     fs::create_directories(cache() / "reljef");
-    const auto other = io::ErrorIndex::open_to_write(index_source_of(opened()));
+    TerrainSource source = opened();
+    std::optional<io::ErrorIndex> other;
+    {
+        auto opened = io::ErrorIndex::open_to_write(index_source_of(source));
+        ASSERT_TRUE(opened) << opened.error().message;
+        other.emplace(std::move(*opened));
+    }
+    std::atomic<bool> is_done{false};
+    std::jthread waiting([&] {
+        EXPECT_TRUE(add_proofs(source, true, log_, {}));
+        is_done = true;
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100)); // a chance to fail
+    EXPECT_FALSE(is_done);
+    other.reset();
+    waiting.join();
+    EXPECT_NE(source.proofs, nullptr);
+}
+
+TEST_F(TerrainIndex, AStopEndsTheWaitForAnotherProcess) {
+    fs::create_directories(cache() / "reljef");
+    TerrainSource source = opened();
+    const auto other = io::ErrorIndex::open_to_write(index_source_of(source));
     ASSERT_TRUE(other) << other.error().message;
-    EXPECT_THAT(reason(), HasSubstr("another process indexes"));
+    std::stop_source stop;
+    std::jthread stopping([&] { stop.request_stop(); });
+    EXPECT_FALSE(add_proofs(source, true, log_, stop.get_token()));
 }
 
 TEST_F(TerrainIndex, IsNotMadeOfAllThatAServerHas) {

@@ -39,7 +39,7 @@ private:
 /// Precondition: cols, rows, count > 0.
 Channels make_channels(int cols, int rows, int count);
 
-/// Any picture OpenImageIO opens.
+/// Any picture of a format that picture_format() knows.
 Result<Channels> read_channels(const std::filesystem::path& path);
 /// Precondition: the channel exists.
 Grid<float> channel_of(const Channels& channels, int channel);

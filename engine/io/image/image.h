@@ -13,7 +13,7 @@
 
 namespace reljef::io {
 
-/// Reads any picture that OpenImageIO opens, as 8-bit sRGB.
+/// Reads any picture of a format that picture_format() knows, as 8-bit sRGB.
 Result<Image> read_image(const std::filesystem::path& path);
 
 /// Writes an opaque picture whole or not at all. The extension selects the format (.png, .jpg, …).

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/result.h"
+#include "engine/io/checks/picture_format.h"
 
 namespace reljef::io {
 
@@ -28,10 +29,16 @@ Result<T> read_picture(const std::filesystem::path& path, const Read& read,
     try {
         OIIO::ImageSpec desired;
         desired.attribute("oiio:UnassociatedAlpha", 1);
-        const auto input = OIIO::ImageInput::open(path.string(), &desired);
-        if (input == nullptr) {
+        const auto format = picture_format(path.string());
+        if (!format) {
+            return format.error();
+        }
+        const auto input = OIIO::ImageInput::create(*format);
+        OIIO::ImageSpec found;
+        if (input == nullptr || !input->open(path.string(), found, desired)) {
             return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
-                                     OIIO::geterror(), expected)};
+                                     input == nullptr ? OIIO::geterror() : input->geterror(),
+                                     expected)};
         }
         const auto size = check_image_size(path, input->spec());
         return size ? read(*input) : Result<T>(size.error());

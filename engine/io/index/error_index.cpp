@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include "engine/io/cache/cache_file.h"
@@ -221,31 +220,6 @@ Result<std::optional<ErrorIndex>> ErrorIndex::open(const IndexSource& source) {
     index.is_complete_ = was_complete && is_whole;
     index.is_damaged_ = was_complete && !is_whole;
     return std::optional(std::move(index));
-}
-
-Result<ErrorIndex> ErrorIndex::open_to_write(const IndexSource& source) {
-    auto file = open_cache_file(source.file, CacheAccess::write);
-    if (!file) {
-        return file.error();
-    }
-    if (!*file) {
-        return Error{
-            fmt::format("{}: cannot be written: {}", source.file.string(), std::strerror(ENOENT))};
-    }
-    ErrorIndex index(source, std::move(**file));
-    if (::flock(index.file_.number(), LOCK_EX | LOCK_NB) != 0) {
-        return Error{fmt::format("{}: another process indexes {} now, none was expected",
-                                 source.file.string(), source.tiles.name())};
-    }
-    std::string found(sizeof(IndexHeader), '\0');
-    static_cast<void>(index.read_at(0, std::as_writable_bytes(std::span(found))));
-    index.is_complete_ = found == index.header(true);
-    if (!index.is_complete_ && found != index.header(false)) {
-        if (auto cleared = index.clear(); !cleared) {
-            return cleared.error();
-        }
-    }
-    return index;
 }
 
 bool ErrorIndex::has_level(int level) const {

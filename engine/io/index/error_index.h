@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ std::filesystem::path index_file(const TileSet& tiles, const TileGrid& grid, Gap
 Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
                                  const std::filesystem::path& cache_folder);
 
+/// How a process writes an index beside others.
+enum class IndexAccess {
+    alone,  ///< fails if others write it
+    queued, ///< alone, after the others
+    shared, ///< with others that write other parts
+};
+
 /// The proofs of a terrain's tiles, and the heights of those from level 3, in a file. Reads each on
 /// demand. All parts have checksums: parts that are damaged or missing are absent. Reading is
 /// thread-safe; so is writing different parts.
@@ -44,9 +52,14 @@ public:
 
     /// Absent if there is none. Fails if it is unusable, or of another state of the source.
     static Result<std::optional<ErrorIndex>> open(const IndexSource& source);
-    /// Opens or makes an index to write; empties one of another state of the source. Fails while
-    /// another process writes it.
-    static Result<ErrorIndex> open_to_write(const IndexSource& source);
+    /// Opens or makes an index to write; empties a damaged one, and one of another state of the
+    /// source. Fails while other processes write it, or after a stop while it waits for them.
+    static Result<ErrorIndex> open_to_write(const IndexSource& source,
+                                            IndexAccess access = IndexAccess::alone,
+                                            const std::stop_token& stop = {});
+    /// Gives a shared index to this process alone. False, and then this process writes no more, if
+    /// others write it still: the last of them gets it.
+    [[nodiscard]] bool claim();
 
     /// Absent: unproven.
     [[nodiscard]] std::optional<terrain::TileProof> find(terrain::TreeTile tile) const;
@@ -99,6 +112,12 @@ private:
     [[nodiscard]] std::optional<std::vector<float>> read_block(std::uint64_t place,
                                                                std::size_t floats) const;
     Result<void> write_block(std::uint64_t place, std::vector<float> floats);
+    /// Whether the header is of this source; sets is_complete_.
+    [[nodiscard]] bool has_begun();
+    /// Empties a damaged file, and one of another state of the source.
+    Result<void> begin();
+    /// False if another process has the lock.
+    Result<bool> lock(IndexAccess access);
     Result<void> write_proofs(int level, glm::ivec2 first, const Grid<terrain::TileProof>& tiles);
     Result<void> write_tiles(int level, glm::ivec2 first, const terrain::ChunkLevel& made);
     [[nodiscard]] std::string header(bool is_complete) const;

@@ -22,13 +22,16 @@ using terrain::TileProof;
 using terrain::tree_tile_cells;
 using terrain::TreeTile;
 
-std::vector<Chunk> missing_chunks(const terrain::TileTree& tree, const ErrorIndex& index,
-                                  int base) {
+/// Of those of a shard, row by row.
+std::vector<Chunk> missing_chunks(const terrain::TileTree& tree, const ErrorIndex& index, int base,
+                                  const Shard& shard) {
     std::vector<Chunk> chunks;
     const glm::ivec2 count = level_chunks(tree, base);
+    std::size_t item = 0;
     for (int row = 0; row < count.y; ++row) {
         for (int col = 0; col < count.x; ++col) {
-            if (const Chunk chunk{base, col, row}; !index.has(chunk)) {
+            const Chunk chunk{base, col, row};
+            if (shard.has(item++) && !index.has(chunk)) {
                 chunks.push_back(chunk);
             }
         }
@@ -132,30 +135,37 @@ public:
     IndexPass(const IndexSource& source, ErrorIndex& index, const ParallelOptions& options)
         : source_(source), index_(index), options_(options), samples_(source) {}
 
-    /// Fails after a stop, and if the index cannot be written.
-    Result<void> run() {
-        const int root = source_.tree.root().level;
-        for (int base = 0; base == 0 || base < root; base += levels_per_chunk) {
-            const std::vector<Chunk> chunks = missing_chunks(source_.tree, index_, base);
-            ParallelOptions options = options_;
-            options.progress = base == 0 ? options_.progress : Progress();
-            const bool done = parallel_for(
-                static_cast<int>(chunks.size()),
-                [&](int i) { make(chunks[static_cast<std::size_t>(i)]); }, options);
-            if (failure_) {
-                return *failure_;
-            }
-            if (!done) {
-                return Error{fmt::format("{}: was interrupted; finished parts of the index are "
-                                         "kept, and the next call goes on",
-                                         source_.tiles.name())};
-            }
+    /// The shard's chunks of samples. Fails after a stop, and if the index cannot be written.
+    Result<void> read_samples(const Shard& shard) {
+        return make_all(missing_chunks(source_.tree, index_, 0, shard), options_);
+    }
+    /// The chunks of all other levels. Fails as read_samples().
+    Result<void> add_coarser_levels() {
+        ParallelOptions options = options_;
+        options.progress = Progress();
+        Result<void> made;
+        for (int base = levels_per_chunk; base < source_.tree.root().level && made;
+             base += levels_per_chunk) {
+            made = make_all(missing_chunks(source_.tree, index_, base, {}), options);
         }
-        return {};
+        return made;
     }
     [[nodiscard]] std::vector<FileError> take_errors() { return std::move(errors_); }
 
 private:
+    Result<void> make_all(const std::vector<Chunk>& chunks, const ParallelOptions& options) {
+        const bool done = parallel_for(
+            static_cast<int>(chunks.size()),
+            [&](int i) { make(chunks[static_cast<std::size_t>(i)]); }, options);
+        if (failure_) {
+            return *failure_;
+        }
+        return done ? Result<void>()
+                    : Error{fmt::format("{}: was interrupted; finished parts of the index are "
+                                        "kept, and the next call goes on",
+                                        source_.tiles.name())};
+    }
+
     void make(Chunk chunk) {
         if (has_failed_) {
             return;
@@ -228,13 +238,14 @@ Error changed_meanwhile(const IndexSource& source) {
 
 /// Proves what is missing; returns the errors of files.
 Result<std::vector<FileError>> add_missing(const IndexSource& source,
-                                           const ParallelOptions& options, ErrorIndex& index) {
-    const bool is_damaged = index.is_complete();
-    if (auto cleared = is_damaged ? index.clear() : Result<void>(); !cleared) {
-        return cleared.error();
-    }
+                                           const ParallelOptions& options, ErrorIndex& index,
+                                           const Shard& shard) {
     IndexPass pass(source, index, options);
-    const auto done = pass.run();
+    auto done = pass.read_samples(shard);
+    const bool is_last = done && (shard.is_whole() || index.claim());
+    if (is_last) {
+        done = pass.add_coarser_levels();
+    }
     if (options.stop.stop_requested() && !done) {
         return done.error();
     }
@@ -246,7 +257,8 @@ Result<std::vector<FileError>> add_missing(const IndexSource& source,
     if (!done) {
         return done.error();
     }
-    if (auto completed = is_whole(index.levels()) ? index.complete() : Result<void>(); !completed) {
+    if (auto completed = is_last && is_whole(index.levels()) ? index.complete() : Result<void>();
+        !completed) {
         return completed.error();
     }
     return pass.take_errors();
@@ -254,15 +266,18 @@ Result<std::vector<FileError>> add_missing(const IndexSource& source,
 
 } // namespace
 
-Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options) {
-    auto index = ErrorIndex::open_to_write(source);
+Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options,
+                               const IndexShare& share) {
+    const IndexAccess alone = share.waits ? IndexAccess::queued : IndexAccess::alone;
+    auto index = ErrorIndex::open_to_write(
+        source, share.shard.is_whole() ? alone : IndexAccess::shared, options.stop);
     if (!index) {
         return index.error();
     }
     IndexReport report;
     report.levels = index->levels();
     if (!index->is_complete() || !is_whole(report.levels)) {
-        auto errors = add_missing(source, options, *index);
+        auto errors = add_missing(source, options, *index, share.shard);
         if (!errors) {
             return errors.error();
         }

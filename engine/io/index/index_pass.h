@@ -20,11 +20,21 @@ struct IndexReport {
 /// Memory of a thread of make_index, about, bytes.
 inline constexpr std::size_t bytes_of_index_thread = std::size_t{25} << 20U;
 
+/// How a process makes an index beside others.
+struct IndexShare {
+    Shard shard;        ///< of the chunks of samples; the last process makes the coarser ones
+    bool waits = false; ///< for others that write it, instead of failing
+};
+
 /// Proves all tiles of a terrain that are not proven yet, in one pass over its samples. Chunks that
 /// fail leave their tiles unproven, and the coarser ones over them; the next call tries them again.
 /// Fails after a stop (finished chunks are kept), if the index cannot be written, and if the source
 /// changed meanwhile (then nothing is kept).
-Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options);
+///
+/// With a shard, it proves the tiles of its chunks beside other processes; IndexReport::levels tell
+/// what is missing still. A call without a shard completes what killed processes left.
+Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options,
+                               const IndexShare& share = {});
 
 /// A tile as an index has it.
 struct IndexedTile {

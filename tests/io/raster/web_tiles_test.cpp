@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/tile_set.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/nginx.h"
 #include "tests/support/temporary_folder.h"
