@@ -6,6 +6,7 @@
 
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
+#include "app/cli/shard_option.h"
 #include "app/commands.h"
 #include "engine/session/terrain_index.h"
 
@@ -17,6 +18,7 @@ using Json = nlohmann::ordered_json;
 struct IndexChoice {
     cli::TerrainChoice terrain;
     bool json = false;
+    Shard shard;
 };
 
 struct TileCount {
@@ -73,7 +75,8 @@ void print_report(const session::IndexedTerrain& indexed) {
 
 Result<void> print_index(const IndexChoice& choice, const cli::Interrupt& interrupt) {
     cli::ConsoleLog log(choice.terrain.quiet);
-    const auto indexed = session::index_terrain(choice.terrain, log, interrupt.token());
+    const auto indexed =
+        session::index_terrain(choice.terrain, log, interrupt.token(), choice.shard);
     if (!indexed) {
         return indexed.error();
     }
@@ -89,7 +92,14 @@ Result<void> print_index(const IndexChoice& choice, const cli::Interrupt& interr
         print_report(*indexed);
     }
     const TileCount count = count_of(*indexed->report);
-    return count.unproven == 0
+    const bool is_for_others = !choice.shard.is_whole() && indexed->report->errors.empty();
+    if (count.unproven > 0 && is_for_others) {
+        log.note(
+            fmt::format("part {} is done; {} of {} tiles are those of other parts, or wait for "
+                        "them",
+                        cli::shard_text(choice.shard), count.unproven, count.tiles));
+    }
+    return count.unproven == 0 || is_for_others
                ? Result<void>()
                : Error{fmt::format("{}: {} of {} tiles remain unproven, because {} could not be "
                                    "read; the same command tries them again",
@@ -106,6 +116,7 @@ cli::Command add_index_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_source_options(*arguments, choice->terrain);
     cli::add_gaps_option(*arguments, choice->terrain);
     arguments->add_flag("--json", choice->json, "print JSON");
+    cli::add_shard_option(*arguments, choice->shard, "tiles");
     arguments->callback([choice] {
         if (choice->terrain.terrain == "-") {
             throw CLI::ValidationError(
@@ -117,10 +128,14 @@ cli::Command add_index_command(CLI::App& program, cli::Interrupt& interrupt) {
         "computes the range of heights and the largest error of the tile's surface, and the "
         "heights of coarse tiles. The results are kept in the cache folder. After Ctrl-C, the "
         "same command goes on where it stopped. Terrains that fit need no index.\n"
+        "With --shard, several processes that share the cache folder make one index. The last one "
+        "that ends completes it. If one was killed, the same command, or one without --shard, "
+        "does what is missing.\n"
         "Examples:\n"
         "  reljef index alps.tif\n"
         "  reljef index tiles/ --area 44,6,46,8 --memory 256\n"
-        "  reljef index alps.tif --json");
+        "  reljef index alps.tif --json\n"
+        "  mpirun -n 4 reljef index alps.tif --shard openmpi");
     return {arguments, [choice, &interrupt] { return print_index(*choice, interrupt); }};
 }
 

@@ -11,9 +11,11 @@
 #include "app/cli/output_files.h"
 #include "app/cli/parsed_option.h"
 #include "app/cli/progress_line.h"
+#include "app/cli/shard_option.h"
 #include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
 #include "app/commands.h"
+#include "app/finished_frames.h"
 #include "app/frame_sink.h"
 #include "engine/io/image/image.h"
 #include "engine/session/frame_maker.h"
@@ -32,6 +34,8 @@ struct RenderChoice {
     bool stats = false;
     bool truth = false;
     int rays = 1;
+    Shard shard;
+    bool resume = false;
 };
 
 constexpr int sheet_columns = 4;
@@ -111,6 +115,12 @@ session::Underground underground(const RenderChoice& choice) {
                                          : session::Underground::lifted;
 }
 
+// A frame that an earlier run drew, with --resume.
+std::optional<Image> finished_frame(const RenderChoice& choice, int index) {
+    const auto file = choice.resume ? numbered(choice.output, index) : Error{""};
+    return file ? finished_picture(*file, choice.view.size) : std::nullopt;
+}
+
 // Adds the files that are to be committed. Returns the frames whose cameras were lifted above the
 // ground.
 Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
@@ -129,13 +139,21 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     cli::LiftedFrames lifted;
     cli::ProgressLine line("drawing", choice.terrain.quiet);
-    for (int index = 0; index < frames; ++index) {
+    const std::vector<int> own = frames_of(choice.shard, frames);
+    int drawn = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const int index = own[i];
+        if (auto finished = finished_frame(choice, index)) {
+            sheet.add(std::move(*finished), index);
+            continue;
+        }
         if (path) {
             lifted.add(session::fly_above_ground(scene, *path, index, frames, maker,
                                                  interrupt.token(), underground(choice)));
         }
         auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
-                                      line.update((index + part) / frames);
+                                      line.update((static_cast<double>(i) + part) /
+                                                  static_cast<double>(own.size()));
                                   }));
         if (!picture) {
             return picture.error();
@@ -147,16 +165,35 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
             return written.error();
         }
         sheet.add(std::move(*picture), index);
-        line.update((index + 1.0) / frames);
+        line.update(static_cast<double>(i + 1) / static_cast<double>(own.size()));
+        ++drawn;
     }
     if (auto finished = (*sink)->finish(outputs); !finished) {
         return finished.error();
     }
-    if (choice.stats) {
+    if (choice.stats && drawn > 0) {
         fmt::print("{}", maker.stats());
     }
     const auto prepared = sheet.prepare(choice.contact_sheet, outputs);
     return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
+}
+
+// Throws CLI::ParseError: parts of a flight are numbered pictures.
+void expect_parts(const RenderChoice& choice) {
+    const bool has_parts = !choice.shard.is_whole();
+    const char* const option = has_parts ? "--shard" : "--resume";
+    if (!has_parts && !choice.resume) {
+        return;
+    }
+    if (!is_numbered(choice.output)) {
+        cli::fail_usage(fmt::format("{}: '{}' found as -o, numbered pictures like %04d.png were "
+                                    "expected; videos are made of them afterwards",
+                                    option, choice.output.string()));
+    }
+    if (!choice.hits.empty() || (has_parts && !choice.contact_sheet.empty())) {
+        cli::fail_usage(fmt::format("{}: found beside {}, only -o was expected", option,
+                                    choice.hits.empty() ? "--contact-sheet" : "--hit"));
+    }
 }
 
 void expect_standard_output(const RenderChoice& choice) {
@@ -186,6 +223,7 @@ void expect_outputs(const RenderChoice& choice) {
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         cli::fail_usage("render: --frames found without a --path to fly along");
     }
+    expect_parts(choice);
     if (is_standard_output(choice.output)) {
         expect_standard_output(choice);
     }
@@ -415,6 +453,10 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),
                     "with --truth: N x N rays per pixel, 1 to 16 (1)", "N")
         ->needs(truth);
+    cli::add_shard_option(*arguments, choice->shard, "frames of --path");
+    arguments->add_flag("--resume", choice->resume,
+                        "keep the numbered pictures of an earlier run of the same command; draw "
+                        "those that are missing, damaged or of another size");
     arguments->add_flag(
         "--stats", choice->stats,
         "print counts and times of the last frame, and times and memory of all frames");
@@ -433,6 +475,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet "
         "sheet.png\n"
         "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
+        "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
+        "slurm --resume\n"
         "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
         "  reljef render dem.tif --technique texture --hit hit.exr\n"
         "  reljef render urban --detail cobble:width=3 -o street.png\n"

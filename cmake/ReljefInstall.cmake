@@ -40,7 +40,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/reljefConfig.cmake ${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
   DESTINATION ${reljef_package_dir} COMPONENT library)
 
-install(FILES README.md ARCHITECTURE.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md SECURITY.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT docs)
 install(DIRECTORY docs/techniques docs/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs
   COMPONENT docs FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
