@@ -7,7 +7,7 @@
 #include "app/cli/message.h"
 #include "app/cli/parsed_option.h"
 #include "bench/commands.h"
-#include "bench/report/report_json.h"
+#include "bench/report/result_parts.h"
 #include "bench/suites/compare.h"
 
 namespace reljef::bench {
@@ -35,11 +35,11 @@ void exit_at_once() {
 
 Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& interrupt) {
     const std::stop_callback on_stop(interrupt.token(), exit_at_once);
-    const auto before = read_json_report(choice.before);
+    const auto before = read_result_parts(choice.before);
     if (!before) {
         return before.error();
     }
-    const auto after = read_json_report(choice.after);
+    const auto after = read_result_parts(choice.after);
     if (!after) {
         return after.error();
     }
@@ -63,19 +63,24 @@ cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments =
         program.add_subcommand("compare", "changes of frame time and error between two runs");
     auto choice = std::make_shared<CompareChoice>();
-    arguments->add_option("BEFORE", choice->before, "results of the first run, written by --json")
+    arguments
+        ->add_option("BEFORE", choice->before,
+                     "results of the first run, written by --json; of parts (--shard): their "
+                     "name with %d for the number")
         ->required();
     arguments->add_option("AFTER", choice->after, "results of the second run")->required();
     cli::add_parsed(*arguments, "--threshold", choice->threshold_percent, parse_percent,
                     "ignore changes of at most PERCENT percent (10)", "PERCENT");
     arguments->footer(
+        "Parts of a run are read as one: 'part-%d.json' is part-0.json, part-1.json, …\n"
         "A change counts if it is larger than the threshold and the noise of both runs. Times of\n"
         "rows with fewer than 5 frames are not compared. The exit status is 1 if a figure is "
         "worse\n"
         "or a row is missing.\n"
         "Examples:\n"
         "  reljef-bench compare before.json after.json\n"
-        "  reljef-bench compare before.json after.json --threshold 5");
+        "  reljef-bench compare before.json after.json --threshold 5\n"
+        "  reljef-bench compare before.json 'part-%d.json'");
     return {arguments, [choice, &interrupt] { return run_compare(*choice, interrupt); }};
 }
 

@@ -1,9 +1,12 @@
 #include <memory>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
+#include "app/cli/shard_option.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
+#include "bench/part_options.h"
 #include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
 #include "bench/suites/pareto_suite.h"
@@ -16,21 +19,31 @@ constexpr glm::ivec2 pareto_quick_size{320, 240}; // there are ten times as many
 struct ParetoChoice {
     ParetoOptions options;
     OutputChoice outputs;
+    PartChoice part;
 };
 
 Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) {
+    const OutputChoice outputs = outputs_of_part(choice.outputs, choice.part);
+    if (auto good = check_outputs(outputs, inputs); !good) {
         return good;
     }
+    if (is_finished(outputs, choice.part, choice.options.suite.quiet)) {
+        return {};
+    }
     ParetoOptions options = choice.options;
+    options.shard = choice.part.shard;
     if (!options.terrains.empty()) { // the default terrains suit every technique
         check_suited(options.techniques, options.terrains);
     }
     options.suite = with_quick_size(options.suite, command, pareto_quick_size);
-    options.suite.keep_views = !choice.outputs.html.empty();
-    return report(run_pareto(options, interrupt.token()), choice.outputs);
+    options.suite.keep_views = !outputs.html.empty();
+    if (pareto_groups(options).empty() && !options.shard.is_whole()) {
+        return Error{fmt::format("--shard: {} found, but there are fewer scenes and poses",
+                                 cli::shard_text(options.shard))};
+    }
+    return report(run_pareto(options, interrupt.token()), outputs);
 }
 
 } // namespace
@@ -44,6 +57,7 @@ cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
                           "all techniques, over the ranges of their parameters");
     add_suite_options(*arguments, choice->options.suite);
     add_output_options(*arguments, choice->outputs);
+    add_part_options(*arguments, choice->part, "scenes and poses");
     arguments->footer(
         "The poses are overview, oblique, low and grazing; the gallery's detail textures are\n"
         "measured from oblique only, with the techniques and options for meshes.\n"
@@ -54,11 +68,14 @@ cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
         "leaves out settings when time runs out, and reports them.\n"
         "Ctrl-C draws each finished setting once more; then the rows so far are printed and\n"
         "written.\n"
+        "With --shard, processes measure parts; 'compare' reads the files of all parts as one "
+        "run.\n"
         "Examples:\n"
         "  reljef-bench pareto --quick\n"
         "  reljef-bench pareto --terrain natural --terrain N45E006.hgt --html report\n"
         "  reljef-bench pareto --terrain N45E006.hgt --json pareto.json\n"
-        "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv");
+        "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv\n"
+        "  reljef-bench pareto --shard 2/8 --json 'part-%d.json' --resume");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_pareto_command(*choice, *arguments, interrupt);
             }};

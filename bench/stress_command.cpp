@@ -10,6 +10,7 @@
 #include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/page/page.h"
+#include "bench/part_options.h"
 #include "bench/stress/stress_suite.h"
 #include "bench/suite_arguments.h"
 #include "engine/core/atomic_file.h"
@@ -23,6 +24,7 @@ constexpr glm::ivec2 stress_quick_size{96, 72};
 struct StressChoice {
     StressOptions options;
     OutputChoice outputs;
+    PartChoice part;
 };
 
 // Writes the page and the JSON, or neither.
@@ -71,8 +73,12 @@ Result<void> report_stress(const StressResults& results, const OutputChoice& out
 Result<void> run_stress_command(const StressChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
-    if (auto good = check_outputs(choice.outputs, inputs); !good) {
+    const OutputChoice outputs = outputs_of_part(choice.outputs, choice.part);
+    if (auto good = check_outputs(outputs, inputs); !good) {
         return good;
+    }
+    if (is_finished(outputs, choice.part, choice.options.suite.quiet)) {
+        return {};
     }
     for (const scene::Technique& technique : choice.options.techniques) {
         if (!scene::draws_terrain(technique.id())) {
@@ -83,7 +89,8 @@ Result<void> run_stress_command(const StressChoice& choice, const CLI::App& comm
     }
     StressOptions options = choice.options;
     options.suite = with_quick_size(options.suite, command, stress_quick_size);
-    return report_stress(run_stress(options, interrupt.token()), choice.outputs);
+    options.shard = choice.part.shard;
+    return report_stress(run_stress(options, interrupt.token()), outputs);
 }
 
 void add_stress_options(CLI::App& command, StressChoice& choice) {
@@ -115,6 +122,7 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
     add_suite_options(command, choice.options.suite);
     add_json_option(command, choice.outputs);
     add_page_option(command, choice.outputs);
+    add_part_options(command, choice.part, "stresses");
 }
 
 } // namespace
@@ -139,7 +147,8 @@ cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench stress --terrain N45E006.hgt --only near-ground --technique exact\n"
         "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000\n"
         "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000 --skip 4000\n"
-        "  reljef-bench stress --json stress.json --html stress");
+        "  reljef-bench stress --json stress.json --html stress\n"
+        "  reljef-bench stress --shard 0/4 --json 'stress-%d.json' --resume");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_stress_command(*choice, *arguments, interrupt);
             }};

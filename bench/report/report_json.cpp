@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cli/shard_option.h"
 #include "bench/report/json_fields.h"
 #include "engine/core/atomic_file.h"
 
@@ -168,6 +169,16 @@ static void describe(JsonReader& fields, Row& row) {
 
 namespace {
 
+Shard read_shard(JsonReader& fields) {
+    std::string text = cli::shard_text({});
+    fields.later_field("shard", text);
+    const auto shard = cli::parse_shard(text, [](const char*) { return nullptr; });
+    if (!shard) {
+        fields.fail("shard", "a part of a run like \"0/4\"");
+    }
+    return shard ? *shard : Shard();
+}
+
 // Files of earlier versions lack some keys.
 Results read_results(JsonReader& fields, const std::string& file) {
     std::string schema;
@@ -179,6 +190,7 @@ Results read_results(JsonReader& fields, const std::string& file) {
     bool is_complete = false;
     fields.field("complete", is_complete);
     fields.object("environment", [&](auto& inner) { describe(inner, results.environment); });
+    results.shard = read_shard(fields);
     fields.later_field("notes", results.notes);
     if (fields.has("left_out")) {
         fields.array("left_out", results.left_out);
@@ -233,6 +245,9 @@ std::string json_report(const Results& results) {
     fields.field("notes", results.notes);
     fields.array("left_out", results.left_out);
     fields.json["environment"] = json_of(results.environment);
+    if (!results.shard.is_whole()) {
+        fields.field("shard", cli::shard_text(results.shard));
+    }
     fields.array("rows", results.rows);
     if (!results.fronts.empty()) {
         fields.array("fronts", results.fronts);

@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "bench/report/row_view.h"
+#include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/core/statistics.h"
 #include "engine/platform/context.h"
@@ -138,6 +139,7 @@ struct LeftOut {
 
 struct Results {
     Environment environment;
+    Shard shard = {}; ///< the part of the run's scenes and poses
     std::vector<Row> rows;
     std::vector<Front> fronts; ///< of the suite pareto
     std::vector<LeftOut> left_out;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/message.h"
+#include "app/cli/shard_option.h"
 #include "bench/report/report_table.h"
 
 namespace reljef::bench {
@@ -137,6 +138,9 @@ FigureTable figure_table(const StressResults& results) {
                                   {"/verdict", "verdict"},
                                   {"/known", "fixed by"}},
                       .end = results.end};
+    if (!options.shard.is_whole()) {
+        table.settings["shard"] = cli::shard_text(options.shard);
+    }
     for (const StressRow& row : results.rows) {
         const auto text = [](const std::string& word) {
             return word.empty() ? FigureJson() : FigureJson(word);

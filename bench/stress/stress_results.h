@@ -8,6 +8,7 @@
 #include "bench/report/figure_table.h"
 #include "bench/report/results.h"
 #include "bench/runner/suite_options.h"
+#include "engine/core/parallel_for.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::bench {
@@ -42,6 +43,7 @@ struct StressOptions {
     std::uint32_t seed = 1;                   ///< of random cases
     std::optional<int> poses;                 ///< of the error bound; absent: a usual number
     int skip = 0;                             ///< of these, left out at the beginning
+    Shard shard = {};                         ///< of the requested stresses
 };
 
 struct StressResults {

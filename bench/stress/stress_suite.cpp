@@ -103,8 +103,10 @@ public:
 
 private:
     template <class Chosen> void run_all(StressRun& run, const Chosen& chosen) {
+        std::size_t place = 0;
         for (const Stress& stress : stresses) {
-            if (chosen(stress.where) && is_requested(stress) && !stop_.stop_requested()) {
+            const bool is_own = is_requested(stress) && results_.options.shard.has(place++);
+            if (is_own && chosen(stress.where) && !stop_.stop_requested()) {
                 run_one(run, stress);
             }
         }

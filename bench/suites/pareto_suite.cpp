@@ -192,10 +192,13 @@ std::vector<scene::Technique> settings_of_options() {
 
 std::vector<Group> pareto_groups(const ParetoOptions& options) {
     std::vector<Group> groups;
+    std::size_t place = 0;
     for (const SceneChoice& scene : pareto_scenes(options)) {
         const auto settings = settings_on(scene, options);
         for (const scene::Pose pose : poses) {
-            if (!settings.empty() && (scene.detail.empty() || pose == detail_pose)) {
+            const bool is_measured =
+                !settings.empty() && (scene.detail.empty() || pose == detail_pose);
+            if (is_measured && options.shard.has(place++)) {
                 groups.push_back({"", scene, pose, candidates_of(settings)});
             }
         }
@@ -207,6 +210,7 @@ Results run_pareto(const ParetoOptions& options, const std::stop_token& stop) {
     Suite suite{.name = "pareto", .groups = pareto_groups(options)};
     suite.max_view_cols = max_view_cols;
     Results results = run_suite(suite, options.suite, stop);
+    results.shard = options.shard;
     results.fronts = fronts_of(results.rows);
     for (Front& front : results.fronts) {
         if (lacks_a_technique(front, results.left_out)) {

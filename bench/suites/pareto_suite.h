@@ -7,6 +7,7 @@
 #include "bench/report/results.h"
 #include "bench/runner/suite.h"
 #include "bench/runner/suite_options.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::bench {
 
@@ -16,6 +17,7 @@ struct ParetoOptions {
     /// side; techniques are then measured only on scenes that they suit.
     std::vector<std::string> terrains;
     std::vector<scene::Technique> techniques; ///< besides texture; empty: settings_over_range()
+    Shard shard = {};                         ///< of the scenes and poses
 };
 
 /// A quarter of the default side: a minute then suffices for polygons and cones, too.
@@ -38,8 +40,8 @@ settings_over_range(const std::vector<scene::TechniqueInfo>& techniques);
 /// `relief` with one option at a time; options with numbers have their defaults.
 std::vector<scene::Technique> settings_of_options();
 
-/// The scenes, poses and settings of run_pareto(). Chosen techniques are skipped on detail textures
-/// and default terrains that they do not suit.
+/// The scenes, poses and settings of run_pareto(), those of the shard. Chosen techniques are
+/// skipped on detail textures and default terrains that they do not suit.
 std::vector<Group> pareto_groups(const ParetoOptions& options);
 
 /// Measures the settings on each terrain from the poses overview, oblique, low and grazing, and on

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "bench/output_options.h"
+#include "engine/core/parallel_for.h"
+
+namespace CLI {
+class App;
+}
+
+namespace reljef::bench {
+
+/// The part of a run that this process measures.
+struct PartChoice {
+    Shard shard;
+    bool resume = false;
+};
+
+/// Adds --shard and --resume. `items`: what is divided, "scenes and poses".
+void add_part_options(CLI::App& command, PartChoice& choice, const std::string& items);
+
+/// The outputs of a part: its number replaces "%d" in their names. A usage error (CLI::ParseError)
+/// for --resume without --json.
+OutputChoice outputs_of_part(OutputChoice outputs, const PartChoice& choice);
+
+/// With --resume, whether the JSON file holds complete results of this part already; says so.
+bool is_finished(const OutputChoice& outputs, const PartChoice& choice, bool quiet);
+
+} // namespace reljef::bench
