@@ -2,7 +2,7 @@
 #include <cstring>
 
 #include "engine/io/cache/fnv_hash.h"
-#include "engine/io/tile_index.h"
+#include "engine/io/files/file_index.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
