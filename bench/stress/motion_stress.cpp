@@ -66,7 +66,7 @@ bool is_finite(const scene::Camera& camera) {
 
 double count_bad_flights(int steps) {
     scene::FreeFlightOptions options;
-    options.ground = [](double, double) { return scene::GroundAt{10.0, 11.0}; };
+    options.ground = [](glm::dvec3 eye) { return scene::GroundBelow{eye.z - 10.0, 1.0}; };
     scene::FreeFlight flight({.eye = {0.0, 0.0, 20.0}, .target = {0.0, 1.0, 20.0}}, options);
     flight.receive(KeyEvent{.key = Key::w, .pressed = true});
     double bad = 0.0;

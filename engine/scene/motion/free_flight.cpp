@@ -8,16 +8,18 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/scene/motion/camera_gestures.h"
+
 namespace reljef::scene {
 namespace {
 
 constexpr double degrees_per_pixel = 0.15;
-constexpr double max_pitch = 89.9; // degrees
 constexpr double speed_per_wheel_step = 1.25;
 constexpr double min_speed = 1e-2; // metres a second
 constexpr double max_speed = 1e7;
 constexpr double shift_factor = 4.0;
 constexpr double max_step = 0.25; // seconds
+constexpr double rounding = 1e-7; // metres, of places on Earth (max_world_coordinate)
 
 struct Steering {
     Key key;
@@ -135,7 +137,6 @@ bool FreeFlight::is_steered() const {
 
 void FreeFlight::let_go() {
     keys_.release_all();
-    button_held_ = false;
     pointer_.reset();
 }
 
@@ -146,32 +147,22 @@ bool FreeFlight::receive(const Event& event) {
     if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
         return receive_move(*move);
     }
-    if (const auto* button = std::get_if<MouseButtonEvent>(&event);
-        button != nullptr && button->button == MouseButton::left) {
-        button_held_ = button->pressed;
-        pointer_ = pointer_.value_or(button->position);
-        return true;
-    }
-    if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
-        return receive_scroll(*scroll);
-    }
     if (const auto* focus = std::get_if<FocusEvent>(&event); focus != nullptr && !focus->focused) {
         let_go();
     }
     return false;
 }
 
-bool FreeFlight::receive_scroll(const ScrollEvent& event) {
-    const double speed = speed_ * std::pow(speed_per_wheel_step, event.offset.y);
+void FreeFlight::change_speed(double steps) {
+    const double speed = speed_ * std::pow(speed_per_wheel_step, steps);
     if (!std::isnan(speed)) {
         speed_ = std::clamp(speed, min_speed, max_speed);
     }
-    return true;
 }
 
 bool FreeFlight::receive_move(const MouseMoveEvent& event) {
     const auto before = std::exchange(pointer_, event.position);
-    if (!before || !(mouse_look_ || button_held_)) {
+    if (!before || !mouse_look_) {
         return false;
     }
     const glm::dvec2 moved = event.position - *before;
@@ -199,6 +190,9 @@ bool FreeFlight::advance(double seconds) {
             *height_ = std::max(*height_ + desired.z, options_.clearance);
         }
         keep_above_ground();
+        if (glm::distance(camera_.eye, from) < rounding) {
+            camera_.eye = from; // held against the ground
+        }
         if (options_.north && camera_.eye != from) {
             heading_ = heading_of(ahead);
         }
@@ -211,16 +205,16 @@ bool FreeFlight::advance(double seconds) {
 }
 
 void FreeFlight::keep_above_ground() {
-    const auto ground =
-        options_.ground ? options_.ground(camera_.eye.x, camera_.eye.y) : std::nullopt;
+    const auto ground = options_.ground ? options_.ground(camera_.eye) : std::nullopt;
     if (!ground) {
         height_.reset();
         return;
     }
     if (!follows_ground_ || !height_) {
-        height_ = std::max(camera_.eye.z - ground->height, options_.clearance);
+        height_ = std::max(ground->height, options_.clearance);
     }
-    camera_.eye.z = std::max(ground->height + *height_, ground->highest + options_.clearance);
+    const double height = std::max(*height_, ground->highest + options_.clearance);
+    camera_.eye += (height - ground->height) * up();
 }
 
 } // namespace reljef::scene

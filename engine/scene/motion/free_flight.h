@@ -34,25 +34,25 @@ private:
     std::set<Key> tapped_; // since forget_taps()
 };
 
-/// The ground at a place, world metres.
-struct GroundAt {
-    double height = 0.0;  ///< z of the surface
-    double highest = 0.0; ///< upper bound of z of everything drawn there
+/// The ground below an eye, metres along the local vertical.
+struct GroundBelow {
+    double height = 0.0;  ///< of the eye above the surface; negative below it
+    double highest = 0.0; ///< upper bound of everything drawn there, above the surface
 };
 
 struct FreeFlightOptions {
     double speed = 100.0;   ///< initial speed, metres a second
-    double clearance = 2.0; ///< smallest height above GroundAt::highest, metres
+    double clearance = 2.0; ///< smallest height above GroundBelow::highest, metres
     /// Returns nothing where there is no ground; absent: there is none.
-    std::function<std::optional<GroundAt>(double x, double y)> ground;
+    std::function<std::optional<GroundBelow>(glm::dvec3 eye)> ground;
     /// Local vertical, a unit vector; absent: z.
     std::function<glm::dvec3(glm::dvec3 world)> up;
     /// Horizontal unit vector to the north; absent: y.
     std::function<glm::dvec3(glm::dvec3 world)> north;
 };
 
-/// A camera with manual control: the mouse (left button held) turns, the steering keys move, the
-/// wheel changes the speed, shift is four times as fast. The eye keeps its height above the ground
+/// A camera with manual control: the steering keys move, shift is four times as fast, mouse look
+/// turns. The eye keeps its height above the ground
 /// unless keys change it; without follow_ground it moves along the view. It is never below the
 /// ground. It moves along great circles, even across a pole: the heading changes on the way.
 class FreeFlight {
@@ -68,11 +68,13 @@ public:
 
     /// Whether the next advance() may change the camera.
     [[nodiscard]] bool is_steered() const;
-    /// Releases all keys and buttons.
+    /// Releases all keys.
     void let_go();
 
-    /// Turns with every move of the mouse, even without the button.
+    /// Turns with every move of the mouse.
     void set_mouse_look(bool on);
+    /// Multiplies the speed by 1.25 for each step.
+    void change_speed(double steps);
     void set_follow_ground(bool on) { follows_ground_ = on; }
     [[nodiscard]] bool follows_ground() const { return follows_ground_; }
 
@@ -82,7 +84,6 @@ public:
 
 private:
     bool receive_move(const MouseMoveEvent& event);
-    bool receive_scroll(const ScrollEvent& event);
     [[nodiscard]] glm::dvec3 up() const;
     [[nodiscard]] Compass compass() const;
     [[nodiscard]] double heading_of(glm::dvec3 direction) const;
@@ -97,7 +98,6 @@ private:
     std::optional<double> height_; // metres above the ground; empty without ground
     SteeringKeys keys_;
     bool mouse_look_ = false;
-    bool button_held_ = false;
     bool turned_ = false;
     std::optional<glm::dvec2> pointer_;
 };
