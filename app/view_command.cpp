@@ -56,7 +56,9 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
     Viewer viewer(scene, std::move(*path), window.framebuffer_size(),
                   {.maps = {choice.terrain.threads, renderer.max_texture_side()},
                    .allow_underground = choice.view.allow_underground,
-                   .proves_errors = choice.terrain.index != session::IndexUse::none});
+                   .proves_errors = choice.terrain.index != session::IndexUse::none,
+                   .terrain = choice.terrain.terrain,
+                   .bookmarks = bookmark_file()});
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }

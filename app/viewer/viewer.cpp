@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/geo/place.h"
+#include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/ground.h"
 #include "engine/session/streaming.h"
@@ -46,13 +47,43 @@ scene::FreeFlight make_flight(const session::TerrainScene& scene, const scene::C
     options.speed = std::max(scene.bounds.size().x, scene.bounds.size().y) / seconds_across;
     options.clearance = session::min_clearance(scene);
     if (!allow_underground) {
-        options.ground = [node = scene.terrain](double x, double y) { // its stream may change
-            return session::ground_at(*node->get<scene::TerrainNode>(), x, y);
+        options.ground = [node = scene.terrain](glm::dvec3 eye) { // its stream may change
+            return session::ground_below(*node->get<scene::TerrainNode>(), eye);
         };
     }
     options.up = [surface](glm::dvec3 world) { return surface->placement().up(world); };
     options.north = [surface](glm::dvec3 world) { return surface->placement().north(world); };
     return {start, std::move(options)};
+}
+
+NavigationOptions navigation_options(const session::TerrainScene& scene, glm::ivec2 size,
+                                     bool allow_underground) {
+    constexpr double clearances_apart = 4.0; // of an eye from the point that it zooms to
+    constexpr double sides_apart = 20.0;     // of an eye that zooms out, in sides of the terrain
+    const auto surface = scene.terrain->get<scene::TerrainNode>()->surface;
+    const double clearance = session::min_clearance(scene);
+    NavigationOptions options;
+    options.middle = scene.bounds.center();
+    scene::GestureWorld& world = options.world;
+    world.size = glm::max(size, glm::ivec2(1));
+    world.up = [surface](glm::dvec3 at) { return surface->placement().up(at); };
+    world.north = [surface](glm::dvec3 at) { return surface->placement().north(at); };
+    if (!allow_underground) {
+        world.lifted = [node = scene.terrain, clearance](glm::dvec3 eye) {
+            return session::above_ground(*node->get<scene::TerrainNode>(), eye, clearance);
+        };
+    }
+    if (surface->placement().kind() == terrain::PlacementKind::ellipsoid) {
+        const glm::dvec2 radii = geo::radii_of_earth();
+        world.radius = (2.0 * radii.x + radii.y) / 3.0;
+    }
+    world.min_distance = clearances_apart * clearance;
+    world.max_distance = sides_apart * std::max(scene.bounds.size().x, scene.bounds.size().y);
+    options.pick = [node = scene.terrain](const Ray& ray) {
+        const auto hit = scene::pick_ground(*node->get<scene::TerrainNode>(), ray);
+        return hit ? std::optional(hit->world) : std::nullopt;
+    };
+    return options;
 }
 
 // The start of a flight, also for a scene that begins as a map.
@@ -128,7 +159,7 @@ struct Viewer::Binding {
 };
 
 std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 11> all{
+    static constexpr std::array<Binding, 14> all{
         {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
          {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
           "keep the height above the ground, or fly where you look"},
@@ -141,6 +172,10 @@ std::span<const Viewer::Binding> Viewer::bindings() {
          {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
           "turn with every move of the mouse, or only with its button held"},
          {Key::r, Key::home, &Viewer::go_to_start, "R, Home", "back to the first view"},
+         {Key::b, Key::unknown, &Viewer::bookmark_here, "B", "keep this view as a bookmark"},
+         {Key::n, Key::unknown, &Viewer::next_bookmark, "N", "fly to the next bookmark"},
+         {Key::v, Key::unknown, &Viewer::copy_camera, "V, Ctrl-C",
+          "copy the --camera of this view"},
          {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
           "save the picture here as reljef-0001.png, reljef-0002.png, ..."},
          {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
@@ -149,9 +184,13 @@ std::span<const Viewer::Binding> Viewer::bindings() {
 }
 
 std::string Viewer::keys() {
-    std::string text = "  W A S D, arrows  move (shift: faster; wheel: speed)\n"
-                       "  Q E              down, up; never under the ground\n"
-                       "  drag             turn; on the map: shift (wheel, Q E: closer, farther)\n";
+    std::string text = "  wheel            closer to the ground under the pointer, or farther\n"
+                       "  left drag        orbit around the ground under the pointer\n"
+                       "  right drag       pan; the map: every button (Q E: closer, farther)\n"
+                       "  middle drag      turn in place; so does a left drag from the sky\n"
+                       "  double click     fly there\n"
+                       "  W A S D, arrows  move (shift: faster; Ctrl and wheel: speed)\n"
+                       "  Q E              down, up; never under the ground\n";
     for (const Binding& binding : bindings()) {
         text += fmt::format("  {:<15}  {}\n", binding.names, binding.meaning);
     }
@@ -162,7 +201,12 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
                const ViewerOptions& options)
     : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),
-      flight_(make_flight(scene, start_, options.allow_underground)) {
+      flight_(make_flight(scene, start_, options.allow_underground)),
+      navigation_(navigation_options(scene, size, options.allow_underground)),
+      terrain_(options.terrain) {
+    if (options.bookmarks) {
+        bookmarks_.emplace(*options.bookmarks);
+    }
     const scene::Technique technique = material().technique;
     if (const scene::Technique first = first_technique(scene); first != technique) {
         switch_.request(first);
@@ -184,6 +228,7 @@ void Viewer::receive(const Event& event) {
     }
     if (const auto* resize = std::get_if<ResizeEvent>(&event)) {
         size_ = resize->framebuffer;
+        navigation_.receive(event, flight_.camera());
         redraw_ = true;
     }
     if (const auto* key = std::get_if<KeyEvent>(&event); key != nullptr && receive_key(*key)) {
@@ -193,13 +238,41 @@ void Viewer::receive(const Event& event) {
         map_->receive(event);
         return;
     }
+    if (!mouse_look_ && receive_mouse(event)) {
+        return;
+    }
     flight_.receive(event);
-    // Steering ends the flight along the path.
-    playing_ = playing_ && !flight_.is_steered();
+    if (flight_.is_steered()) { // ends the flight along the path, or to a place
+        playing_ = false;
+        navigation_.let_go();
+    }
+}
+
+bool Viewer::receive_mouse(const Event& event) {
+    const auto* wheel = std::get_if<ScrollEvent>(&event);
+    if (wheel != nullptr && wheel->modifiers.control) {
+        flight_.change_speed(wheel->offset.y);
+        return true;
+    }
+    const auto moved = navigation_.receive(event, flight_.camera());
+    if (moved) {
+        playing_ = false;
+        steer(*moved);
+    }
+    return moved.has_value();
+}
+
+void Viewer::steer(const scene::Camera& camera) {
+    flight_.set_camera(camera);
+    show_camera(flight_.camera());
 }
 
 bool Viewer::receive_key(const KeyEvent& event) {
     const Modifiers& with = event.modifiers;
+    if (event.pressed && with.control && event.key == Key::c && !event.repeat) {
+        copy_camera();
+        return true;
+    }
     if (!event.pressed || event.repeat || with.control || with.alt || with.super) {
         return false;
     }
@@ -235,7 +308,8 @@ std::vector<scene::Camera> Viewer::upcoming() const {
 }
 
 bool Viewer::is_moving() const {
-    return playing_ || (map_ ? map_->is_steered() : flight_.is_steered());
+    return playing_ ||
+           (map_ ? map_->is_steered() : flight_.is_steered() || navigation_.is_moving());
 }
 
 void Viewer::advance(double seconds) {
@@ -252,8 +326,13 @@ void Viewer::advance(double seconds) {
         advance_path(step);
     } else if (map_ && map_->advance(step)) {
         show_camera(map_->camera());
-    } else if (!map_ && flight_.advance(step)) {
-        show_camera(flight_.camera());
+    } else if (!map_) {
+        if (const auto moved = navigation_.advance(step)) {
+            steer(*moved);
+        }
+        if (flight_.advance(step)) {
+            show_camera(flight_.camera());
+        }
     }
 }
 
@@ -271,6 +350,7 @@ void Viewer::advance_path(double seconds) {
 }
 
 void Viewer::relay_to(session::Log& log) {
+    notes_.relay_to(log);
     switch_.relay_to(log);
     if (proofs_) {
         proofs_->relay_to(log);
@@ -297,14 +377,15 @@ void Viewer::toggle_path() {
     if (map_) {
         toggle_map();
     }
+    navigation_.let_go();
     playing_ = !playing_;
 }
 
 void Viewer::go_to_start() {
     playing_ = false;
     map_.reset();
-    flight_.set_camera(start_);
-    show_camera(flight_.camera());
+    navigation_.let_go();
+    steer(start_);
 }
 
 void Viewer::toggle_map() {
@@ -318,6 +399,7 @@ void Viewer::toggle_map() {
         toggle_mouse_look();
     }
     flight_.let_go();
+    navigation_.let_go();
     scene::Camera from_above = whole_map(scene_.bounds, size_);
     from_above.vertical_fov = camera().vertical_fov;
     from_above.near = camera().near;

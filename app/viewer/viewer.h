@@ -10,6 +10,8 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance_switch.h"
+#include "app/viewer/bookmarks.h"
+#include "app/viewer/navigation.h"
 #include "app/viewer/proof_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
@@ -31,6 +33,9 @@ struct ViewerOptions {
     AppearanceSwitchOptions maps;
     bool allow_underground = false; ///< the ground does not stop the camera
     bool proves_errors = false;     ///< of a streamed terrain, see ProofSwitch
+    std::string terrain;            ///< as on the command line, for bookmarks
+    std::optional<std::filesystem::path>
+        bookmarks; ///< their file; absent: there is no place for it
 };
 
 /// The technique until the scene's maps are ready: levels by distance, which need no maps. The
@@ -57,6 +62,22 @@ public:
 
     void toggle_path();
 
+    /// Flies smoothly to a view, and leaves the map for it.
+    void fly_to(const scene::Camera& camera);
+    /// Saves the current view under a name, or under its place if that is empty.
+    Result<void> save_bookmark(const std::string& name);
+    /// The bookmarks of this terrain.
+    [[nodiscard]] Result<Bookmarks::List> bookmarks() const;
+    Result<void> go_to_bookmark(const Bookmark& bookmark);
+    Result<void> remove_bookmark(const Bookmark& bookmark);
+    /// The options that show this view again; fails on the map, which has none.
+    [[nodiscard]] Result<std::string> camera_options() const;
+    /// The ground under the pointer, world metres; empty over the sky.
+    [[nodiscard]] std::optional<glm::dvec3> ground_under_pointer() const;
+
+    /// The place of a click since the last call, pixels.
+    std::optional<glm::dvec2> take_click() { return navigation_.take_click(); }
+
     /// Whether the scene changed since the last call; true at first.
     bool take_redraw() { return std::exchange(redraw_, false); }
     /// Whether the view moves by itself or is steered.
@@ -64,6 +85,10 @@ public:
 
     bool take_screenshot_request() { return std::exchange(screenshot_, false); }
     bool take_help_request() { return std::exchange(help_, false); }
+    /// Text for the clipboard since the last call.
+    std::optional<std::string> take_clipboard() { return std::exchange(clipboard_, std::nullopt); }
+    /// Lines for standard output since the last call; empty: none.
+    std::string take_output() { return std::exchange(output_, {}); }
     [[nodiscard]] bool wants_to_close() const { return close_; }
     [[nodiscard]] bool wants_mouse() const { return mouse_look_; }
     [[nodiscard]] bool is_playing() const { return playing_; }
@@ -84,6 +109,12 @@ private:
 
     bool receive_key(const KeyEvent& event);
     void advance_path(double seconds);
+    bool receive_mouse(const Event& event);
+    void steer(const scene::Camera& camera);
+    void report(const Result<void>& result);
+    void bookmark_here() { report(save_bookmark({})); }
+    void next_bookmark();
+    void copy_camera();
     void go_to_start();
     void toggle_map();
     void toggle_wireframe();
@@ -110,6 +141,13 @@ private:
     AppearanceSwitch switch_;
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
+    Navigation navigation_;
+    std::string terrain_;
+    std::optional<Bookmarks> bookmarks_;
+    std::size_t next_bookmark_ = 0;
+    session::RelayedLog notes_;
+    std::optional<std::string> clipboard_;
+    std::string output_;
     std::optional<ViewerMap> map_; // while it is shown
     double path_time_ = 0.0;
     double path_lifted_ = 0.0;

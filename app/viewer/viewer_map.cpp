@@ -13,6 +13,7 @@ namespace {
 
 constexpr double zoom_per_wheel_step = 1.25;
 constexpr double zoom_per_second = 2.0;
+constexpr double zoom_per_double_click = 2.0;
 constexpr double pictures_per_second = 0.5;
 constexpr double shift_factor = 4.0;
 constexpr double longest_step = 0.25; // seconds
@@ -58,12 +59,17 @@ bool ViewerMap::receive(const Event& event) {
     return false;
 }
 
+// Every button drags, so that no habit of other programs fails; a double click comes closer.
 bool ViewerMap::receive_button(const MouseButtonEvent& event) {
-    if (event.button == MouseButton::left) {
-        dragged_ = event.pressed;
-        pointer_ = pointer_.value_or(event.position);
+    if (event.button == MouseButton::other) {
+        return false;
     }
-    return event.button == MouseButton::left;
+    dragged_ = event.pressed;
+    pointer_ = event.pressed ? event.position : pointer_.value_or(event.position);
+    if (event.pressed && event.clicks == 2) {
+        zoom(1.0 / zoom_per_double_click, event.position);
+    }
+    return true;
 }
 
 bool ViewerMap::receive_move(const MouseMoveEvent& event) {

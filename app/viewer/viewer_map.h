@@ -11,9 +11,9 @@
 
 namespace reljef::app {
 
-/// An orthographic camera that moves like a map. Dragging, W A S D and the arrows shift it. The
-/// wheel zooms at the pointer, Q and E at the middle. Shift is four times as fast. The target stays
-/// within half a terrain around the terrain.
+/// An orthographic camera that moves like a map. Dragging with any button, W A S D and the arrows
+/// shift it. The wheel and a double click zoom at the pointer, Q and E at the middle. Shift is four
+/// times as fast. The target stays within half a terrain around the terrain.
 class ViewerMap {
 public:
     /// Precondition: `start` is orthographic. `size` is the picture's, pixels.

@@ -116,6 +116,10 @@ private:
         if (viewer_.take_screenshot_request()) {
             save_picture();
         }
+        if (const auto text = viewer_.take_clipboard()) {
+            window_.set_clipboard(*text);
+        }
+        fmt::print("{}", viewer_.take_output());
         std::fflush(stdout);
     }
 

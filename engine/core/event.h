@@ -54,11 +54,39 @@ struct MouseButtonEvent {
     bool pressed = false;
     glm::dvec2 position{0.0, 0.0}; ///< as in MouseMoveEvent
     Modifiers modifiers{};
+    int clicks = 1; ///< of this press: 2 for a double click, see ClickCounter
+};
+
+/// Counts presses of one button that follow each other closely at one place.
+class ClickCounter {
+public:
+    static constexpr double max_pause = 0.4; ///< between two presses, seconds
+    static constexpr double max_way = 4.0;   ///< between two presses, pixels
+
+    /// 1, 2, 1, 2, … for a press at a time in seconds.
+    int press(MouseButton button, glm::dvec2 position, double seconds) {
+        const glm::dvec2 way = position - last_position_;
+        const bool follows = clicks_ == 1 && button == last_button_ &&
+                             seconds - last_seconds_ <= max_pause &&
+                             way.x * way.x + way.y * way.y <= max_way * max_way;
+        clicks_ = follows ? 2 : 1;
+        last_button_ = button;
+        last_position_ = position;
+        last_seconds_ = seconds;
+        return clicks_;
+    }
+
+private:
+    MouseButton last_button_ = MouseButton::other;
+    glm::dvec2 last_position_{0.0, 0.0};
+    double last_seconds_ = 0.0;
+    int clicks_ = 0;
 };
 
 /// Wheel steps; y > 0 is away from the user, x > 0 to the left.
 struct ScrollEvent {
     glm::dvec2 offset{0.0, 0.0};
+    Modifiers modifiers{};
 };
 
 /// Framebuffer size in pixels; 0×0 while minimized. Same size: the window needs a redraw.

@@ -28,10 +28,28 @@ glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
     return glm::dvec2(x, y) * pixels / glm::dvec2(std::max(units.x, 1), std::max(units.y, 1));
 }
 
-using Queue = std::vector<Event>;
+struct Input {
+    std::vector<Event> events;
+    ClickCounter clicks;
+};
 
-Queue& queue(GLFWwindow* window) {
-    return *static_cast<Queue*>(glfwGetWindowUserPointer(window));
+Input& input_of(GLFWwindow* window) {
+    return *static_cast<Input*>(glfwGetWindowUserPointer(window));
+}
+
+std::vector<Event>& queue(GLFWwindow* window) {
+    return input_of(window).events;
+}
+
+// GLFW passes no modifiers with the wheel.
+Modifiers held_modifiers(GLFWwindow* window) {
+    const auto is_down = [window](int left, int right) {
+        return glfwGetKey(window, left) == GLFW_PRESS || glfwGetKey(window, right) == GLFW_PRESS;
+    };
+    return {.shift = is_down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT),
+            .control = is_down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL),
+            .alt = is_down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT),
+            .super = is_down(GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER)};
 }
 
 void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int modifiers) {
@@ -48,14 +66,18 @@ void on_mouse_move(GLFWwindow* window, double x, double y) {
 void on_mouse_button(GLFWwindow* window, int button, int action, int modifiers) {
     glm::dvec2 at{0.0, 0.0};
     glfwGetCursorPos(window, &at.x, &at.y);
-    queue(window).emplace_back(MouseButtonEvent{.button = mouse_button_from_glfw(button),
-                                                .pressed = action == GLFW_PRESS,
-                                                .position = in_pixels(window, at.x, at.y),
-                                                .modifiers = modifiers_from_glfw(modifiers)});
+    MouseButtonEvent event{.button = mouse_button_from_glfw(button),
+                           .pressed = action == GLFW_PRESS,
+                           .position = in_pixels(window, at.x, at.y),
+                           .modifiers = modifiers_from_glfw(modifiers)};
+    if (event.pressed) {
+        event.clicks = input_of(window).clicks.press(event.button, event.position, glfwGetTime());
+    }
+    queue(window).emplace_back(event);
 }
 
 void on_scroll(GLFWwindow* window, double x, double y) {
-    queue(window).emplace_back(ScrollEvent{{x, y}});
+    queue(window).emplace_back(ScrollEvent{{x, y}, held_modifiers(window)});
 }
 
 void on_resize(GLFWwindow* window, int width, int height) {
@@ -80,7 +102,7 @@ public:
     /// Precondition: a GlfwContext.
     explicit GlfwWindow(std::unique_ptr<Context> context)
         : context_(std::move(context)), window_(window_of(*context_)) {
-        glfwSetWindowUserPointer(window_, &events_);
+        glfwSetWindowUserPointer(window_, &input_);
         glfwSetKeyCallback(window_, on_key);
         glfwSetCursorPosCallback(window_, on_mouse_move);
         glfwSetMouseButtonCallback(window_, on_mouse_button);
@@ -99,11 +121,11 @@ public:
     }
 
     std::vector<Event> wait_events(std::chrono::milliseconds timeout) override {
-        if (events_.empty() && timeout.count() > 0) {
+        if (input_.events.empty() && timeout.count() > 0) {
             glfwWaitEventsTimeout(std::chrono::duration<double>(timeout).count());
         }
         glfwPollEvents();
-        return std::exchange(events_, {});
+        return std::exchange(input_.events, {});
     }
 
     [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_in_pixels(window_); }
@@ -111,6 +133,9 @@ public:
         glfwSetWindowTitle(window_, title.c_str());
     }
     void swap_buffers() override { glfwSwapBuffers(window_); }
+    void set_clipboard(const std::string& text) override {
+        glfwSetClipboardString(window_, text.c_str());
+    }
     void capture_mouse(bool on) override {
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
     }
@@ -122,7 +147,7 @@ private:
         return owner->window();
     }
 
-    Queue events_;
+    Input input_;
     std::unique_ptr<Context> context_;
     GLFWwindow* window_;
 };

@@ -34,6 +34,7 @@ public:
     virtual void set_title(const std::string& title) = 0;
     /// Shows the back buffer; waits for the screen (vsync). Precondition: the context is current.
     virtual void swap_buffers() = 0;
+    virtual void set_clipboard(const std::string& text) = 0;
     /// Hides the pointer and removes its bounds, for mouse look.
     virtual void capture_mouse(bool on) = 0;
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::session {
@@ -74,68 +75,9 @@ std::string metres_text(double metres) {
     return metres < 10.0 ? fmt::format("{:.2g}", metres) : fmt::format("{:.1f}", metres);
 }
 
-// Lengths of steps along a ray.
-constexpr double max_share = 0.25;     // of the height above the ground
-constexpr double min_share = 1e-3;     // of the distance so far
-constexpr double step_in_sides = 1e-3; // of the longest side of the box, off the terrain
-constexpr int max_steps_of_ray = 4096;
-constexpr int halvings = 30;
-
 double longest_side(const Box& box) {
     const glm::dvec3 size = box.size();
     return std::max({size.x, size.y, size.z});
-}
-
-// Bounds all tiles, which may exceed the averages in the overview.
-Box box_of_tiles(const scene::TerrainSurface& surface) {
-    const terrain::HeightRange& range = surface.heightfield().range;
-    Box box = surface.bounds();
-    const glm::dvec3 margin(surface.placement().exaggeration() * (range.high - range.low) +
-                            step_in_sides * longest_side(box));
-    box.low -= margin;
-    box.high += margin;
-    return box;
-}
-
-// Bisects the interval in which a ray enters the ground.
-double distance_between(const scene::TerrainNode& terrain, const Ray& ray, double above,
-                        double below) {
-    for (int i = 0; i < halvings; ++i) {
-        const double middle = 0.5 * (above + below);
-        const auto height = height_above_ground(terrain, ray.at(middle));
-        (height && *height <= 0.0 ? below : above) = middle;
-    }
-    return below;
-}
-
-// Along a ray of unit length, to a thousandth, on the loaded tiles.
-std::optional<double> distance_to_tiles(const scene::TerrainNode& terrain, const Ray& ray) {
-    const Box box = box_of_tiles(*terrain.surface);
-    const auto part = intersect(ray, box);
-    if (!part) {
-        return std::nullopt;
-    }
-    const double beside = step_in_sides * longest_side(box);
-    double before = part->begin;
-    double distance = part->begin;
-    for (int i = 0; i < max_steps_of_ray && before <= part->end; ++i) {
-        const auto height = height_above_ground(terrain, ray.at(distance));
-        if (height && *height <= 0.0) {
-            return distance_between(terrain, ray, before, distance);
-        }
-        before = distance;
-        const double min_step = std::min(std::max(min_share * distance, 1e-3), beside);
-        distance += height ? std::max(max_share * *height, min_step) : std::max(beside, min_step);
-    }
-    return std::nullopt;
-}
-
-std::optional<double> distance_to_ground(const scene::TerrainNode& terrain, const Ray& ray) {
-    if (terrain.stream != nullptr) {
-        return distance_to_tiles(terrain, ray);
-    }
-    const auto hit = terrain.surface->pick(ray);
-    return hit ? std::optional(hit->t) : std::nullopt;
 }
 
 } // namespace
@@ -149,16 +91,22 @@ std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm
     return sample->z - terrain::bilinear_height(there.heights, there.place);
 }
 
-std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y) {
-    const terrain::Placement& placement = terrain.surface->placement();
-    const auto height = scene::height_at(terrain, x, y);
-    const auto sample = height ? placement.sample_from_world({x, y, *height}) : std::nullopt;
+std::optional<scene::GroundBelow> ground_below(const scene::TerrainNode& terrain, glm::dvec3 eye) {
+    const auto sample = sample_of(*terrain.surface, eye);
     if (!sample) {
         return std::nullopt;
     }
-    const double highest = highest_at(terrain, glm::dvec2(*sample));
-    const double z = placement.world_from_sample({sample->x, sample->y, highest}).z;
-    return scene::GroundAt{*height, std::max(*height, z)};
+    const Around there = heights_around(terrain, glm::dvec2(*sample));
+    const double surface = terrain::bilinear_height(there.heights, there.place);
+    const double exaggeration = terrain.surface->placement().exaggeration();
+    return scene::GroundBelow{exaggeration * (sample->z - surface),
+                              exaggeration * (highest_of(there.heights, there.place) - surface)};
+}
+
+glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance) {
+    const auto ground = ground_below(terrain, eye);
+    const double missing = ground ? ground->highest + clearance - ground->height : 0.0;
+    return missing > 0.0 ? eye + missing * terrain.surface->placement().up(eye) : eye;
 }
 
 std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
@@ -166,11 +114,10 @@ std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
     if (camera.projection == scene::ProjectionKind::orthographic) {
         return camera.view_height / pixels_high;
     }
-    const auto distance =
-        distance_to_ground(terrain, {camera.eye, scene::view_axes(camera).forward});
-    return distance ? std::optional(2.0 * *distance *
-                                    std::tan(0.5 * glm::radians(camera.vertical_fov)) / pixels_high)
-                    : std::nullopt;
+    const auto hit = scene::pick_ground(terrain, {camera.eye, scene::view_axes(camera).forward});
+    return hit ? std::optional(2.0 * hit->t * std::tan(0.5 * glm::radians(camera.vertical_fov)) /
+                               pixels_high)
+               : std::nullopt;
 }
 
 double min_clearance(const TerrainScene& scene) {

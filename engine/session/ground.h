@@ -14,8 +14,11 @@ namespace reljef::session {
 /// Eye height above ground, true metres along the local vertical; empty off the terrain.
 std::optional<double> height_above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye);
 
-/// The ground at x, y, with the highest point that any triangulation has there.
-std::optional<scene::GroundAt> ground_at(const scene::TerrainNode& terrain, double x, double y);
+/// The ground below an eye, with the highest point that any triangulation has there; empty off the
+/// terrain.
+std::optional<scene::GroundBelow> ground_below(const scene::TerrainNode& terrain, glm::dvec3 eye);
+/// The eye, lifted along the local vertical to `clearance` metres above everything drawn below it.
+glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);
 
 /// Metres per pixel at the middle of the picture, across the view; empty if it shows no ground.
 std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,

@@ -109,6 +109,15 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
     return std::nullopt;
 }
 
+std::vector<std::shared_ptr<const TerrainTile>> TileStream::loaded() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<std::shared_ptr<const TerrainTile>> tiles;
+    for (const auto& [id, entry] : tiles_) {
+        tiles.push_back(entry.made.tile);
+    }
+    return tiles;
+}
+
 std::size_t TileStream::max_drawn() const {
     return std::max(min_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
 }

@@ -91,6 +91,8 @@ public:
 
     /// A loaded tile; null if it is not in memory.
     [[nodiscard]] std::shared_ptr<const TerrainTile> find(terrain::TreeTile tile) const;
+    /// All loaded tiles, in the order of their ids.
+    [[nodiscard]] std::vector<std::shared_ptr<const TerrainTile>> loaded() const;
     /// Summary of a loaded, proven or evicted tile. If the proofs turn out to be wrong, proven
     /// tiles are forgotten and read again. Avoids re-reading tiles that were rejected. Empty for
     /// unproven tiles that were evicted long ago.

@@ -51,8 +51,15 @@ std::optional<Ray> sample_ray_on_plane(const Placement& placement, const Ray& wo
     if (placement.kind() != PlacementKind::plane) {
         return std::nullopt;
     }
-    const glm::dvec2 spacing = placement.spacing();
     const glm::dvec3 way = world_ray.direction;
+    if (const TileLattice* const lattice = placement.lattice()) {
+        if (lattice->shorter_from() != lattice->cells || placement.columns_all_around()) {
+            return std::nullopt;
+        }
+        const glm::dvec3 origin = *placement.sample_from_world(world_ray.origin);
+        return Ray{origin, *placement.sample_from_world(world_ray.origin + way) - origin};
+    }
+    const glm::dvec2 spacing = placement.spacing();
     return Ray{*placement.sample_from_world(world_ray.origin),
                {way.x / spacing.x, -way.y / spacing.y, way.z / placement.exaggeration()}};
 }
@@ -72,7 +79,7 @@ std::optional<SurfaceHit> SurfaceCaster::first_hit(const Ray& world_ray, Interva
     if (!window || !limits || !std::isfinite(limits->end)) {
         return std::nullopt;
     }
-    const bool is_bent = placement_.kind() == PlacementKind::ellipsoid;
+    const bool is_bent = !sample_ray_on_plane(placement_, world_ray);
     SurfaceRay ray(world_ray, {is_bent ? *limits : range, *window});
     ray.advance(WholeSurface(tile_, placement_));
     return ray.hit();

@@ -39,7 +39,8 @@ Box shell_around(const TiledSurface& surface, MinMax heights = {0.0F, 0.0F});
 /// Metres, above and below the ellipsoid or geoid.
 inline constexpr float max_height_on_ellipsoid = 65536.0F;
 
-/// The straight ray in sample coordinates on a plane; empty on an ellipsoid.
+/// The straight ray in sample coordinates on a plane. Empty on an ellipsoid, and for a tile whose
+/// map is not affine: with shorter last cells, or of a terrain that covers all longitudes.
 std::optional<Ray> sample_ray_on_plane(const Placement& placement, const Ray& world_ray);
 
 /// SurfaceCaster::first_hit() for a single ray.
