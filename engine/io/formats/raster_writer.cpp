@@ -82,6 +82,27 @@ bool write_overviews(GDALDataset& dataset, const HeightRaster& raster,
                                   nullptr, overview_progress, &context) == CE_None;
 }
 
+// At the samples of a georeference; without a CRS, at its coordinates only.
+bool place(GDALDataset& dataset, const geo::Georeference& georeference) {
+    geo::PixelAffine affine = georeference.crs_from_pixel;
+    const glm::dvec2 corner = affine.crs_from_pixel({-0.5, -0.5});
+    affine.x0 = corner.x;
+    affine.y0 = corner.y;
+    OGRSpatialReference crs;
+    const bool has_crs = crs.importFromWkt(georeference.wkt.c_str()) == OGRERR_NONE;
+    crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return place_raster(dataset, affine, has_crs ? &crs : nullptr);
+}
+
+Result<void> finish(Dataset dataset, AtomicFile& file, const GdalMessages& messages) {
+    const CPLErr before = CPLGetLastErrorType();
+    dataset.reset(); // flushes
+    if (before < CE_Failure && CPLGetLastErrorType() >= CE_Failure) {
+        return cannot_write(file.target(), messages);
+    }
+    return file.commit();
+}
+
 } // namespace
 
 Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
@@ -102,12 +123,29 @@ Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
     if (!written) {
         return cannot_write(path, messages);
     }
-    const CPLErr before = CPLGetLastErrorType();
-    dataset.reset(); // flushes
-    if (before < CE_Failure && CPLGetLastErrorType() >= CE_Failure) {
-        return cannot_write(path, messages);
+    return finish(std::move(dataset), *file, messages);
+}
+
+Result<void> write_bytes(const fs::path& path, const Grid<std::uint8_t>& bytes,
+                         const std::optional<geo::Georeference>& georeference,
+                         std::uint8_t in_void) {
+    auto file = AtomicFile::create(path);
+    if (!file) {
+        return file.error();
     }
-    return file->commit();
+    const GdalMessages messages;
+    register_drivers();
+    CPLStringList options;
+    add_options(options, {"COMPRESS=DEFLATE", "TILED=YES", "BIGTIFF=IF_SAFER"});
+    Dataset dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file->temporary().c_str(), bytes.cols(), bytes.rows(), 1, GDT_Byte, options.List()));
+    Grid<std::uint8_t> samples = bytes; // GDAL takes no pointer to constants
+    const bool written = dataset != nullptr && (!georeference || place(*dataset, *georeference)) &&
+                         dataset->GetRasterBand(1)->SetNoDataValue(in_void) == CE_None &&
+                         dataset->GetRasterBand(1)->RasterIO(
+                             GF_Write, 0, 0, bytes.cols(), bytes.rows(), samples.samples().data(),
+                             bytes.cols(), bytes.rows(), GDT_Byte, 0, 0, nullptr) == CE_None;
+    return written ? finish(std::move(dataset), *file, messages) : cannot_write(path, messages);
 }
 
 } // namespace reljef::io

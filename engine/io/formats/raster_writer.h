@@ -1,13 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
+#include "engine/geo/georeference.h"
 
 namespace reljef::io {
 
@@ -27,5 +30,11 @@ using FillHeights = std::function<void(int first_row, GridView<float> heights)>;
 /// memory. Fails with "stopped" after a stop request.
 Result<void> write_heights(const std::filesystem::path& path, const HeightRaster& raster,
                            const FillHeights& fill, const ParallelOptions& parallel = {});
+
+/// Writes a GeoTIFF of bytes at a georeference's samples, whole or not at all; without one, at
+/// pixel coordinates. `in_void`: the value that means no data.
+Result<void> write_bytes(const std::filesystem::path& path, const Grid<std::uint8_t>& bytes,
+                         const std::optional<geo::Georeference>& georeference,
+                         std::uint8_t in_void);
 
 } // namespace reljef::io
