@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "app/cli/options.h"
 #include "app/cli/standard_input.h"
 #include "app/commands.h"
+#include "app/frame_sink.h"
 #include "app/viewer/opening.h"
 #include "app/viewer/viewer.h"
 #include "app/viewer/window_loop.h"
@@ -32,6 +35,26 @@ Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice
     options.size = choice.view.size;
     options.title = "reljef - opening " + choice.terrain.terrain;
     return platform::make_window(options);
+}
+
+Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
+                             double frames_per_second) {
+    auto made = make_frame_sink(file, {.size = size,
+                                       .frames = 2, // more than one
+                                       .frames_per_second = frames_per_second});
+    if (!made) {
+        return made.error();
+    }
+    const std::shared_ptr<FrameSink> sink = std::move(*made);
+    return VideoFile{
+        [sink](const Image& picture, int index) { return sink->write(picture, index); },
+        [sink]() -> Result<void> {
+            std::vector<AtomicFile> outputs;
+            if (auto finished = sink->finish(outputs); !finished) {
+                return finished;
+            }
+            return commit_all(outputs);
+        }};
 }
 
 Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, OpenedScene& opened,
@@ -64,7 +87,8 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
     }
     return run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
                            {.frames = choice.frames_given ? choice.view.frames : 0,
-                            .keeps_quality = choice.view.samples.has_value()});
+                            .keeps_quality = choice.view.samples.has_value(),
+                            .open_video = open_video});
 }
 
 // Without a GPU, rays draw what they can; OpenGL draws all else in the same window.

@@ -159,7 +159,7 @@ struct Viewer::Binding {
 };
 
 std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 14> all{
+    static constexpr std::array<Binding, 22> all{
         {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
          {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
           "keep the height above the ground, or fly where you look"},
@@ -176,6 +176,21 @@ std::span<const Viewer::Binding> Viewer::bindings() {
          {Key::n, Key::unknown, &Viewer::next_bookmark, "N", "fly to the next bookmark"},
          {Key::v, Key::unknown, &Viewer::copy_camera, "V, Ctrl-C",
           "copy the --camera of this view"},
+         {Key::x, Key::unknown, &Viewer::toggle_measuring, "X",
+          "measure: each click picks a point of the ground; X ends it"},
+         {Key::i, Key::unknown, &Viewer::keep_profile, "I",
+          "save the profile between the last two points"},
+         {Key::u, Key::unknown, &Viewer::keep_viewshed, "U",
+          "save what is seen from the last point, 2 m above it"},
+         {Key::k, Key::unknown, &Viewer::toggle_recording, "K",
+          "record the flight as the path, or end it and save the path"},
+         {Key::insert, Key::unknown, &Viewer::append_key, "Insert",
+          "append this view to the path, 3 s later"},
+         {Key::erase, Key::unknown, &Viewer::remove_key, "Delete",
+          "remove the keyframe where the flight along the path stands"},
+         {Key::j, Key::unknown, &Viewer::keep_path, "J", "save the path (TOML, and GPX on Earth)"},
+         {Key::y, Key::unknown, &Viewer::ask_for_video, "Y",
+          "render the path to a video; Esc cancels it"},
          {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
           "save the picture here as reljef-0001.png, reljef-0002.png, ..."},
          {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
@@ -199,11 +214,11 @@ std::string Viewer::keys() {
 
 Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
                const ViewerOptions& options)
-    : scene_(scene), path_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
+    : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),
       flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)),
-      terrain_(options.terrain) {
+      measuring_(*scene.terrain->get<scene::TerrainNode>()), terrain_(options.terrain) {
     if (options.bookmarks) {
         bookmarks_.emplace(*options.bookmarks);
     }
@@ -236,9 +251,12 @@ void Viewer::receive(const Event& event) {
     }
     if (map_) {
         map_->receive(event);
+        receive_click();
         return;
     }
-    if (!mouse_look_ && receive_mouse(event)) {
+    const bool is_moved = !mouse_look_ && receive_mouse(event);
+    receive_click();
+    if (is_moved) {
         return;
     }
     flight_.receive(event);
@@ -298,8 +316,9 @@ std::vector<scene::Camera> Viewer::upcoming() const {
     for (const double ahead : {0.5, 1.5, 3.0}) { // seconds
         if (playing_) {
             const double time =
-                std::fmod(path_time_ + ahead, std::max(path_.duration(), min_duration));
-            cameras.push_back(scene::at_key(camera(), path_.at(path_.begin() + time)));
+                std::fmod(path_time_ + ahead, std::max(desk_.path().duration(), min_duration));
+            cameras.push_back(
+                scene::at_key(camera(), desk_.path().at(desk_.path().begin() + time)));
         } else {
             cameras.push_back(session::camera_ahead(before_, camera(), last_step_, ahead));
         }
@@ -334,11 +353,17 @@ void Viewer::advance(double seconds) {
             show_camera(flight_.camera());
         }
     }
+    desk_.record(flight_.camera(), step);
+    if (const auto viewshed = measuring_.update()) {
+        report(*viewshed ? Result<void>() : viewshed->error());
+        output_ += *viewshed ? **viewshed : std::string();
+    }
 }
 
 void Viewer::advance_path(double seconds) {
-    path_time_ = std::fmod(path_time_ + seconds, std::max(path_.duration(), min_duration));
-    const scene::Camera requested = scene::at_key(camera(), path_.at(path_.begin() + path_time_));
+    path_time_ = std::fmod(path_time_ + seconds, std::max(desk_.path().duration(), min_duration));
+    const scene::Camera requested =
+        scene::at_key(camera(), desk_.path().at(desk_.path().begin() + path_time_));
     flight_.set_camera(requested);
     const scene::Camera next = flight_.camera();
     if (const double lifted = glm::distance(requested.eye, next.eye); lifted > min_lift) {
@@ -475,8 +500,10 @@ std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timi
     const std::string rate = timing.frames_per_second
                                  ? fmt::format("{:.1f} fps", *timing.frames_per_second)
                                  : std::string("still");
-    const auto preparing =
-        proofs_ && !switch_.is_preparing() ? proofs_->progress() : switch_.progress();
+    auto preparing = proofs_ && !switch_.is_preparing() ? proofs_->progress() : switch_.progress();
+    if (preparing.label.empty()) {
+        preparing = measuring_.progress();
+    }
     const std::string progress =
         preparing.label.empty()
             ? std::string()
@@ -510,10 +537,11 @@ std::string Viewer::place() const {
     return text + fmt::format(" - speed {}/s", length_text(flight_.speed()));
 }
 
-std::filesystem::path next_screenshot(const std::filesystem::path& folder) {
+std::filesystem::path next_file(const std::filesystem::path& folder, const std::string& stem,
+                                const std::string& extension) {
     std::error_code ignored;
     for (int number = 1;; ++number) {
-        auto file = folder / fmt::format("reljef-{:04}.png", number);
+        auto file = folder / fmt::format("{}-{:04}{}", stem, number, extension);
         if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
             return file;
         }

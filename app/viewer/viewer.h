@@ -11,7 +11,9 @@
 
 #include "app/viewer/appearance_switch.h"
 #include "app/viewer/bookmarks.h"
+#include "app/viewer/measuring.h"
 #include "app/viewer/navigation.h"
+#include "app/viewer/path_desk.h"
 #include "app/viewer/proof_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
@@ -75,14 +77,28 @@ public:
     /// The ground under the pointer, world metres; empty over the sky.
     [[nodiscard]] std::optional<glm::dvec3> ground_under_pointer() const;
 
-    /// The place of a click since the last call, pixels.
-    std::optional<glm::dvec2> take_click() { return navigation_.take_click(); }
+    /// Points on the ground; while it is on, each click picks one.
+    [[nodiscard]] Measuring& measuring() { return measuring_; }
+    [[nodiscard]] const Measuring& measuring() const { return measuring_; }
+    /// Writes the profile, or begins the viewshed, under a free name in the current folder.
+    Result<void> save_profile();
+    Result<void> begin_viewshed();
+
+    /// The path, to edit and save it.
+    [[nodiscard]] PathDesk& path_desk() { return desk_; }
+    [[nodiscard]] const PathDesk& path_desk() const { return desk_; }
+    [[nodiscard]] double path_time() const { return path_time_; } ///< seconds since its beginning
+    /// Shows the path's view at a time since its beginning, seconds; stops.
+    void seek(double seconds);
+    void toggle_recording();
+    Result<void> save_path();
 
     /// Whether the scene changed since the last call; true at first.
     bool take_redraw() { return std::exchange(redraw_, false); }
     /// Whether the view moves by itself or is steered.
     [[nodiscard]] bool is_moving() const;
 
+    bool take_video_request() { return std::exchange(video_, false); }
     bool take_screenshot_request() { return std::exchange(screenshot_, false); }
     bool take_help_request() { return std::exchange(help_, false); }
     /// Text for the clipboard since the last call.
@@ -112,6 +128,14 @@ private:
     bool receive_mouse(const Event& event);
     void steer(const scene::Camera& camera);
     void report(const Result<void>& result);
+    void receive_click();
+    void toggle_measuring();
+    void append_key();
+    void remove_key();
+    void keep_path() { report(save_path()); }
+    void keep_profile() { report(save_profile()); }
+    void keep_viewshed() { report(begin_viewshed()); }
+    void ask_for_video() { video_ = true; }
     void bookmark_here() { report(save_bookmark({})); }
     void next_bookmark();
     void copy_camera();
@@ -134,7 +158,7 @@ private:
     [[nodiscard]] const scene::Material& material() const { return *scene_.materials().front(); }
 
     session::TerrainScene& scene_;
-    scene::CameraPath path_;
+    PathDesk desk_;
     glm::ivec2 size_;
     scene::Camera start_;
     std::vector<scene::Technique> techniques_; // in the catalogue's order
@@ -142,6 +166,7 @@ private:
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     Navigation navigation_;
+    Measuring measuring_;
     std::string terrain_;
     std::optional<Bookmarks> bookmarks_;
     std::size_t next_bookmark_ = 0;
@@ -158,11 +183,17 @@ private:
     bool mouse_look_ = false;
     bool redraw_ = true;
     bool screenshot_ = false;
+    bool video_ = false;
     bool help_ = false;
     bool close_ = false;
 };
 
+/// The first free name STEM-0001EXTENSION, STEM-0002EXTENSION, … in `folder`.
+std::filesystem::path next_file(const std::filesystem::path& folder, const std::string& stem,
+                                const std::string& extension);
 /// The first free name reljef-0001.png, reljef-0002.png, … in `folder`.
-std::filesystem::path next_screenshot(const std::filesystem::path& folder);
+inline std::filesystem::path next_screenshot(const std::filesystem::path& folder) {
+    return next_file(folder, "reljef", ".png");
+}
 
 } // namespace reljef::app

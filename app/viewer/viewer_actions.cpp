@@ -104,4 +104,77 @@ void Viewer::next_bookmark() {
     report(go_to_bookmark(there->bookmarks[next_bookmark_++ % there->bookmarks.size()]));
 }
 
+void Viewer::receive_click() {
+    const auto pixel = map_ ? map_->take_click() : navigation_.take_click();
+    if (!pixel || !measuring_.is_on()) {
+        return;
+    }
+    auto picked = measuring_.pick(navigation_.ground_at(camera(), *pixel));
+    report(picked ? Result<void>() : picked.error());
+    output_ += picked ? *picked : std::string();
+}
+
+void Viewer::toggle_measuring() {
+    measuring_.set_on(!measuring_.is_on());
+    if (measuring_.is_on()) {
+        measuring_.clear();
+    }
+    output_ += measuring_.is_on() ? "measuring: click on the ground\n" : "measuring ends\n";
+}
+
+Result<void> Viewer::save_profile() {
+    const auto file = next_file(".", "reljef-profile", ".csv");
+    auto saved = measuring_.save_profile(file);
+    output_ += saved ? fmt::format("saved {}\n", file.filename().string()) : std::string();
+    return saved;
+}
+
+Result<void> Viewer::begin_viewshed() {
+    return measuring_.begin_viewshed(next_file(".", "reljef-viewshed", ".tif"));
+}
+
+void Viewer::seek(double seconds) {
+    if (map_) {
+        toggle_map();
+    }
+    navigation_.let_go();
+    playing_ = false;
+    path_time_ = seconds;
+    advance_path(0.0);
+}
+
+void Viewer::toggle_recording() {
+    if (!desk_.is_recording()) {
+        desk_.begin_recording();
+        output_ += "recording the flight; K ends it\n";
+        return;
+    }
+    const auto ended = desk_.end_recording();
+    report(ended ? save_path() : ended);
+    path_time_ = 0.0;
+}
+
+void Viewer::append_key() {
+    report(desk_.append_key(flight_.camera()));
+    output_ += fmt::format("keyframe {}\n", desk_.path().keys().size());
+}
+
+void Viewer::remove_key() {
+    const auto removed = desk_.remove_key_at(desk_.path().begin() + path_time_);
+    report(removed);
+    output_ += removed ? fmt::format("{} keyframes\n", desk_.path().keys().size()) : std::string();
+}
+
+Result<void> Viewer::save_path() {
+    const auto file = next_file(".", "reljef-path", ".toml");
+    const auto saved = desk_.save(surface_of(scene_), file.parent_path() / file.stem());
+    if (!saved) {
+        return saved.error();
+    }
+    for (const std::filesystem::path& written : *saved) {
+        output_ += fmt::format("saved {}\n", written.filename().string());
+    }
+    return {};
+}
+
 } // namespace reljef::app

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "engine/scene/motion/poses.h"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double zoom_per_wheel_step = 1.25;
 constexpr double zoom_per_second = 2.0;
 constexpr double zoom_per_double_click = 2.0;
+constexpr double min_way = 3.0; // pixels; less is a click
 constexpr double pictures_per_second = 0.5;
 constexpr double shift_factor = 4.0;
 constexpr double longest_step = 0.25; // seconds
@@ -65,6 +67,10 @@ bool ViewerMap::receive_button(const MouseButtonEvent& event) {
         return false;
     }
     dragged_ = event.pressed;
+    const bool is_click = event.button == MouseButton::left && !event.pressed &&
+                          glm::distance(event.position, pressed_) < min_way;
+    click_ = is_click ? std::optional(event.position) : click_;
+    pressed_ = event.pressed ? event.position : pressed_;
     pointer_ = event.pressed ? event.position : pointer_.value_or(event.position);
     if (event.pressed && event.clicks == 2) {
         zoom(1.0 / zoom_per_double_click, event.position);

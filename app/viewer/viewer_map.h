@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <glm/vec2.hpp>
 
@@ -30,6 +31,8 @@ public:
     }
 
     [[nodiscard]] const scene::Camera& camera() const { return camera_; }
+    /// The place of a click of the left button since the last call, pixels.
+    std::optional<glm::dvec2> take_click() { return std::exchange(click_, std::nullopt); }
 
 private:
     bool receive_button(const MouseButtonEvent& event);
@@ -46,6 +49,8 @@ private:
     bool dragged_ = false;
     bool changed_ = false;
     std::optional<glm::dvec2> pointer_;
+    glm::dvec2 pressed_{0.0}; // where a button was pressed last
+    std::optional<glm::dvec2> click_;
 };
 
 /// The whole terrain from straight above, north up.

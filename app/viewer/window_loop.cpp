@@ -3,6 +3,9 @@
 #include <chrono>
 #include <cstdio>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,6 +37,11 @@ public:
         Stopwatch step;
         while (!is_over() && !stop.stop_requested()) {
             receive(window_.wait_events(pause()));
+            if (video_) {
+                film();
+                step.restart();
+                continue;
+            }
             viewer_.advance(step.restart());
             has_drawn_ = false;
             const bool has_new_tiles = session::take_arrivals(scene_.scene);
@@ -66,7 +74,7 @@ private:
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
-        if (drawn_ == 0) {
+        if (drawn_ == 0 || video_) {
             return no_wait;
         }
         if (viewer_.is_preparing() && !viewer_.is_moving()) {
@@ -92,6 +100,10 @@ private:
 
     void receive(const std::vector<Event>& events) {
         for (const Event& event : events) {
+            if (video_) {
+                receive_while_filming(event);
+                continue;
+            }
             if (!scene_.scene.dispatch(event)) {
                 viewer_.receive(event);
             }
@@ -100,6 +112,79 @@ private:
             mouse_captured_ = viewer_.wants_mouse();
             window_.capture_mouse(mouse_captured_);
         }
+    }
+
+    // Only Esc and closing count; Esc cancels the video.
+    void receive_while_filming(const Event& event) {
+        const auto* key = std::get_if<KeyEvent>(&event);
+        if (key != nullptr && key->pressed && key->key == Key::escape) {
+            end_video("the video is cancelled, nothing is saved");
+        } else if (std::holds_alternative<CloseEvent>(event) ||
+                   std::holds_alternative<ResizeEvent>(event)) {
+            viewer_.receive(event);
+        }
+    }
+
+    void begin_video() {
+        const auto file = next_file(".", "reljef", ".mp4");
+        auto video = PathVideo::begin(viewer_.path_desk().path(), file, window_.framebuffer_size(),
+                                      options_.open_video);
+        if (!video) {
+            log_.note(video.error().message);
+            return;
+        }
+        video_.emplace(std::move(*video));
+        before_video_ = *scene_.camera->get<scene::Camera>();
+        video_task_ = log_.start("video " + file.filename().string());
+    }
+
+    void end_video(const std::string& note) {
+        video_task_.reset();
+        video_.reset();
+        *scene_.camera->get<scene::Camera>() = before_video_;
+        viewer_.fly_to(before_video_);
+        if (!note.empty()) {
+            log_.note(note);
+        }
+    }
+
+    // One frame of the video, when its tiles are loaded.
+    void film() {
+        viewer_.seek(video_->time());
+        session::take_arrivals(scene_.scene);
+        auto filmed = film_frame();
+        if (filmed && video_->is_complete()) {
+            filmed = video_->finish();
+            if (filmed) {
+                fmt::print("saved {}\n", video_->file().filename().string());
+                std::fflush(stdout);
+                end_video({});
+                return;
+            }
+        }
+        if (!filmed) {
+            end_video(filmed.error().message);
+        }
+    }
+
+    Result<void> film_frame() {
+        if (auto drawn = draw_at({}, video_->size()); !drawn) {
+            return drawn;
+        }
+        if (const glm::ivec2 shown = window_.framebuffer_size(); shown.x > 0 && shown.y > 0) {
+            if (auto done = renderer_.show_in_window(shown); !done) {
+                return done;
+            }
+            window_.swap_buffers();
+        }
+        if (session::awaits_tiles(scene_.scene)) {
+            return {}; // draws this frame again
+        }
+        video_task_->update(video_->progress());
+        window_.set_title(
+            fmt::format("reljef - video {:.0f} % - Esc cancels", 100.0 * video_->progress()));
+        title_.clear();
+        return video_->write(renderer_.read_color());
     }
 
     void log_raised_path() {
@@ -112,6 +197,9 @@ private:
     void serve_requests() {
         if (viewer_.take_help_request()) {
             fmt::print("{}", Viewer::keys());
+        }
+        if (viewer_.take_video_request() && options_.open_video) {
+            begin_video();
         }
         if (viewer_.take_screenshot_request()) {
             save_picture();
@@ -165,7 +253,10 @@ private:
     }
 
     Result<void> draw_at(const FrameQuality& quality) {
-        const glm::ivec2 size = quality.picture_size(window_.framebuffer_size());
+        return draw_at(quality, quality.picture_size(window_.framebuffer_size()));
+    }
+
+    Result<void> draw_at(const FrameQuality& quality, glm::ivec2 size) {
         if (size != renderer_.size()) {
             if (auto resized = renderer_.resize(size); !resized) {
                 return resized;
@@ -222,6 +313,9 @@ private:
     bool has_drawn_ = false; // in this iteration
     bool mouse_captured_ = false;
     bool raise_logged_ = false;
+    std::optional<PathVideo> video_;
+    std::unique_ptr<session::Task> video_task_;
+    scene::Camera before_video_;
 };
 
 } // namespace

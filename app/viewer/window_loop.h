@@ -2,6 +2,7 @@
 
 #include <stop_token>
 
+#include "app/viewer/path_video.h"
 #include "app/viewer/viewer.h"
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
@@ -13,6 +14,7 @@ namespace reljef::app {
 struct WindowLoopOptions {
     int frames = 0;             ///< draws this number of frames, then closes; 0: no limit
     bool keeps_quality = false; ///< does not use MotionQuality
+    OpenVideo open_video = {};  ///< for the path as a video; empty: there are none
 };
 
 /// Passes events to the viewer and draws its scene until the user or `stop` ends it. Fails if a

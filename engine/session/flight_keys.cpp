@@ -9,6 +9,7 @@
 
 #include "engine/geo/place.h"
 #include "engine/scene/graph/camera.h"
+#include "engine/scene/motion/camera_gestures.h"
 #include "engine/terrain/field/heightfield.h"
 
 namespace reljef::session {
@@ -179,6 +180,32 @@ Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& su
     return places ? Result<std::vector<scene::Keyframe>>(
                         with_targets(surface.placement(), keys, *places))
                   : places.error();
+}
+
+Result<io::Flight> flight_of(const scene::TerrainSurface& surface, const scene::CameraPath& path) {
+    if (!surface.heightfield().georeference) {
+        std::vector<io::PathKey> keys;
+        for (const scene::Keyframe& key : path.keys()) {
+            keys.push_back({key.time, key.eye, key.target});
+        }
+        return io::Flight{std::move(keys), {}};
+    }
+    scene::GestureWorld world;
+    world.up = [&surface](glm::dvec3 at) { return surface.placement().up(at); };
+    world.north = [&surface](glm::dvec3 at) { return surface.placement().north(at); };
+    std::vector<io::GeodeticKey> keys;
+    for (const scene::Keyframe& key : path.keys()) {
+        const auto place = surface.placement().geodetic_from_world(key.eye);
+        if (!place) {
+            return Error{fmt::format("a keyframe at {} s beside the map of {} found, one on it was "
+                                     "expected",
+                                     key.time, surface.terrain().name)};
+        }
+        const scene::ViewAngles angles = scene::angles_of(scene::at_key({}, key), world);
+        keys.push_back({key.time, place->latitude, place->longitude, place->height, angles.heading,
+                        angles.pitch});
+    }
+    return io::Flight{std::move(keys), {}};
 }
 
 } // namespace reljef::session

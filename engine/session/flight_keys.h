@@ -19,4 +19,8 @@ Result<std::vector<scene::Keyframe>> flight_keys(const scene::TerrainSurface& su
                                                  std::vector<io::GeodeticKey> keys,
                                                  const std::string& name);
 
+/// A path as a flight to save: keys on Earth with angles, or in scene metres for a terrain without
+/// a place on Earth. Fails for keys beside the terrain's map.
+Result<io::Flight> flight_of(const scene::TerrainSurface& surface, const scene::CameraPath& path);
+
 } // namespace reljef::session

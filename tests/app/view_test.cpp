@@ -70,6 +70,7 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
         steps + "\nuntil_true ended\nwait $viewer; status=$?\nxdotool keyup Escape\nexit $status\n";
     test::ProgramOptions options;
     options.folder = folder.path();
+    options.environment["XDG_DATA_HOME"] = (folder.path() / "data").string();
     options.timeout = std::chrono::seconds(200);
     return test::run_program("/bin/bash", {"-c", script}, options);
 }
@@ -123,6 +124,51 @@ TEST(ViewCommand, OpenGlDrawsInTheSameWindowWhatRaysCannot) {
     const auto resized = io::read_image(folder.path() / "reljef-0002.png");
     ASSERT_TRUE(resized) << result.out << result.err;
     EXPECT_EQ(glm::ivec2(resized->cols(), resized->rows()), glm::ivec2(300, 200));
+}
+
+TEST(ViewCommand, MouseOfARealWindowPansZoomsAndMeasures) {
+    if (!can_drive()) {
+        GTEST_SKIP() << "no display or no xdotool";
+    }
+    const test::TemporaryFolder folder;
+    const auto result =
+        drive(folder, "export at='xdotool mousemove --window '$window\n"
+                      "titled 'texture - still'; pressed c; until_true test -e reljef-0001.png\n"
+                      "$at 160 180 mousedown 3; $at 180 170; $at 220 200; xdotool mouseup 3\n"
+                      "titled still; pressed c; until_true test -e reljef-0002.png\n"
+                      "$at 160 200 click 4 click 4; titled still\n"
+                      "pressed c; until_true test -e reljef-0003.png\n"
+                      "pressed x; $at 100 200 click 1; $at 220 210 click 1\n"
+                      "pressed i; until_true test -e reljef-profile-0001.csv\n"
+                      "pressed b; until_true test -e data/reljef/bookmarks.txt\n"
+                      "pressed Escape");
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    const auto first = io::read_image(folder.path() / "reljef-0001.png");
+    const auto panned = io::read_image(folder.path() / "reljef-0002.png");
+    const auto zoomed = io::read_image(folder.path() / "reljef-0003.png");
+    ASSERT_TRUE(first && panned && zoomed) << result.out << result.err;
+    EXPECT_NE(*first, *panned);
+    EXPECT_NE(*panned, *zoomed);
+    EXPECT_THAT(result.out, HasSubstr("\n2  x "));
+    EXPECT_THAT(result.out, HasSubstr("over the ground"));
+    EXPECT_EQ(test::without_progress(result.err), "");
+}
+
+TEST(ViewCommand, PathOfARealWindowBecomesAVideoOrIsCancelled) {
+    if (!can_drive() || !std::filesystem::exists("/usr/bin/ffmpeg")) {
+        GTEST_SKIP() << "no display, no xdotool or no ffmpeg";
+    }
+    const test::TemporaryFolder folder;
+    const auto result =
+        drive(folder, "titled 'texture - still'; pressed Insert; xdotool click 5 click 5\n"
+                      "pressed y; sleep 0.5; pressed Insert; pressed y; titled 'video'\n"
+                      "until_true test -s reljef-0001.mp4; titled still\n"
+                      "pressed y; titled 'video'; pressed Escape; titled still\n"
+                      "pressed j; until_true test -e reljef-path-0001.toml; pressed Escape");
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.err, HasSubstr("a path with one keyframe found"));
+    EXPECT_THAT(result.err, HasSubstr("the video is cancelled, nothing is saved"));
+    EXPECT_THAT(folder.names(), testing::ElementsAre("reljef-0001.mp4", "reljef-path-0001.toml"));
 }
 
 TEST(ViewCommand, CtrlCClosesTheWindow) {

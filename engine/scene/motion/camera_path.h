@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -43,6 +44,8 @@ public:
     static Result<CameraPath> create(std::vector<Keyframe> keys);
 
     [[nodiscard]] Keyframe at(double time) const;
+    /// At least one; ascending, distinct times.
+    [[nodiscard]] std::span<const Keyframe> keys() const { return keys_; }
     [[nodiscard]] double begin() const { return keys_.front().time; }
     [[nodiscard]] double end() const { return keys_.back().time; }
     [[nodiscard]] double duration() const { return end() - begin(); }

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
 
 #include <glm/vec2.hpp>
 
-#include "engine/core/atomic_file.h"
 #include "engine/core/grid.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"

@@ -14,7 +14,7 @@ struct SurfacePoint {
     double height = 0.0;          ///< metres above the DEM's zero
     double slope = 0.0;           ///< degrees, [0, 90)
     std::optional<double> aspect; ///< downhill, degrees clockwise from north, [0, 360); level: none
-    bool is_void = false;         ///< between samples of which one is a void, which is filled
+    bool is_void = false;         ///< one of the four samples around is a void, which is filled
 };
 
 /// At (col, row) of a heightfield: the gradient of its cell. Empty outside, and for numbers that

@@ -25,8 +25,8 @@ std::string text_of(const std::string& path) {
 
 TEST(Manual, HasAPageForTheProgramAndForEachVerb) {
     const std::string program = text_of("man/man1/reljef.1");
-    for (const std::string verb :
-         {"view", "render", "info", "height", "index", "maps", "techniques"}) {
+    for (const std::string verb : {"view", "render", "info", "height", "profile", "viewshed",
+                                   "index", "maps", "techniques"}) {
         EXPECT_THAT(program, HasSubstr("\\fBreljef\\-" + verb + "\\fR(1)"));
         EXPECT_THAT(text_of("man/man1/reljef-" + verb + ".1"), HasSubstr(".SH SYNOPSIS")) << verb;
     }

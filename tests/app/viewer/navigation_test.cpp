@@ -106,7 +106,6 @@ TEST_F(NavigationTest, LeftDragOrbitsAroundTheGroundUnderThePointer) {
     EXPECT_LT(pixels_from(center, low_in_picture), 1.0);
     EXPECT_NEAR(glm::distance(camera().eye, center), distance, 1e-6);
     EXPECT_GT(glm::distance(camera().eye, before), 50.0);
-    EXPECT_FALSE(viewer.take_click()) << "a drag is no click";
 }
 
 TEST_F(NavigationTest, MiddleDragAndLeftDragFromTheSkyTurnInPlace) {
@@ -214,14 +213,57 @@ TEST_F(NavigationTest, RandomGesturesStayAboveTheGround) {
     }
 }
 
-TEST_F(NavigationTest, ClickIsKeptOnce) {
-    move(low_in_picture);
-    button(MouseButton::left, true, low_in_picture);
-    move(low_in_picture + glm::dvec2(1.0, 0.0));
-    EXPECT_FALSE(viewer.take_click());
-    button(MouseButton::left, false, low_in_picture);
-    EXPECT_TRUE(viewer.take_click());
-    EXPECT_FALSE(viewer.take_click());
+TEST_F(NavigationTest, ClickWhileMeasuringPicksAPointAlsoOnTheMap) {
+    const auto click = [&] {
+        move(low_in_picture);
+        button(MouseButton::left, true, low_in_picture);
+        move(low_in_picture + glm::dvec2(1.0, 0.0));
+        button(MouseButton::left, false, low_in_picture);
+    };
+    click();
+    EXPECT_EQ(viewer.take_output(), "");
+    press(Key::x);
+    click();
+    EXPECT_THAT(viewer.take_output(), HasSubstr("1  x "));
+    press(Key::o);
+    click();
+    EXPECT_THAT(viewer.take_output(), HasSubstr("\n  distance "));
+    press(Key::o);
+    drag(MouseButton::left, low_in_picture, {280.0, 200.0});
+    EXPECT_EQ(viewer.take_output(), "") << "a drag is no click";
+    press(Key::x);
+    click();
+    EXPECT_THAT(viewer.take_output(), testing::Not(HasSubstr("3  x ")));
+    EXPECT_EQ(viewer.measuring().points().size(), 2U);
+}
+
+TEST_F(NavigationTest, KeysRecordAndEditThePath) {
+    const auto temporary = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    press(Key::k);
+    EXPECT_TRUE(viewer.path_desk().is_recording());
+    viewer.receive(KeyEvent{.key = Key::w, .pressed = true});
+    for (int i = 0; i < 60; ++i) {
+        viewer.advance(tick);
+    }
+    viewer.receive(KeyEvent{.key = Key::w, .pressed = false});
+    press(Key::k);
+    EXPECT_THAT(viewer.take_output(), HasSubstr("saved reljef-path-0001.toml"));
+    EXPECT_NEAR(viewer.path_desk().path().duration(), 59.0 / 60.0, 1e-6);
+    const std::size_t keys = viewer.path_desk().path().keys().size();
+    press(Key::insert);
+    EXPECT_EQ(viewer.path_desk().path().keys().size(), keys + 1);
+    press(Key::erase);
+    EXPECT_EQ(viewer.path_desk().path().keys().size(), keys);
+    viewer.seek(0.5);
+    EXPECT_LT(glm::distance(camera().eye, viewer.path_desk().path().at(0.5).eye), 1e-6);
+    press(Key::j);
+    EXPECT_TRUE(std::filesystem::exists("reljef-path-0002.toml"));
+    press(Key::i);
+    EXPECT_THAT(notes(), HasSubstr("X measures"));
+    press(Key::y);
+    EXPECT_TRUE(viewer.take_video_request());
+    std::filesystem::current_path(temporary);
 }
 
 TEST_F(NavigationTest, CopiedCameraShowsTheSameView) {

@@ -146,5 +146,51 @@ TEST_F(FlightFile, WhatIsWrongIsOneSentenceThatNamesTheFile) {
     EXPECT_THAT(error("a.txt", "nothing"), HasSubstr("a.txt: cannot be opened as a path"));
 }
 
+TEST_F(FlightFile, WrittenFlightOnEarthIsReadAgain) {
+    const test::QuietGdal quiet;
+    const std::vector<GeodeticKey> written{{-1.5, 45.8, 6.8, 3000.25, 350.0, -12.5},
+                                           {2.0, 45.9, 179.999, 3500.0, 20.0, 5.0},
+                                           {9.25, -45.9, -179.999, 0.0, 0.0, 0.0}};
+    for (const std::string name : {"flight.toml", "flight.gpx"}) {
+        const auto file = folder_.path() / name;
+        ASSERT_TRUE(write_flight(file, {written, {}}));
+        const auto flight = read_flight(file, 50.0);
+        ASSERT_TRUE(flight) << flight.error().message;
+        const auto& read = std::get<std::vector<GeodeticKey>>(flight->keys);
+        ASSERT_EQ(read.size(), written.size());
+        for (std::size_t i = 0; i < read.size(); ++i) {
+            EXPECT_NEAR(read[i].latitude, written[i].latitude, 1e-9);
+            EXPECT_NEAR(read[i].longitude, written[i].longitude, 1e-9);
+            ASSERT_TRUE(read[i].height);
+            EXPECT_NEAR(*read[i].height, *written[i].height, 1e-4);
+            const bool is_track = name == "flight.gpx"; // has no angles, and times by the way
+            EXPECT_EQ(read[i].heading.has_value(), !is_track);
+            EXPECT_TRUE(is_track || read[i].time == written[i].time);
+        }
+    }
+}
+
+TEST_F(FlightFile, WrittenPathInTheSceneIsReadAgain) {
+    const std::vector<PathKey> written{{0.0, {1.5, -2.25, 3.0}, {4.0, 5.0, -6.0}},
+                                       {4.0, {1e6, 2.0, 3.0}, {4.0, 5.0, 6.0}}};
+    const auto file = folder_.path() / "path.toml";
+    ASSERT_TRUE(write_flight(file, {written, {}}));
+    const auto flight = read_flight(file);
+    ASSERT_TRUE(flight) << flight.error().message;
+    const auto& read = std::get<std::vector<PathKey>>(flight->keys);
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].eye, written[0].eye);
+    EXPECT_EQ(read[1].target, written[1].target);
+    EXPECT_EQ(read[1].time, 4.0);
+}
+
+TEST_F(FlightFile, FlightThatCannotBeWrittenLeavesNothing) {
+    const Flight in_scene{std::vector<PathKey>{{0.0, {1, 2, 3}, {4, 5, 6}}}, {}};
+    for (const char* name : {"path.gpx", "path.kml", "path"}) {
+        EXPECT_FALSE(write_flight(folder_.path() / name, in_scene)) << name;
+        EXPECT_FALSE(std::filesystem::exists(folder_.path() / name));
+    }
+}
+
 } // namespace
 } // namespace reljef::io

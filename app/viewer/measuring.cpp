@@ -1,0 +1,118 @@
+#include "app/viewer/measuring.h"
+
+#include <cmath>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "engine/core/atomic_file.h"
+#include "engine/session/measuring/ground_measure.h"
+
+namespace reljef::app {
+namespace {
+
+std::string distance_text(std::span<const terrain::ProfilePoint> profile) {
+    const terrain::ProfileSummary found = terrain::summarize(profile);
+    const double rise = profile.back().height - profile.front().height;
+    std::string text = fmt::format("  distance {:.1f} m, over the ground {:.1f} m", found.distance,
+                                   found.over_ground);
+    if (std::isfinite(rise)) {
+        text += fmt::format(", {} by {:.1f} m", rise < 0.0 ? "lower" : "higher", std::abs(rise));
+    }
+    return text + fmt::format(", climb {:.1f} m, descent {:.1f} m\n", found.climb, found.descent);
+}
+
+} // namespace
+
+Result<std::string> Measuring::pick(const std::optional<glm::dvec3>& world) {
+    if (!world) {
+        return Error{"measuring: the sky found, a place on the ground was expected"};
+    }
+    points_.push_back(*world);
+    std::string text =
+        fmt::format("{}  {}\n", points_.size(), session::point_text(terrain_, *world));
+    if (points_.size() < 2) {
+        return text;
+    }
+    const glm::dvec3 from = points_[points_.size() - 2];
+    auto profile = session::ground_profile(terrain_, from, *world);
+    if (!profile) {
+        return profile.error();
+    }
+    profile_ = std::move(*profile);
+    text += distance_text(profile_);
+    const auto hidden = session::hidden_by(terrain_, from, *world, eye_height);
+    return text +
+           (hidden ? fmt::format("  hidden from each other by {}\n",
+                                 session::point_text(terrain_, *hidden))
+                   : fmt::format("  in sight of each other, {} m above the ground\n", eye_height));
+}
+
+void Measuring::clear() {
+    points_.clear();
+    profile_.clear();
+}
+
+Result<void> Measuring::save_profile(const std::filesystem::path& file) const {
+    if (profile_.empty()) {
+        return Error{
+            "profile: fewer than two measured points found, two were expected; X measures"};
+    }
+    std::string text = "distance,height\n";
+    for (const terrain::ProfilePoint& point : profile_) {
+        text += std::isnan(point.height)
+                    ? fmt::format("{:.3f},nan\n", point.distance)
+                    : fmt::format("{:.3f},{:.3f}\n", point.distance, point.height);
+    }
+    return write_text_file(file, text);
+}
+
+Result<void> Measuring::begin_viewshed(const std::filesystem::path& file) {
+    if (viewshed_ != nullptr) {
+        return Error{"viewshed: one that is not finished found; wait for it"};
+    }
+    if (points_.empty()) {
+        return Error{"viewshed: no measured point found, one was expected; X measures"};
+    }
+    const auto place = terrain_.surface->placement().geodetic_from_world(points_.back());
+    if (!place || !terrain_.surface->heightfield().georeference) {
+        return Error{"viewshed: no place on Earth found, a georeferenced terrain was expected"};
+    }
+    session::ViewshedRequest request;
+    request.from = {place->latitude, place->longitude};
+    request.eye_height = eye_height;
+    request.placement = terrain_.surface->placement().kind();
+    viewshed_ = std::make_unique<Viewshed>();
+    viewshed_->file = file;
+    viewshed_->surface = terrain_.surface;
+    viewshed_->work.emplace([made = viewshed_.get(), request](const std::stop_token& stop) {
+        const auto task = made->log.start("viewshed");
+        return session::viewshed_of(made->surface->terrain(), request,
+                                    {.threads = 0, .stop = stop, .progress = task->callback()});
+    });
+    return {};
+}
+
+std::optional<Result<std::string>> Measuring::update() {
+    if (viewshed_ == nullptr || !viewshed_->work->is_done()) {
+        return std::nullopt;
+    }
+    const std::unique_ptr<Viewshed> done = std::move(viewshed_);
+    const auto found = done->work->take();
+    if (!found) {
+        return Result<std::string>(found.error());
+    }
+    const auto written = session::write_viewshed(done->file, *found, done->surface->heightfield());
+    return written ? Result<std::string>(fmt::format("saved {}: {:.2f} % of the terrain is "
+                                                     "visible\n",
+                                                     done->file.filename().string(),
+                                                     100.0 * found->visible_share))
+                   : Result<std::string>(written.error());
+}
+
+session::RelayedLog::TaskProgress Measuring::progress() const {
+    return viewshed_ != nullptr ? viewshed_->log.progress() : session::RelayedLog::TaskProgress{};
+}
+
+} // namespace reljef::app

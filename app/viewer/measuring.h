@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "engine/core/result.h"
+#include "engine/scene/graph/terrain_node.h"
+#include "engine/session/background.h"
+#include "engine/session/log.h"
+#include "engine/session/measuring/terrain_viewshed.h"
+#include "engine/terrain/measure/profile.h"
+
+namespace reljef::app {
+
+/// Points picked on the ground, the way between the last two, and what is seen from the last one.
+class Measuring {
+public:
+    static constexpr double eye_height = 2.0; ///< above the ground, for lines of sight, metres
+
+    /// The terrain outlives this.
+    explicit Measuring(const scene::TerrainNode& terrain) : terrain_(terrain) {}
+
+    void set_on(bool on) { is_on_ = on; }
+    [[nodiscard]] bool is_on() const { return is_on_; }
+
+    /// Picks a point of the ground, world metres; empty: the sky. Returns lines that tell its
+    /// height, slope and aspect, and from the second point on the distance from the last one, along
+    /// the surface too, and whether they see each other. Fails for the sky.
+    Result<std::string> pick(const std::optional<glm::dvec3>& world);
+    [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
+    /// Between the last two points; empty before.
+    [[nodiscard]] std::span<const terrain::ProfilePoint> profile() const { return profile_; }
+    void clear();
+
+    /// Writes "distance,height" lines. Fails without a profile.
+    Result<void> save_profile(const std::filesystem::path& file) const;
+    /// Begins the viewshed of the last point in the background; a streamed terrain's is that of its
+    /// overview. Fails without a point, and while one is made.
+    Result<void> begin_viewshed(const std::filesystem::path& file);
+    /// Writes a finished viewshed. Returns a line on it, or the error; empty: not yet.
+    std::optional<Result<std::string>> update();
+    void stop_viewshed() { viewshed_.reset(); }
+    /// The label is empty if there is no viewshed.
+    [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
+
+private:
+    struct Viewshed {
+        std::filesystem::path file;
+        std::shared_ptr<const scene::TerrainSurface> surface;
+        session::RelayedLog log;
+        std::optional<session::Background<session::TerrainViewshed>> work; // uses the others
+    };
+
+    const scene::TerrainNode& terrain_;
+    bool is_on_ = false;
+    std::vector<glm::dvec3> points_;
+    std::vector<terrain::ProfilePoint> profile_;
+    std::unique_ptr<Viewshed> viewshed_;
+};
+
+} // namespace reljef::app

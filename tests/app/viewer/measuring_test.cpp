@@ -1,0 +1,200 @@
+#include "app/viewer/measuring.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <glm/geometric.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/viewer/path_desk.h"
+#include "app/viewer/path_video.h"
+#include "engine/io/formats/flight_file.h"
+#include "engine/session/flight_keys.h"
+#include "engine/session/measuring/ground_measure.h"
+#include "tests/app/made_hill.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+using testing::HasSubstr;
+
+// 5 m to the east, 1 m down: a slope of 11.3 degrees that faces east. A wall at x = 0.
+session::TerrainScene slope_with_wall(double wall) {
+    Grid<float> heights(33, 33);
+    for (int row = 0; row < 33; ++row) {
+        for (int col = 0; col < 33; ++col) {
+            heights(col, row) = static_cast<float>(-2.0 * col + (col == 16 ? wall : 0.0));
+        }
+    }
+    return scene_of(std::move(heights));
+}
+
+const scene::TerrainNode& node_of(const session::TerrainScene& scene) {
+    return *scene.terrain->get<scene::TerrainNode>();
+}
+
+std::string text_of(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+TEST(Measuring, PointTellsHeightSlopeAndAspect) {
+    const session::TerrainScene scene = slope_with_wall(0.0);
+    Measuring measuring(node_of(scene));
+    const auto text = measuring.pick(glm::dvec3(50.0, 20.0, -42.0));
+    ASSERT_TRUE(text);
+    EXPECT_EQ(*text,
+              "1  x 50.00 m, y 20.00 m: height -42.0 m, slope 11.3\u00b0, aspect 90\u00b0\n");
+}
+
+TEST(Measuring, TwoPointsTellTheirDistanceAndSight) {
+    for (const double wall : {0.0, 30.0}) {
+        const session::TerrainScene scene = slope_with_wall(wall);
+        Measuring measuring(node_of(scene));
+        ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
+        const auto text = measuring.pick(glm::dvec3(100.0, 0.0, -52.0));
+        ASSERT_TRUE(text);
+        EXPECT_THAT(*text, HasSubstr("distance 200.0 m"));
+        EXPECT_THAT(*text, HasSubstr("lower by 40.0 m"));
+        EXPECT_THAT(*text, HasSubstr(wall > 0.0 ? "hidden from each other by x " : "in sight"));
+        if (wall == 0.0) {
+            EXPECT_THAT(*text, HasSubstr("over the ground 204.0 m")); // hypot(200, 40)
+        }
+        EXPECT_NEAR(measuring.profile().back().distance, 200.0, 1e-9);
+    }
+}
+
+TEST(Measuring, TheSkyIsOneSentenceAndNothingIsLost) {
+    const session::TerrainScene scene = slope_with_wall(0.0);
+    Measuring measuring(node_of(scene));
+    ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
+    const auto sky = measuring.pick(std::nullopt);
+    ASSERT_FALSE(sky);
+    EXPECT_THAT(sky.error().message, HasSubstr("the sky found"));
+    EXPECT_EQ(measuring.points().size(), 1U);
+    EXPECT_THAT(*measuring.pick(glm::dvec3(9000.0, 0.0, 0.0)), HasSubstr("beside the terrain"));
+    EXPECT_TRUE(std::isnan(measuring.profile().back().height));
+}
+
+TEST(Measuring, ProfileIsSavedAndAViewshedNeedsAPlaceOnEarth) {
+    const test::TemporaryFolder folder;
+    const session::TerrainScene scene = slope_with_wall(0.0);
+    Measuring measuring(node_of(scene));
+    EXPECT_FALSE(measuring.save_profile(folder.path() / "none.csv"));
+    EXPECT_FALSE(measuring.begin_viewshed(folder.path() / "none.tif"));
+    ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
+    ASSERT_TRUE(measuring.pick(glm::dvec3(100.0, 0.0, -52.0)));
+    ASSERT_TRUE(measuring.save_profile(folder.path() / "profile.csv"));
+    const std::string text = text_of(folder.path() / "profile.csv");
+    EXPECT_THAT(text, testing::StartsWith("distance,height\n0.000,-12.000\n"));
+    EXPECT_THAT(text, testing::EndsWith("\n200.000,-52.000\n"));
+    const auto viewshed = measuring.begin_viewshed(folder.path() / "seen.tif");
+    ASSERT_FALSE(viewshed);
+    EXPECT_THAT(viewshed.error().message, HasSubstr("no place on Earth"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
+}
+
+scene::Camera view_from(double x) {
+    return scene::camera_from_angles({x, 0.0, 50.0}, 90.0, -10.0);
+}
+
+PathDesk given_path() {
+    return PathDesk(scene::CameraPath::create({{0.0, {1, 1, 1}, {2, 2, 2}}}).value());
+}
+
+TEST(PathDesk, FirstKeyReplacesTheGivenPathAndOthersFollow) {
+    PathDesk desk = given_path();
+    for (const double x : {10.0, 20.0, 30.0}) {
+        ASSERT_TRUE(desk.append_key(view_from(x)));
+    }
+    ASSERT_EQ(desk.path().keys().size(), 3U);
+    EXPECT_EQ(desk.path().at(0.0).eye.x, 10.0);
+    EXPECT_EQ(desk.path().at(PathDesk::seconds_between_keys).eye.x, 20.0);
+    ASSERT_TRUE(desk.remove_key_at(3.1));
+    EXPECT_EQ(desk.path().keys()[1].eye.x, 30.0);
+    ASSERT_TRUE(desk.remove_key_at(0.0));
+    EXPECT_FALSE(desk.remove_key_at(0.0));
+    EXPECT_EQ(desk.path().keys().size(), 1U);
+}
+
+TEST(PathDesk, RecordedFlightIsThePathAndIsReadAgain) {
+    const test::TemporaryFolder folder;
+    const session::TerrainScene scene = hill_scene();
+    PathDesk desk = given_path();
+    EXPECT_FALSE(desk.end_recording());
+    desk.begin_recording();
+    EXPECT_FALSE(desk.end_recording()) << "nothing was flown";
+    EXPECT_EQ(desk.path().at(0.0).eye.x, 1.0) << "nothing is lost";
+    desk.begin_recording();
+    for (int i = 0; i <= 240; ++i) {
+        desk.record(view_from(i), 1.0 / 60.0);
+    }
+    ASSERT_TRUE(desk.end_recording());
+    EXPECT_NEAR(desk.path().duration(), 4.0, 1e-9);
+    const auto files = desk.save(*node_of(scene).surface, folder.path() / "flight");
+    ASSERT_TRUE(files);
+    EXPECT_THAT(*files, testing::ElementsAre(folder.path() / "flight.toml"));
+    const auto read = io::read_flight(files->front());
+    ASSERT_TRUE(read);
+    const auto& keys = std::get<std::vector<io::PathKey>>(read->keys);
+    ASSERT_EQ(keys.size(), desk.path().keys().size());
+    EXPECT_LT(glm::distance(keys.back().eye, desk.path().keys().back().eye), 1e-5);
+}
+
+VideoFile counting_video(int& frames, bool& is_finished) {
+    return {[&frames](const Image&, int index) -> Result<void> {
+                frames = index + 1;
+                return {};
+            },
+            [&is_finished]() -> Result<void> {
+                is_finished = true;
+                return {};
+            }};
+}
+
+TEST(PathVideo, HasAFrameEach25thOfASecond) {
+    int frames = 0;
+    bool is_finished = false;
+    const auto open = [&](const std::filesystem::path&, glm::ivec2, double) {
+        return Result<VideoFile>(counting_video(frames, is_finished));
+    };
+    const auto path =
+        scene::CameraPath::create({{3.0, {0, 0, 9}, {1, 0, 9}}, {5.0, {9, 0, 9}, {10, 0, 9}}});
+    auto video = PathVideo::begin(*path, "flight.mp4", {64, 48}, open);
+    ASSERT_TRUE(video);
+    EXPECT_EQ(video->frames(), 51);
+    for (int i = 0; i < 51; ++i) {
+        ASSERT_FALSE(video->is_complete());
+        ASSERT_NEAR(video->time(), i / 25.0, 1e-12);
+        ASSERT_TRUE(video->write(Image(64, 48)));
+    }
+    EXPECT_TRUE(video->is_complete());
+    ASSERT_TRUE(video->finish());
+    EXPECT_EQ(frames, 51);
+    EXPECT_TRUE(is_finished);
+}
+
+TEST(PathVideo, OneKeyframeAndAFileThatCannotBeMadeAreErrors) {
+    const auto open = [](const std::filesystem::path&, glm::ivec2, double) {
+        return Result<VideoFile>(Error{"no ffmpeg"});
+    };
+    const auto one = scene::CameraPath::create({{3.0, {0, 0, 9}, {1, 0, 9}}});
+    const auto still = PathVideo::begin(*one, "flight.mp4", {64, 48}, open);
+    ASSERT_FALSE(still);
+    EXPECT_THAT(still.error().message, HasSubstr("a path with one keyframe found"));
+    const auto two =
+        scene::CameraPath::create({{3.0, {0, 0, 9}, {1, 0, 9}}, {5.0, {9, 0, 9}, {10, 0, 9}}});
+    EXPECT_EQ(PathVideo::begin(*two, "flight.mp4", {64, 48}, open).error().message, "no ffmpeg");
+    const auto endless =
+        scene::CameraPath::create({{0.0, {0, 0, 9}, {1, 0, 9}}, {1e9, {9, 0, 9}, {10, 0, 9}}});
+    EXPECT_FALSE(PathVideo::begin(*endless, "flight.mp4", {64, 48}, open));
+}
+
+} // namespace
+} // namespace reljef::app
