@@ -1,7 +1,5 @@
 #include "engine/scene/streaming/tile_stream.h"
 
-#include "engine/scene/graph/terrain_node.h"
-
 #include <array>
 #include <atomic>
 
