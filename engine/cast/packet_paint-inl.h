@@ -131,6 +131,18 @@ HWY_INLINE Color with_glow(const BlockPaint& paint, const ViewAngles& angles, co
     return with_added(color, paint.glow, hn::Mul(fourth, fourth));
 }
 
+// A colour behind metres of air as dense as at the base.
+HWY_INLINE Color behind_air(const BlockPaint& paint, const ViewAngles& angles, const Color& color,
+                            Floats air) {
+    constexpr float log2_e = 1.4426950F;
+    const auto left = [&](float extinction)
+                          HWY_ATTR { return exp2_of(hn::Mul(air, all(-log2_e * extinction))); };
+    const Color haze = with_glow(paint, angles, all(paint.horizon));
+    return {mixed(haze.r, color.r, left(paint.extinction.r)),
+            mixed(haze.g, color.g, left(paint.extinction.g)),
+            mixed(haze.b, color.b, left(paint.extinction.b))};
+}
+
 // A colour behind air whose density falls exponentially with height (Koschmieder 1924).
 HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, const Color& color,
                              Floats metres) {
@@ -143,13 +155,7 @@ HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, 
     const Floats even = hn::Mul(all(0.5F), hn::Add(eye_density, density));
     const Floats mean = hn::IfThenElse(hn::Lt(hn::Abs(rise), all(0.1F)), even,
                                        hn::Div(hn::Sub(eye_density, density), rise));
-    const Floats air = hn::Mul(mean, metres);
-    const auto left = [&](float extinction)
-                          HWY_ATTR { return exp2_of(hn::Mul(air, all(-log2_e * extinction))); };
-    const Color haze = with_glow(paint, angles, all(paint.horizon));
-    return {mixed(haze.r, color.r, left(paint.extinction.r)),
-            mixed(haze.g, color.g, left(paint.extinction.g)),
-            mixed(haze.b, color.b, left(paint.extinction.b))};
+    return behind_air(paint, angles, color, hn::Mul(mean, metres));
 }
 
 HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewAngles& angles) {
@@ -175,8 +181,9 @@ HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) 
         return all(paint.plane);
     }
     const Floats lowest = all(-1e-9F); // the rise of lanes above the horizon, which show no plane
-    const Floats metres = hn::Div(all(-paint.eye_above), hn::Min(angles.rise, lowest));
-    return through_air(paint, angles, all(paint.plane), metres);
+    constexpr float mist = 3.0F;       // as dense as the air at the base
+    const Floats metres = hn::Div(all(-mist * paint.eye_above), hn::Min(angles.rise, lowest));
+    return behind_air(paint, angles, all(paint.plane), metres);
 }
 
 HWY_INLINE Floats fraction_of(Floats x) {

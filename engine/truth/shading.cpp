@@ -28,6 +28,14 @@ double mean_density(const scene::Sky& sky, double from, double to) {
     return std::exp(-low) * (rise > 0.0 ? -std::expm1(-rise) / rise : 1.0);
 }
 
+// `air`: metres of air as dense as at the base.
+glm::vec3 behind_air(const scene::Sky& sky, const std::optional<scene::Light>& sun, glm::vec3 color,
+                     glm::dvec3 direction, double air) {
+    const auto depth = static_cast<float>(scene::extinction(sky) * air);
+    return glm::mix(sky.horizon + sky.glow * toward_sun(sun, direction), color,
+                    glm::exp(-depth * sky.fading));
+}
+
 bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
     const auto sample = surface.placement().sample_from_world(local);
     const Grid<float>& heights = surface.heightfield().heights;
@@ -41,7 +49,9 @@ bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
 glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
     if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
-        return seen_through_air(sky, sun, *sky.plane, ray, (sky.base - ray.origin.z) / direction.z);
+        constexpr double mist = 3.0; // as dense as the air at the base
+        const double metres = (sky.base - ray.origin.z) / direction.z;
+        return behind_air(sky, sun, *sky.plane, direction, mist * metres);
     }
     const auto height = static_cast<float>(std::max(direction.z, 0.0));
     const float share = height * (1.0F + sky.curve) / (height + sky.curve);
@@ -62,10 +72,8 @@ glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Lig
     }
     const glm::dvec3 direction = glm::normalize(ray.direction);
     const double eye = ray.origin.z - sky.base;
-    const double depth =
-        scene::extinction(sky) * distance * mean_density(sky, eye, eye + direction.z * distance);
-    const glm::vec3 left = glm::exp(-static_cast<float>(depth) * sky.fading);
-    return glm::mix(sky.horizon + sky.glow * toward_sun(sun, direction), color, left);
+    return behind_air(sky, sun, color, direction,
+                      distance * mean_density(sky, eye, eye + direction.z * distance));
 }
 
 Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)

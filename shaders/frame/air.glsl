@@ -1,13 +1,14 @@
 // The 8th power of the cosine of the angle to the sun: forward scattering.
+// 0 without a sun.
 float toward_sun(vec3 direction) {
-#ifdef LIT
     float toward = max(dot(direction, to_sun.xyz), 0.0);
     toward *= toward;
     toward *= toward;
     return toward * toward;
-#else
-    return 0.0;
-#endif
+}
+
+vec3 haze_color(vec3 direction) {
+    return sky_horizon.rgb + sky_glow.rgb * toward_sun(direction);
 }
 
 // A colour behind air whose density falls exponentially with height (Koschmieder 1924). `direction`: unit.
@@ -18,7 +19,7 @@ vec3 through_air(vec3 color, vec3 direction, float metres) {
     float rise = (above - sky_plane.a) * air.a;
     float mean = abs(rise) < 0.1 ? 0.5 * (eye_density + density) : (eye_density - density) / rise;
     vec3 left = exp(-air.rgb * (mean * metres));
-    return mix(sky_horizon.rgb + sky_glow.rgb * toward_sun(direction), color, left);
+    return mix(haze_color(direction), color, left);
 }
 
 // The fragment's light after absorption and scattering by the air.

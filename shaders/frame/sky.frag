@@ -5,10 +5,12 @@ in vec3 ray;
 
 layout(location = 0) out vec4 color;
 
-// Of the plane at the base, below the horizon.
+// Of the plane at the base, below the horizon: in mist that is thrice as dense as the air at the base, so
+// that no line shows where it ends.
 vec3 plane_color(vec3 direction) {
 #ifdef FOG
-    return through_air(sky_plane.rgb, direction, sky_plane.a / -direction.z);
+    vec3 left = exp(-3.0 * air.rgb * (sky_plane.a / -direction.z));
+    return mix(haze_color(direction), sky_plane.rgb, left);
 #else
     return sky_plane.rgb;
 #endif
@@ -18,8 +20,8 @@ vec3 sky_color(vec3 direction) {
     float height = max(direction.z, 0.0);
     float curve = sky_zenith.a;
     vec3 sky = mix(sky_horizon.rgb, sky_zenith.rgb, height * (1.0 + curve) / (height + curve));
-#ifdef LIT
     sky += sky_glow.rgb * toward_sun(direction);
+#ifdef LIT
     sky += sun_color.rgb * smoothstep(0.99985, 0.99995, dot(direction, to_sun.xyz));
 #endif
     return sky;

@@ -189,7 +189,7 @@ TEST(Sky, HasAPlaneBelowWhichFadesIntoTheHorizon) {
     scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0, .base = -10.0};
     sky.plane = glm::vec3(0.1F);
     const Ray down{{0.0, 0.0, 90.0}, {0.0, 0.0, -1.0}};
-    const float left = std::pow(0.02F, 0.1F);
+    const float left = std::pow(0.02F, 0.3F);
     expect_near(sky_color(sky, {}, down), glm::mix(sky.horizon, *sky.plane, left), 1e-5F);
     const Ray flat{{0.0, 0.0, 90.0}, {1.0, 0.0, -1e-5}};
     expect_near(sky_color(sky, {}, flat), sky.horizon, 1e-5F);

@@ -259,7 +259,7 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
         return {variant.kind, own};
     }
     if (variant.kind == ShaderKind::sky) {
-        variant.features &= feature_lit;
+        variant.features &= feature_lit | feature_fog;
     } else if ((variant.features & feature_hit) != 0) {
         variant.features = feature_hit;
     } else if (!is_lit_per_pixel(variant.kind)) {
