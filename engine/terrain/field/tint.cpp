@@ -49,8 +49,13 @@ public:
         for (std::size_t next = 0; next < samples_.size(); ++next) {
             spread(samples_[next]);
         }
-        if (is_water(heights_(col, row))) {
-            for (const glm::ivec2 sample : samples_) {
+        const float height = heights_(col, row);
+        if (!is_water(height)) {
+            return;
+        }
+        for (const glm::ivec2 sample : samples_) {
+            // At the sea, the shore is land.
+            if (height != 0.0F || is_level(heights_, sample.x, sample.y)) {
                 water(sample.x, sample.y) = 1;
             }
         }
