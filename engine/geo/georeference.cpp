@@ -25,6 +25,11 @@ glm::dvec2 radii_of_earth() {
     return {equatorial, equatorial * (1.0 - GeographicLib::Geocentric::WGS84().Flattening())};
 }
 
+double smallest_radius_of_earth() {
+    const glm::dvec2 radii = radii_of_earth();
+    return radii.y * radii.y / radii.x;
+}
+
 LocalFrame::LocalFrame(Geodetic origin)
     : origin_(origin), center_(geocentric_from_geodetic(origin)) {
     std::vector<double> rotation(9); // row-major; columns: east, north, up

@@ -172,6 +172,9 @@ private:
 /// Of WGS 84: the equatorial and the polar radius, metres.
 glm::dvec2 radii_of_earth();
 
+/// The smallest radius of curvature of WGS 84, metres: b²/a, of the meridian at the equator.
+double smallest_radius_of_earth();
+
 /// Geocentric unit normal of the ellipsoid at a latitude and longitude in degrees.
 glm::dvec3 normal_from_geodetic(double latitude, double longitude);
 

@@ -35,10 +35,6 @@ constexpr double share_of_tiles = 0.5;
 constexpr double errors_of_horizon = 2.0;
 constexpr double errors_of_unproven_horizon = 3.0;
 
-// Metres: the smallest radius of curvature of WGS 84, b²/a. Two verticals that are a chord apart
-// turn by at most pi/2 times chord over radius.
-constexpr double min_radius_of_earth = 6'335'439.0;
-
 // Parts of a tile that are wider than this share of their distance are divided, until they are so
 // many cells wide: a step at the eye would be endless work.
 constexpr double near_parts = 0.5;
@@ -282,9 +278,9 @@ std::array<StreamView::Part, 4> StreamView::quarters_of(const scene::TerrainTile
 double StreamView::error_in(const Box& box, double error) const {
     const terrain::Placement& placement = builder().overview().placement();
     const bool is_plane = placement.kind() == terrain::PlacementKind::plane;
-    const double turn =
-        is_plane ? 0.0
-                 : 0.5 * std::numbers::pi * 0.5 * glm::length(box.size()) / min_radius_of_earth;
+    const double turn = is_plane ? 0.0
+                                 : 0.5 * std::numbers::pi * 0.5 * glm::length(box.size()) /
+                                       geo::smallest_radius_of_earth();
     return picture_error_.of({box, error, placement.up(box.center()), turn});
 }
 

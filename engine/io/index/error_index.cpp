@@ -14,6 +14,7 @@
 
 #include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/index/index_format.h"
 #include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
@@ -25,100 +26,6 @@ using terrain::tree_tile_cells;
 using terrain::TreeTile;
 
 namespace {
-
-constexpr std::uint32_t index_version = 4; // increase when heights or errors change
-
-struct IndexHeader {
-    std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
-    std::uint32_t version = index_version;
-    std::uint32_t endian = 0x01020304;
-    std::int32_t cells_of_tile = tree_tile_cells;
-    std::int32_t cols = 0;
-    std::int32_t rows = 0;
-    std::uint32_t is_complete = 0;
-    std::uint64_t source = 0;
-    std::uint64_t seal = 0;
-};
-static_assert(sizeof(IndexHeader) == 48 && std::is_trivially_copyable_v<IndexHeader>);
-
-struct ProofRecord {
-    float low = 0.0F;
-    float high = 0.0F;
-    std::uint32_t has_voids = 0;
-    std::uint32_t seal = 0; // 0: not written
-    // Not at level 0:
-    float error = 0.0F;
-    terrain::BlockShares block_shares = terrain::whole_shares;
-};
-static_assert(sizeof(ProofRecord) == 36 && std::is_trivially_copyable_v<ProofRecord>);
-
-constexpr std::size_t bytes_of_proof(int level) {
-    return level > 0 ? sizeof(ProofRecord) : offsetof(ProofRecord, error);
-}
-
-constexpr int side_of_heights = tree_tile_cells + 3;
-constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
-constexpr std::size_t bytes_of_parts = sizeof(terrain::PartShares);
-constexpr std::size_t floats_of_tile = floats_of_heights + bytes_of_parts / sizeof(float);
-constexpr int side_of_residuals = terrain::chunk_cells >> levels_per_chunk;
-constexpr std::size_t floats_of_residuals = std::size_t{2} * side_of_residuals * side_of_residuals;
-
-constexpr std::size_t bytes_of_block(std::size_t floats) {
-    return floats * sizeof(float) + sizeof(std::uint64_t);
-}
-
-std::uint64_t sealed(std::uint64_t hash, std::uint64_t word) {
-    return (hash ^ word) * fnv_prime;
-}
-
-std::uint32_t seal_of(const ProofRecord& record, TreeTile tile, std::uint64_t source) {
-    std::uint64_t hash = fnv_start ^ source;
-    for (const float value : {record.low, record.high, record.error}) {
-        hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
-    }
-    hash = sealed(hash, record.has_voids);
-    for (const std::uint8_t share : record.block_shares) {
-        hash = sealed(hash, share);
-    }
-    for (const int value : {tile.level, tile.col, tile.row}) {
-        hash = sealed(hash, static_cast<std::uint32_t>(value));
-    }
-    return static_cast<std::uint32_t>(hash >> 32U) | 1U;
-}
-
-std::uint64_t seal_of(std::span<const float> floats, std::uint64_t place, std::uint64_t source) {
-    std::uint64_t hash = sealed(fnv_start ^ source, place);
-    for (const float value : floats) {
-        hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
-    }
-    return hash;
-}
-
-std::size_t index_in(glm::ivec2 count, int col, int row) {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(count.x) +
-           static_cast<std::size_t>(col);
-}
-
-std::size_t count_of(glm::ivec2 count) {
-    return static_cast<std::size_t>(count.x) * static_cast<std::size_t>(count.y);
-}
-
-void copy_into(const Grid<float>& grid, std::span<float> floats, int stride) {
-    for (int row = 0; row < grid.rows(); ++row) {
-        std::copy(grid.row(row).begin(), grid.row(row).end(),
-                  floats.begin() + std::ptrdiff_t{row} * stride);
-    }
-}
-
-Grid<float> grid_from(std::span<const float> floats, glm::ivec2 size, int stride) {
-    Grid<float> grid(size.x, size.y);
-    for (int row = 0; row < size.y; ++row) {
-        const auto from =
-            floats.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(stride));
-        std::copy_n(from.begin(), size.x, grid.row(row).begin());
-    }
-    return grid;
-}
 
 /// Cells of the highest of a chunk's levels.
 glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {

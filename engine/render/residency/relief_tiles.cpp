@@ -11,6 +11,7 @@
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::render {
 namespace {
@@ -28,15 +29,6 @@ constexpr std::uint64_t kept_frames_of_stream = 8;
 // Along a side. A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
 constexpr int max_pages = 1024;
 
-glm::ivec2 cells_at(const terrain::TileTree& tree, int level) {
-    const int step = 1 << level;
-    return (glm::ivec2(tree.cols() - 1, tree.rows() - 1) + step - 1) / step;
-}
-
-glm::ivec2 pages_at(const terrain::TileTree& tree, int level) {
-    return (cells_at(tree, level) + page_cells - 1) / page_cells;
-}
-
 // The level of the finest tiles, or a coarser one whose pages are few enough.
 int finest_level(const terrain::TileTree& tree, Tiles tiles) {
     int level = tree.root().level;
@@ -44,7 +36,7 @@ int finest_level(const terrain::TileTree& tree, Tiles tiles) {
         level = std::min(level, tile->id.level);
     }
     const auto longest = [&](int at) {
-        const glm::ivec2 pages = pages_at(tree, at);
+        const glm::ivec2 pages = terrain::level_tiles(tree, at);
         return std::max(pages.x, pages.y);
     };
     while (longest(level) > max_pages) {
@@ -207,7 +199,7 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     const int samples_in_tree = 1 << builder.level_of_samples(); // of the tree, per sample
     StreamedSpace made;
     made.level = finest_level(tree, tiles);
-    made.last_cell = cells_at(tree, made.level) - 1;
+    made.last_cell = terrain::level_cells(tree, made.level) - 1;
     made.samples_a_cell = static_cast<double>(1 << made.level) / samples_in_tree;
     const glm::dvec2 last_sample =
         glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
@@ -478,7 +470,7 @@ Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const glm::ivec2 count = pages_at(owner->tree(), finest);
+    const glm::ivec2 count = terrain::level_tiles(owner->tree(), finest);
     const auto side_for = [](int pages) {
         return static_cast<int>(std::bit_ceil(static_cast<unsigned>(pages)));
     };

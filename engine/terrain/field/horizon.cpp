@@ -46,11 +46,6 @@ glm::dvec2 direction(double azimuth) {
     return {std::cos(azimuth), std::sin(azimuth)};
 }
 
-double radius_of_ball() {
-    const glm::dvec2 radii = geo::radii_of_earth();
-    return radii.y * radii.y / radii.x;
-}
-
 GroundRange ground_of(const Heightfield& heightfield, const MinMaxPyramid& pyramid,
                       const Placement& placement) {
     const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
@@ -150,7 +145,7 @@ std::optional<EyeFrame> EyeFrame::create(const Placement& placement, glm::dvec3 
     frame.axes_ = glm::transpose(glm::dmat3(glm::cross(north, up), north, up));
     frame.latitude_ = place.latitude;
     frame.height_ = place.height;
-    frame.radius_ = radius_of_ball();
+    frame.radius_ = geo::smallest_radius_of_earth();
     return frame;
 }
 
@@ -251,12 +246,15 @@ std::optional<Horizon> Horizon::create(const Heightfield& heightfield, const Min
 Horizon::Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach,
                  const HorizonView& view, HeightRange zero)
     : frame_(std::move(frame)), ground_(std::move(ground)), view_(view), lowest_zero_(zero.low),
-      sagitta_(frame_.is_on_plane() ? 0.0 : reach.cell * reach.cell / (8.0 * radius_of_ball())),
+      sagitta_(frame_.is_on_plane()
+                   ? 0.0
+                   : reach.cell * reach.cell / (8.0 * geo::smallest_radius_of_earth())),
       last_sample_(reach.last_sample), sector_angle_(2.0 * std::numbers::pi / reach.sectors),
       sectors_(static_cast<std::size_t>(reach.sectors)), has_ended_(sectors_.size(), false) {
     const double last = std::min(reach.last, frame_.max_reach());
     // Between the eye and a place, a ray is below both by the sagitta of the arc at most.
-    const double sagitta = frame_.is_on_plane() ? 0.0 : last * last / (8.0 * radius_of_ball());
+    const double sagitta =
+        frame_.is_on_plane() ? 0.0 : last * last / (8.0 * geo::smallest_radius_of_earth());
     heights_apart_ = std::max({std::abs(frame_.height()), std::abs(reach.heights.low + zero.low),
                                std::abs(reach.heights.high + zero.high)}) +
                      sagitta;
@@ -351,7 +349,7 @@ std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stret
     const glm::dvec2 size = high - low;
     const double length = std::hypot(outer - inner, outer * sector_angle_);
     const double drifted = frame_.drift(outer, heights_apart_) / (outer - inner);
-    const glm::dvec2 more((bend_in_samples(length, radius_of_ball()) + drifted) *
+    const glm::dvec2 more((bend_in_samples(length, geo::smallest_radius_of_earth()) + drifted) *
                           std::max(size.x, size.y));
     return SampleRectangle{low - more, high + more};
 }

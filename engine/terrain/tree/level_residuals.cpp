@@ -4,12 +4,10 @@
 #include <span>
 #include <utility>
 
+#include "engine/terrain/tree/level_step.h"
+
 namespace reljef::terrain {
 namespace {
-
-// The loops below run over plain pointers, and what they write overlaps nothing else: otherwise
-// checks of bounds and of overlaps keep them from becoming vector code.
-using Output = float* __restrict;
 
 // Between two heights; one that has no share may be a void.
 float between(float a, float b, float share) {
@@ -19,7 +17,7 @@ float between(float a, float b, float share) {
 /// A row of coarser vertices at all base vertices.
 void spread(const float* coarser, const CoarserAxis& axis, std::vector<float>& row) {
     const float* const shares = axis.shares.data();
-    const Output into = row.data();
+    const LoopOutput into = row.data();
     for (int cell = 0; cell < axis.cells; ++cell) {
         const int last = axis.last(cell);
         for (int i = axis.first(cell); i < last; ++i) {
@@ -42,8 +40,8 @@ struct Differences {
         const float* const a = share == 1.0F ? below.data() : above.data();
         const float* const b = share == 0.0F ? above.data() : below.data();
         const float of_a = 1.0F - share;
-        const Output into_low = low.data();
-        const Output into_high = high.data();
+        const LoopOutput into_low = low.data();
+        const LoopOutput into_high = high.data();
         const bool is_between = share > 0.0F && share < 1.0F;
         for (std::size_t i = 0; i < low.size(); ++i) {
             const float surface = is_between ? of_a * a[i] + share * b[i] : a[i];
@@ -66,8 +64,8 @@ struct Ranges {
     void add_vertices(const Differences& row) {
         const float* const more_low = row.low.data();
         const float* const more_high = row.high.data();
-        const Output into_low = low.data();
-        const Output into_high = high.data();
+        const LoopOutput into_low = low.data();
+        const LoopOutput into_high = high.data();
         for (std::size_t i = 0; i < low.size(); ++i) {
             into_low[i] = lower(into_low[i], more_low[i]);
             into_high[i] = higher(into_high[i], more_high[i]);
@@ -80,8 +78,8 @@ struct Ranges {
         const float* const b = below.low.data();
         const float* const c = above.high.data();
         const float* const d = below.high.data();
-        const Output into_low = low.data();
-        const Output into_high = high.data();
+        const LoopOutput into_low = low.data();
+        const LoopOutput into_high = high.data();
         for (std::size_t i = 0; i + 1 < low.size(); ++i) {
             const float moved_down = lower(lower(a[i], a[i + 1]), lower(b[i], b[i + 1]));
             const float moved_up = higher(higher(c[i], c[i + 1]), higher(d[i], d[i + 1]));
@@ -108,9 +106,9 @@ struct Ranges {
 
 class ResidualPass {
 public:
-    ResidualPass(const BorderedHeights& base, const Residuals* of_base,
-                 const BorderedHeights& coarser, const std::array<CoarserAxis, 2>& axes)
-        : base_(base), of_base_(of_base), coarser_(coarser), cols_(axes[0]), rows_(axes[1]),
+    ResidualPass(const BorderedHeights& base, const BorderedHeights& coarser,
+                 const std::array<CoarserAxis, 2>& axes)
+        : base_(base), coarser_(coarser), cols_(axes[0]), rows_(axes[1]),
           above_(axes[0].shares.size()),
           below_(above_.size()), last_{above_, above_}, now_{above_, above_}, ranges_{above_,
                                                                                       above_} {}
@@ -120,7 +118,7 @@ public:
         for (int cell = 0; cell < rows_.cells; ++cell) {
             spread_row(cell + 1, below_);
             add_row(cell);
-            ranges_.join(cols_, of_base_ == nullptr, residuals.low.row(cell),
+            ranges_.join(cols_, base_.residuals == nullptr, residuals.low.row(cell),
                          residuals.high.row(cell));
             std::swap(above_, below_);
         }
@@ -139,18 +137,17 @@ private:
             const float share = row == last ? 1.0F : rows_.shares[static_cast<std::size_t>(row)];
             now_.set(base_.heights.row(row + base_.border).data() + base_.border, above_, below_,
                      share);
-            if (of_base_ == nullptr) {
+            if (base_.residuals == nullptr) {
                 ranges_.add_vertices(now_);
             } else if (row > first) {
-                ranges_.add_cells(last_, now_, of_base_->low.row(row - 1).data(),
-                                  of_base_->high.row(row - 1).data());
+                ranges_.add_cells(last_, now_, base_.residuals->low.row(row - 1).data(),
+                                  base_.residuals->high.row(row - 1).data());
             }
             std::swap(last_, now_);
         }
     }
 
     const BorderedHeights& base_;
-    const Residuals* of_base_;
     const BorderedHeights& coarser_;
     const CoarserAxis& cols_;
     const CoarserAxis& rows_;
@@ -163,13 +160,15 @@ private:
 
 } // namespace
 
-CoarserAxis coarser_axis(int base, int levels, int cells, int base_last, int last_sample) {
+CoarserAxis coarser_axis(const AxisOfChunk& chunk) {
     CoarserAxis axis;
-    axis.step = 1 << levels;
-    const int last = std::min(base_last, cells * axis.step);
+    axis.step = 1 << chunk.levels;
+    const int last = std::min(chunk.base_last, chunk.cells * axis.step);
     axis.cells = (last + axis.step - 1) / axis.step;
     axis.shares.resize(static_cast<std::size_t>(last) + 1);
-    const auto sample = [&](int vertex) { return std::min(vertex << base, last_sample); };
+    const auto sample = [&](int vertex) {
+        return std::min(vertex << chunk.base, chunk.last_sample);
+    };
     for (int i = 0; i <= last; ++i) {
         const int first = i / axis.step * axis.step;
         const int width = sample(first + axis.step) - sample(first);
@@ -180,12 +179,11 @@ CoarserAxis coarser_axis(int base, int levels, int cells, int base_last, int las
     return axis;
 }
 
-Residuals residuals_over(const BorderedHeights& base, const Residuals* of_base,
-                         const BorderedHeights& coarser, const std::array<CoarserAxis, 2>& axes,
-                         glm::ivec2 cells) {
+Residuals residuals_over(const BorderedHeights& base, const BorderedHeights& coarser,
+                         const std::array<CoarserAxis, 2>& axes, glm::ivec2 cells) {
     Residuals residuals{Grid<float>(cells.x, cells.y, infinite),
                         Grid<float>(cells.x, cells.y, -infinite)};
-    ResidualPass(base, of_base, coarser, axes).run(residuals);
+    ResidualPass(base, coarser, axes).run(residuals);
     return residuals;
 }
 

@@ -36,22 +36,27 @@ struct CoarserAxis {
     [[nodiscard]] int last(int cell) const { return std::min(first(cell + 1), vertices() - 1); }
 };
 
-/// `base_last`: the base level's last vertex on the raster, from the chunk's first; `cells`: of the
-/// chunk at the coarser level, `levels` above the base, which is `base` above the samples;
-/// `last_sample`: of the raster, from the chunk's first.
-CoarserAxis coarser_axis(int base, int levels, int cells, int base_last, int last_sample);
+/// Along an axis of a chunk. Places count from the chunk's first one.
+struct AxisOfChunk {
+    int base = 0;        ///< level of the chunk
+    int levels = 1;      ///< of the coarser level, above the base
+    int cells = 0;       ///< of the chunk at the coarser level
+    int base_last = 0;   ///< the base level's last vertex on the raster
+    int last_sample = 0; ///< of the raster
+};
+CoarserAxis coarser_axis(const AxisOfChunk& chunk);
 
 /// Vertices with a border around the chunk's own.
 struct BorderedHeights {
     const Grid<float>& heights;
-    int border = 0; ///< vertices
+    int border = 0;                       ///< vertices
+    const Residuals* residuals = nullptr; ///< of its cells; null: the vertices are the samples
 };
 
-/// In metres: for each coarser cell the range of its samples minus its bilinear surface. Without
-/// `of_base`, the base vertices are the samples; otherwise it is that range of the base's cells,
-/// which the range of the difference of the two surfaces moves. Cells outside the raster have none.
-Residuals residuals_over(const BorderedHeights& base, const Residuals* of_base,
-                         const BorderedHeights& coarser, const std::array<CoarserAxis, 2>& axes,
-                         glm::ivec2 cells);
+/// In metres: for each coarser cell the range of its samples minus its bilinear surface. The range
+/// of the difference of the two surfaces moves that of the base's cells. Cells outside the raster
+/// have none.
+Residuals residuals_over(const BorderedHeights& base, const BorderedHeights& coarser,
+                         const std::array<CoarserAxis, 2>& axes, glm::ivec2 cells);
 
 } // namespace reljef::terrain

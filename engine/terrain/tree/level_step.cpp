@@ -19,15 +19,11 @@ struct SplitRow {
     explicit SplitRow(std::size_t coarse) : on(coarse), between(coarse + 1) {}
 };
 
-// The loops below run over plain pointers, and what they write overlaps nothing else: otherwise
-// checks of bounds and of overlaps keep them from becoming vector code.
-using Output = float* __restrict;
-
 void split(std::span<const float> row, SplitRow& into) {
     const std::size_t count = into.on.size();
     const float* const from = row.data();
-    const Output between = into.between.data();
-    const Output on = into.on.data();
+    const LoopOutput between = into.between.data();
+    const LoopOutput on = into.on.data();
     for (std::size_t i = 0; i < count; ++i) {
         between[i] = from[2 * i];
         on[i] = from[2 * i + 1];
@@ -56,7 +52,7 @@ void add_weighted(const std::vector<float>& above, const std::vector<float>& on,
     const float* const a = above.data();
     const float* const b = on.data();
     const float* const c = below.data();
-    const Output sum = sums.data();
+    const LoopOutput sum = sums.data();
     for (std::size_t i = 0; i < sums.size(); ++i) {
         sum[i] = a[i] + c[i] + 2.0F * b[i];
     }
@@ -69,7 +65,7 @@ void coarsen(const std::array<const SplitRow*, 3>& rows, SplitRow& sums, std::sp
     add_weighted(above->between, on->between, below->between, sums.between);
     const float* const sum_on = sums.on.data();
     const float* const sum_between = sums.between.data();
-    const Output means = coarse.data();
+    const LoopOutput means = coarse.data();
     int voids = 0;
     for (std::size_t i = 0; i < coarse.size(); ++i) {
         const float mean = (sum_between[i] + sum_between[i + 1] + 2.0F * sum_on[i]) * 0.0625F;

@@ -8,6 +8,10 @@
 
 namespace reljef::terrain {
 
+/// What a loop writes: plain pointers that overlap nothing else. Otherwise checks of bounds and of
+/// overlaps keep loops from becoming vector code.
+using LoopOutput = float* __restrict;
+
 /// The vertices of the coarser level that have all finer ones around them. Precondition: an odd
 /// number of vertices a side.
 Grid<float> coarser_heights(const Grid<float>& finer);

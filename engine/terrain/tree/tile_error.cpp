@@ -194,9 +194,15 @@ Grid<float> base_of(const ChunkInput& input, glm::ivec2 vertices, BaseRanges& ra
     return base;
 }
 
+struct PlacedChunk {
+    const TileTree& tree;
+    Chunk chunk;
+};
+
 /// A level of a chunk, `levels` above its base, without tiles. `finer`: the level below it.
-ChunkLevel level_above(const TileTree& tree, Chunk chunk, int levels, const Grid<float>& finer,
-                       const BorderedHeights& base, const Residuals* of_base) {
+ChunkLevel level_above(const PlacedChunk& placed, int levels, const Grid<float>& finer,
+                       const BorderedHeights& base) {
+    const auto& [tree, chunk] = placed;
     const glm::ivec2 corner = first_vertex(chunk);
     const glm::ivec2 first = corner / (1 << levels);
     const glm::ivec2 cells = chunk_size(tree, chunk) / (1 << levels);
@@ -207,9 +213,9 @@ ChunkLevel level_above(const TileTree& tree, Chunk chunk, int levels, const Grid
     const glm::ivec2 base_last = level_cells(tree, chunk.base) - corner;
     const glm::ivec2 last = glm::ivec2(tree.cols(), tree.rows()) - 1 - corner * (1 << chunk.base);
     level.residuals =
-        residuals_over(base, of_base, {level.heights, level.border},
-                       {coarser_axis(chunk.base, levels, cells.x, base_last.x, last.x),
-                        coarser_axis(chunk.base, levels, cells.y, base_last.y, last.y)},
+        residuals_over(base, {level.heights, level.border},
+                       {coarser_axis({chunk.base, levels, cells.x, base_last.x, last.x}),
+                        coarser_axis({chunk.base, levels, cells.y, base_last.y, last.y})},
                        cells);
     return level;
 }
@@ -252,7 +258,7 @@ ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& inpu
     const Grid<float>* finer = &base;
     for (int i = 0; i < levels_per_chunk; ++i) {
         ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
-        made = level_above(tree, chunk, i + 1, *finer, {base, chunk_border}, input.residuals);
+        made = level_above({tree, chunk}, i + 1, *finer, {base, chunk_border, input.residuals});
         finer = &made.heights;
     }
     const Grid<TileProof>* below = input.tiles != nullptr ? input.tiles : &ranges.tiles();
@@ -318,27 +324,28 @@ std::string found_text(const char* what, double found, double expected) {
 struct FoundInSamples {
     TileProof proof; // without errors
     PartErrors errors{};
-};
 
-// A sample between cells belongs to all of them.
-void add_error(glm::ivec2 from_first, int step, glm::ivec2 cells, float error, PartErrors& errors) {
-    const glm::ivec2 last = glm::min(from_first / step, cells - 1) / cells_per_error_part;
-    const glm::ivec2 first =
-        glm::min(glm::max(from_first - 1, glm::ivec2(0)) / step, cells - 1) / cells_per_error_part;
-    for (int row = first.y; row <= last.y; ++row) {
-        for (int col = first.x; col <= last.x; ++col) {
-            float& largest = errors.at(static_cast<std::size_t>(row) * error_parts +
-                                       static_cast<std::size_t>(col));
-            largest = higher(largest, error);
+    /// Of the parts from `first` to `last`.
+    void add_error(float error, glm::ivec2 first, glm::ivec2 last) {
+        for (int row = first.y; row <= last.y; ++row) {
+            for (int col = first.x; col <= last.x; ++col) {
+                float& largest = errors.at(static_cast<std::size_t>(row) * error_parts +
+                                           static_cast<std::size_t>(col));
+                largest = higher(largest, error);
+            }
         }
     }
-}
+};
 
 FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
                         const Grid<float>& samples) {
     const int border = sample_border(tile.level);
     const glm::ivec2 first = TileTree::first(tile);
     const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
+    const auto part_of = [&](glm::ivec2 from_first) {
+        return glm::min(from_first / TileTree::step(tile), tree.cells(tile) - 1) /
+               cells_per_error_part;
+    };
     FoundInSamples found;
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
@@ -350,8 +357,9 @@ FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& 
             const float difference = height - surface_at(tree, tile, heights, {col, row});
             found.proof.low = lower(found.proof.low, height);
             found.proof.high = higher(found.proof.high, height);
-            add_error(glm::ivec2(col, row) - first, TileTree::step(tile), tree.cells(tile),
-                      std::abs(difference), found.errors);
+            const glm::ivec2 from_first = glm::ivec2(col, row) - first;
+            found.add_error(std::abs(difference), // a sample between cells belongs to all of them
+                            part_of(glm::max(from_first - 1, glm::ivec2(0))), part_of(from_first));
         }
     }
     return found;

@@ -333,54 +333,6 @@ TEST_F(Imagery, AGiantThatIsOnlyAHeaderIsRefusedAtOnce) {
     EXPECT_THAT(terrain.error().message, HasSubstr("vast.pgm"));
 }
 
-/// One value everywhere; counts the pixels that are read.
-class CountedBand : public GDALRasterBand {
-public:
-    CountedBand(GDALDataset& image, GDALColorInterp meaning, std::size_t& pixels)
-        : meaning_(meaning), pixels_(pixels) {
-        poDS = &image;
-        eDataType = GDT_UInt16;
-        nRasterXSize = image.GetRasterXSize();
-        nRasterYSize = image.GetRasterYSize();
-        nBlockXSize = side;
-        nBlockYSize = side;
-    }
-    GDALColorInterp GetColorInterpretation() override { return meaning_; }
-
-protected:
-    CPLErr IReadBlock(int /*col*/, int /*row*/, void* pixels) override {
-        std::fill_n(static_cast<std::uint16_t*>(pixels), side * side, std::uint16_t{255});
-        pixels_ += static_cast<std::size_t>(side) * side;
-        return CE_None;
-    }
-
-private:
-    static constexpr int side = 256; // of a block, pixels
-
-    GDALColorInterp meaning_;
-    std::size_t& pixels_;
-};
-
-class CountedImage : public GDALDataset {
-public:
-    explicit CountedImage(int side) {
-        nRasterXSize = side;
-        nRasterYSize = side;
-        for (const auto meaning : {GCI_RedBand, GCI_GreenBand, GCI_BlueBand}) {
-            SetBand(GetRasterCount() + 1, new CountedBand(*this, meaning, pixels)); // GDAL's
-        }
-    }
-
-    std::size_t pixels = 0; ///< read so far
-};
-
-TEST_F(Imagery, OfAHugeOneInDeepColoursOnlyAPartIsLookedAtForItsWhite) {
-    CountedImage vast(400'000);
-    EXPECT_EQ(white_of(vast), 255.0);
-    EXPECT_GT(vast.pixels, 3U * max_sampled_pixels / 2U);
-    EXPECT_LE(vast.pixels, 3U * (max_sampled_pixels + max_window_pixels));
-}
-
 /// At most so many files more than are open now, for the scope.
 class FewFiles {
 public:

@@ -1,9 +1,11 @@
 #include "engine/io/imagery/rgb_image.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 
 #include <cpl_string.h>
+#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,6 +61,54 @@ TEST(SampledWindows, AreAllOfASmallImage) {
         }
         EXPECT_THAT(seen.samples(), ::testing::Each(1)) << block.x;
     }
+}
+
+/// One value everywhere; counts the pixels that are read.
+class CountedBand : public GDALRasterBand {
+public:
+    CountedBand(GDALDataset& image, GDALColorInterp meaning, std::size_t& pixels)
+        : meaning_(meaning), pixels_(pixels) {
+        poDS = &image;
+        eDataType = GDT_UInt16;
+        nRasterXSize = image.GetRasterXSize();
+        nRasterYSize = image.GetRasterYSize();
+        nBlockXSize = side;
+        nBlockYSize = side;
+    }
+    GDALColorInterp GetColorInterpretation() override { return meaning_; }
+
+protected:
+    CPLErr IReadBlock(int /*col*/, int /*row*/, void* pixels) override {
+        std::fill_n(static_cast<std::uint16_t*>(pixels), side * side, std::uint16_t{255});
+        pixels_ += static_cast<std::size_t>(side) * side;
+        return CE_None;
+    }
+
+private:
+    static constexpr int side = 256; // of a block, pixels
+
+    GDALColorInterp meaning_;
+    std::size_t& pixels_;
+};
+
+class CountedImage : public GDALDataset {
+public:
+    explicit CountedImage(int side) {
+        nRasterXSize = side;
+        nRasterYSize = side;
+        for (const auto meaning : {GCI_RedBand, GCI_GreenBand, GCI_BlueBand}) {
+            SetBand(GetRasterCount() + 1, new CountedBand(*this, meaning, pixels)); // GDAL's
+        }
+    }
+
+    std::size_t pixels = 0; ///< read so far
+};
+
+TEST(SampledWindows, AreAllThatIsReadForTheWhiteOfAHugeImageInDeepColours) {
+    CountedImage vast(400'000);
+    EXPECT_EQ(white_of(vast), 255.0);
+    EXPECT_GT(vast.pixels, 3U * max_sampled_pixels / 2U);
+    EXPECT_LE(vast.pixels, 3U * (max_sampled_pixels + max_window_pixels));
 }
 
 // 1.8 GB a block, out of a few hundred bytes.
