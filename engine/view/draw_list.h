@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct TileDraw {
     const scene::TerrainNode* terrain = nullptr;
     std::shared_ptr<const scene::TerrainTile> tile;
     double distance = 0.0;
-    int transform = 0;                      ///< index into DrawList::transforms
+    std::size_t node = 0;                   ///< index into DrawList::terrains
     DetailLevel detail = DetailLevel::none; ///< of the detail tile over the terrain
     bool flat = false;                      ///< the reference surface instead of its heights
     bool coarse = false;                    ///< with fewer triangles than its samples have
@@ -51,10 +52,10 @@ struct TileDraw {
     }
 };
 
-/// A terrain whose tiles need not have a vertex at every sample.
-struct CoarseTerrain {
-    const scene::TerrainNode* terrain = nullptr;
-    Coarseness coarseness;
+/// A terrain that is drawn as tiles.
+struct TerrainDraw {
+    glm::dmat4 world_from_local{1.0};
+    std::optional<Coarseness> coarseness; ///< empty: its tiles have a vertex at every sample
 };
 
 /// Maximum of ReliefDraw::tiles.
@@ -84,15 +85,14 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<glm::dmat4> transforms; ///< world from local, of the nodes with tiles
-    std::vector<TileDraw> tiles;        ///< front to back
-    std::vector<CoarseTerrain> coarse_terrains;
+    std::vector<TerrainDraw> terrains;
+    std::vector<TileDraw> tiles;     ///< of `terrains`, front to back
     std::vector<ReliefDraw> reliefs; ///< front to back
     std::vector<MeshDraw> meshes;
     FrameStats stats; ///< of the selection
 
     [[nodiscard]] const glm::dmat4& world_from_local(const TileDraw& draw) const {
-        return transforms[static_cast<std::size_t>(draw.transform)];
+        return terrains[draw.node].world_from_local;
     }
 };
 

@@ -9,21 +9,21 @@ namespace {
 constexpr int flat_ellipsoid_quads = 8;
 
 // Samples of the terrain from the tile's first.
-glm::dvec2 place_in_tile(const terrain::Placement& placement, const terrain::Tile& tile,
+glm::dvec2 place_in_tile(const terrain::Placement& placement, const terrain::TileCells& tile,
                          glm::dvec2 sample) {
-    return placement.on_terrain(sample) - placement.on_terrain(glm::dvec2(tile.col, tile.row));
+    return placement.on_terrain(sample) - placement.on_terrain(glm::dvec2(tile.first));
 }
 
 template <class HeightAt>
-GridMesh grid_mesh(const terrain::Placement& placement, const terrain::Tile& tile, glm::ivec2 quads,
-                   const HeightAt& height_at) {
+GridMesh grid_mesh(const terrain::Placement& placement, const terrain::TileCells& tile,
+                   glm::ivec2 quads, const HeightAt& height_at) {
     GridMesh mesh{quads.x, quads.y, {}};
     mesh.vertices.reserve(static_cast<std::size_t>(quads.x + 1) *
                           static_cast<std::size_t>(quads.y + 1));
-    const glm::dvec2 step = glm::dvec2(tile.cols, tile.rows) / glm::dvec2(quads);
+    const glm::dvec2 step = glm::dvec2(tile.count) / glm::dvec2(quads);
     for (int row = 0; row <= quads.y; ++row) {
         for (int col = 0; col <= quads.x; ++col) {
-            const glm::dvec2 sample{tile.col + col * step.x, tile.row + row * step.y};
+            const glm::dvec2 sample{tile.first.x + col * step.x, tile.first.y + row * step.y};
             const double height = height_at(sample);
             mesh.vertices.push_back(grid_vertex(placement.world_from_sample({sample, height}),
                                                 height, place_in_tile(placement, tile, sample)));
@@ -40,8 +40,8 @@ GridVertex grid_vertex(glm::dvec3 local, double height, glm::dvec2 place) {
 }
 
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
-                   const terrain::Tile& tile) {
-    return grid_mesh(placement, tile, {tile.cols, tile.rows}, [&](glm::dvec2 sample) {
+                   const terrain::TileCells& tile) {
+    return grid_mesh(placement, tile, tile.count, [&](glm::dvec2 sample) {
         return static_cast<double>(
             heightfield.heights(static_cast<int>(sample.x), static_cast<int>(sample.y)));
     });
@@ -53,12 +53,12 @@ void VertexPlacer::know(const terrain::Triangulation& part, std::span<const Grid
         return; // morphing
     }
     if (at_samples_.empty()) {
-        at_samples_ = Grid<const GridVertex*>(tile_.cols + 1, tile_.rows + 1, nullptr);
+        at_samples_ = Grid<const GridVertex*>(tile_.count.x + 1, tile_.count.y + 1, nullptr);
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::ivec2 sample = terrain::sample_before(part.vertices[i]);
         if (terrain::steps_of(sample) == part.vertices[i]) {
-            at_samples_(sample.x - tile_.col, sample.y - tile_.row) = &vertices[i];
+            at_samples_(sample.x - tile_.first.x, sample.y - tile_.first.y) = &vertices[i];
         }
     }
 }
@@ -67,7 +67,7 @@ const GridVertex* VertexPlacer::known(terrain::Steps steps) const {
     const glm::ivec2 sample = terrain::sample_before(steps);
     return at_samples_.empty() || terrain::steps_of(sample) != steps
                ? nullptr
-               : at_samples_(sample.x - tile_.col, sample.y - tile_.row);
+               : at_samples_(sample.x - tile_.first.x, sample.y - tile_.first.y);
 }
 
 GridVertex VertexPlacer::placed(terrain::Steps steps, const terrain::VertexMove& move) const {
@@ -94,8 +94,9 @@ glm::ivec2 flat_quads(const terrain::Placement& placement, glm::ivec2 cells) {
                                                              : glm::ivec2(flat_ellipsoid_quads);
 }
 
-GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height) {
-    const glm::ivec2 quads = flat_quads(placement, {tile.cols, tile.rows});
+GridMesh flat_mesh(const terrain::Placement& placement, const terrain::TileCells& tile,
+                   double height) {
+    const glm::ivec2 quads = flat_quads(placement, tile.count);
     return grid_mesh(placement, tile, quads, [&](glm::dvec2) { return height; });
 }
 

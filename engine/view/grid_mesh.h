@@ -33,14 +33,14 @@ struct GridMesh {
 
 /// The tile with a vertex at every sample.
 GridMesh full_mesh(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
-                   const terrain::Tile& tile);
+                   const terrain::TileCells& tile);
 
 /// Finds the vertices of parts of a tile. Looks up vertices at known samples, because placing them
 /// on an ellipsoid is slow. Its arguments outlive it.
 class VertexPlacer {
 public:
     VertexPlacer(const terrain::Heightfield& heightfield, const terrain::Placement& placement,
-                 const terrain::Tile& tile)
+                 const terrain::TileCells& tile)
         : heightfield_(heightfield), placement_(placement), tile_(tile) {}
 
     /// Remembers the vertices at samples. Precondition: `vertices` are place(part) of the same
@@ -55,7 +55,7 @@ private:
 
     const terrain::Heightfield& heightfield_;
     const terrain::Placement& placement_;
-    const terrain::Tile& tile_;
+    const terrain::TileCells& tile_;
     Grid<const GridVertex*> at_samples_; // empty before know()
 };
 
@@ -63,6 +63,7 @@ private:
 glm::ivec2 flat_quads(const terrain::Placement& placement, glm::ivec2 cells);
 
 /// The tile of the flat reference surface at `height` metres.
-GridMesh flat_mesh(const terrain::Placement& placement, const terrain::Tile& tile, double height);
+GridMesh flat_mesh(const terrain::Placement& placement, const terrain::TileCells& tile,
+                   double height);
 
 } // namespace reljef::view

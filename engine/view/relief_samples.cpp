@@ -22,9 +22,8 @@ Box seen_samples(const scene::TerrainSurface& surface, const Frustum& frustum) {
     Box samples;
     for (const auto& tile : surface.tiles()) {
         if (frustum.may_see(tile->bounds)) {
-            const glm::ivec2 first = terrain::tile_cells * glm::ivec2(tile->id.col, tile->id.row);
-            samples.add(glm::dvec3(glm::dvec2(first), range.low));
-            samples.add(glm::dvec3(glm::dvec2(first + tile->cells), range.high));
+            samples.add(glm::dvec3(glm::dvec2(tile->first), range.low));
+            samples.add(glm::dvec3(glm::dvec2(tile->first + tile->cells), range.high));
         }
     }
     return samples;

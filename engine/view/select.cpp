@@ -272,10 +272,7 @@ private:
             add(hidden, true);
         }
         if (choice.has_root) {
-            list_.transforms.push_back(world_from_local);
-            if (coarseness) {
-                list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
-            }
+            list_.terrains.push_back({world_from_local, std::move(coarseness)});
         }
         return choice.has_root;
     }
@@ -309,17 +306,14 @@ private:
             ++list_.stats.skipped.nodes_outside_frustum;
             return;
         }
-        list_.transforms.push_back(world_from_local);
-        if (coarseness) {
-            list_.coarse_terrains.push_back({&terrain, std::move(*coarseness)});
-        }
+        list_.terrains.push_back({world_from_local, std::move(coarseness)});
     }
 
-    // A tile of the next transform.
+    // A tile of the next terrain.
     TileDraw draw_of(const scene::TerrainNode& terrain) {
         TileDraw draw;
         draw.terrain = &terrain;
-        draw.transform = static_cast<int>(list_.transforms.size());
+        draw.node = list_.terrains.size();
         draw.flat = is_flat(terrain);
         return draw;
     }
@@ -346,14 +340,12 @@ private:
 };
 
 // The error bound of a terrain, pixels; empty if there is none.
-std::optional<double> max_error_of(const DrawList& list, const scene::TerrainNode& terrain) {
-    for (const CoarseTerrain& coarse : list.coarse_terrains) {
-        if (coarse.terrain == &terrain) {
-            const auto* const view = std::get_if<terrain::ErrorView>(&coarse.coarseness);
-            return view != nullptr ? std::optional(view->max_error) : std::nullopt;
-        }
+std::optional<double> max_error_of(const TerrainDraw& terrain) {
+    if (!terrain.coarseness) {
+        return 0.0;
     }
-    return 0.0;
+    const auto* const view = std::get_if<terrain::ErrorView>(&*terrain.coarseness);
+    return view != nullptr ? std::optional(view->max_error) : std::nullopt;
 }
 
 // What nearer ground of a terrain in memory hides: on a plane, or on the Earth.
@@ -367,7 +359,7 @@ struct Occluders {
 };
 
 Occluders occluders_of(const DrawList& list, const TileDraw& draw) {
-    const auto error = max_error_of(list, *draw.terrain);
+    const auto error = max_error_of(list.terrains[draw.node]);
     if (draw.flat || draw.terrain->material.wireframe || !error) {
         return {};
     }

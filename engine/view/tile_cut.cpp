@@ -29,11 +29,10 @@ std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Tria
 
 TileSurface surface_of(const TileDraw& draw) {
     const scene::TerrainTile& tile = *draw.tile;
-    if (tile.borrows) {
-        const scene::TerrainSurface& surface = *draw.terrain->surface;
-        return {surface.heightfield(), surface.placement(), scene::samples_of(tile)};
-    }
-    return {tile.heightfield, *tile.placement, {0, 0, tile.cells.x, tile.cells.y, tile.bounds}};
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    return {tile.borrows ? surface.heightfield() : tile.heightfield,
+            tile.borrows ? surface.placement() : *tile.placement,
+            {tile.first, tile.cells}};
 }
 
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,

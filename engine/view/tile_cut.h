@@ -12,7 +12,7 @@ namespace reljef::view {
 struct TileSurface {
     const terrain::Heightfield& heightfield;
     const terrain::Placement& placement;
-    terrain::Tile samples;
+    terrain::TileCells samples;
 };
 TileSurface surface_of(const TileDraw& draw);
 

@@ -93,9 +93,9 @@ BorderVertex border_vertex(const TileSurface& surface, TileSide side, glm::dvec2
 
 // The sides of a tile on which a place lies.
 template <class Visit>
-void for_each_side(const terrain::Tile& tile, terrain::Steps place, const Visit& visit) {
-    const terrain::Steps first = terrain::steps_of({tile.col, tile.row});
-    const terrain::Steps last = terrain::steps_of({tile.col + tile.cols, tile.row + tile.rows});
+void for_each_side(const terrain::TileCells& tile, terrain::Steps place, const Visit& visit) {
+    const terrain::Steps first = terrain::steps_of(tile.first);
+    const terrain::Steps last = terrain::steps_of(tile.last());
     if (place.y == first.y) {
         visit(TileSide::north);
     }
@@ -200,16 +200,16 @@ TileBorder border_of(const TileSurface& surface, const CutMesh& mesh) {
 }
 
 TileBorder border_of_samples(const TileSurface& surface) {
-    const terrain::Tile& tile = surface.samples;
+    const terrain::TileCells& tile = surface.samples;
     CutMesh mesh;
     terrain::Triangulation& part = mesh.parts.emplace_back();
-    for (int col = 0; col <= tile.cols; ++col) {
-        part.vertices.push_back(terrain::steps_of({tile.col + col, tile.row}));
-        part.vertices.push_back(terrain::steps_of({tile.col + col, tile.row + tile.rows}));
+    for (int col = 0; col <= tile.count.x; ++col) {
+        part.vertices.push_back(terrain::steps_of({tile.first.x + col, tile.first.y}));
+        part.vertices.push_back(terrain::steps_of({tile.first.x + col, tile.last().y}));
     }
-    for (int row = 1; row < tile.rows; ++row) {
-        part.vertices.push_back(terrain::steps_of({tile.col, tile.row + row}));
-        part.vertices.push_back(terrain::steps_of({tile.col + tile.cols, tile.row + row}));
+    for (int row = 1; row < tile.count.y; ++row) {
+        part.vertices.push_back(terrain::steps_of({tile.first.x, tile.first.y + row}));
+        part.vertices.push_back(terrain::steps_of({tile.last().x, tile.first.y + row}));
     }
     mesh.vertices.push_back(VertexPlacer(surface.heightfield, surface.placement, tile).place(part));
     return border_of(surface, mesh);
@@ -243,11 +243,9 @@ SeamMaker::Line SeamMaker::line_along(std::span<const BorderVertex> border, Tile
 
 // A neighbour counts its places from its own first sample.
 GridVertex SeamMaker::with_own_place(GridVertex vertex, TileSide side, double at) const {
-    const terrain::Tile& tile = surface_.samples;
-    const glm::dvec2 first = surface_.placement.on_terrain(glm::dvec2(tile.col, tile.row));
-    const glm::dvec2 extent =
-        surface_.placement.on_terrain(glm::dvec2(tile.col + tile.cols, tile.row + tile.rows)) -
-        first;
+    const terrain::TileCells& tile = surface_.samples;
+    const glm::dvec2 first = surface_.placement.on_terrain(glm::dvec2(tile.first));
+    const glm::dvec2 extent = surface_.placement.on_terrain(glm::dvec2(tile.last())) - first;
     const int along = runs_along_rows(side) ? 0 : 1;
     const bool is_far = side == TileSide::east || side == TileSide::south;
     glm::dvec2 place(is_far ? extent : glm::dvec2(0.0));

@@ -38,14 +38,14 @@ struct PlacedTerrain {
         : PlacedTerrain(made, placed(made.heightfield, made.exaggeration)) {}
     PlacedTerrain(MadeTerrain made, const terrain::Placement& place)
         : name(std::move(made.name)), heightfield(std::move(made.heightfield)), placement(place),
-          bisection(heightfield, placement), tiles(terrain::tile_layout(heightfield, placement)) {}
+          bisection(heightfield, placement), tiles(terrain::tile_layout(cells_of(heightfield))) {}
     PlacedTerrain(const PlacedTerrain&) = delete;
 
     std::string name;
     terrain::Heightfield heightfield;
     terrain::Placement placement;
     terrain::Bisection bisection;
-    std::vector<terrain::Tile> tiles;
+    std::vector<terrain::TileCells> tiles;
 };
 
 using Triangle = std::array<terrain::Steps, 3>;
@@ -54,7 +54,7 @@ using Triangle = std::array<terrain::Steps, 3>;
 inline std::vector<Triangle> all_triangles(const PlacedTerrain& made,
                                            const terrain::ErrorView& view) {
     std::vector<Triangle> triangles;
-    for (const terrain::Tile& tile : made.tiles) {
+    for (const terrain::TileCells& tile : made.tiles) {
         for (const terrain::Triangulation& part :
              terrain::triangulate(made.bisection, tile, view).parts) {
             for (std::size_t i = 0; i < part.indices.size(); i += 3) {

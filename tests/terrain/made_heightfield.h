@@ -89,6 +89,11 @@ inline terrain::Heightfield closed_globe(int cells, double north, double south, 
     return globe;
 }
 
+/// Along both sides.
+inline glm::ivec2 cells_of(const terrain::Heightfield& heightfield) {
+    return {heightfield.heights.cols() - 1, heightfield.heights.rows() - 1};
+}
+
 /// On the ellipsoid where it has a place there, else on a plane.
 inline terrain::Placement placed(const terrain::Heightfield& heightfield,
                                  double exaggeration = 1.0) {

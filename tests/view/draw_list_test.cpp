@@ -44,13 +44,13 @@ bool shows(const scene::Camera& camera, glm::dvec3 world) {
            at.pixel.x <= picture_size.x && at.pixel.y <= picture_size.y;
 }
 
-bool shows_a_sample(const scene::Camera& camera, const scene::Node& node, const terrain::Tile& tile,
-                    bool flat) {
+bool shows_a_sample(const scene::Camera& camera, const scene::Node& node,
+                    const terrain::TileCells& tile, bool flat) {
     const auto& surface = test::surface_of(node);
     const glm::dmat4 world_from_local = node.world_from_local();
     const double reference = terrain::reference_height(surface.heightfield());
-    for (int row = tile.row; row <= tile.row + tile.rows; row += 4) {
-        for (int col = tile.col; col <= tile.col + tile.cols; col += 4) {
+    for (int row = tile.first.y; row <= tile.last().y; row += 4) {
+        for (int col = tile.first.x; col <= tile.last().x; col += 4) {
             const double height = flat ? reference : surface.heightfield().heights(col, row);
             const glm::dvec3 local = surface.placement().world_from_sample({col, row, height});
             if (shows(camera, glm::dvec3(world_from_local * glm::dvec4(local, 1.0)))) {
@@ -90,7 +90,8 @@ void expect_right_selection(scene::Scene& scene, const scene::Node& node, bool f
     for (std::size_t i = 0; i < surface.tiles().size(); ++i) {
         const scene::TerrainTile& tile = *surface.tiles()[i];
         if (!drawn.contains(&tile)) {
-            ASSERT_FALSE(shows_a_sample(list.camera, node, scene::samples_of(tile), flat))
+            ASSERT_FALSE(
+                shows_a_sample(list.camera, node, terrain::TileCells{tile.first, tile.cells}, flat))
                 << "tile " << i;
         }
     }

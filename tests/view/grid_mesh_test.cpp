@@ -27,18 +27,19 @@ TEST(GridMesh, EverySampleIsAVertexInItsPlace) {
           test::geographic_heightfield(test::random_heights(150, 140, -50.0F, 900.0F, 2), 46.0, 7.0,
                                        1.0 / 1200.0)}) {
         const terrain::Placement placement = placed(heightfield);
-        for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement)) {
+        for (const terrain::TileCells& tile : terrain::tile_layout(test::cells_of(heightfield))) {
             const view::GridMesh mesh = view::full_mesh(heightfield, placement, tile);
-            ASSERT_EQ(mesh.cols, tile.cols);
-            ASSERT_EQ(mesh.rows, tile.rows);
-            for (int row = 0; row <= tile.rows; ++row) {
-                for (int col = 0; col <= tile.cols; ++col) {
+            ASSERT_EQ(mesh.cols, tile.count.x);
+            ASSERT_EQ(mesh.rows, tile.count.y);
+            for (int row = 0; row <= tile.count.y; ++row) {
+                for (int col = 0; col <= tile.count.x; ++col) {
                     const view::GridVertex& vertex =
-                        mesh.vertices[static_cast<std::size_t>(row * (tile.cols + 1) + col)];
-                    const float height = heightfield.heights(tile.col + col, tile.row + row);
+                        mesh.vertices[static_cast<std::size_t>(row * (tile.count.x + 1) + col)];
+                    const float height =
+                        heightfield.heights(tile.first.x + col, tile.first.y + row);
                     ASSERT_EQ(vertex.height, height);
-                    const glm::dvec3 world =
-                        placement.world_from_sample({tile.col + col, tile.row + row, height});
+                    const glm::dvec3 world = placement.world_from_sample(
+                        {tile.first.x + col, tile.first.y + row, height});
                     ASSERT_LE(glm::distance(local_place(vertex), world), 1e-8);
                 }
             }
@@ -49,13 +50,13 @@ TEST(GridMesh, EverySampleIsAVertexInItsPlace) {
 TEST(GridMesh, AFlatTileOnAPlaneIsOneQuadAtItsHeight) {
     const auto heightfield = test::plane_heightfield(Grid<float>(150, 140, 0.0F), {2.0, 3.0});
     const terrain::Placement placement = placed(heightfield);
-    for (const terrain::Tile& tile : terrain::flat_tile_layout(heightfield, placement, 10.0)) {
+    for (const terrain::TileCells& tile : terrain::tile_layout(test::cells_of(heightfield))) {
         const view::GridMesh mesh = view::flat_mesh(placement, tile, 10.0);
         ASSERT_EQ(mesh.vertices.size(), 4U);
         EXPECT_EQ(local_place(mesh.vertices[0]),
-                  placement.world_from_sample({tile.col, tile.row, 10.0}));
+                  placement.world_from_sample({tile.first.x, tile.first.y, 10.0}));
         EXPECT_EQ(local_place(mesh.vertices[3]),
-                  placement.world_from_sample({tile.col + tile.cols, tile.row + tile.rows, 10.0}));
+                  placement.world_from_sample({tile.last().x, tile.last().y, 10.0}));
     }
 }
 
@@ -63,7 +64,7 @@ TEST(GridMesh, AFlatTileOnAnEllipsoidFollowsTheEarth) {
     const auto heightfield =
         test::geographic_heightfield(Grid<float>(129, 129, 0.0F), 46.0, 7.0, 1.0 / 1200.0);
     const terrain::Placement placement = placed(heightfield);
-    const auto tiles = terrain::flat_tile_layout(heightfield, placement, 100.0);
+    const auto tiles = terrain::tile_layout(test::cells_of(heightfield));
     const view::GridMesh mesh = view::flat_mesh(placement, tiles.front(), 100.0);
     EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>((mesh.cols + 1) * (mesh.rows + 1)));
     for (const view::GridVertex& vertex : mesh.vertices) {
@@ -78,7 +79,7 @@ TEST(GridMesh, NeighboursHaveTheSameBitsForAVertexTheyShare) {
     const auto heightfield = test::geographic_heightfield(
         test::random_heights(300, 140, -50.0F, 900.0F, 2), 46.0, 7.0, 1.0 / 1200.0);
     const terrain::Placement placement = placed(heightfield);
-    const auto tiles = terrain::tile_layout(heightfield, placement);
+    const auto tiles = terrain::tile_layout(test::cells_of(heightfield));
     const view::GridMesh west = view::full_mesh(heightfield, placement, tiles[0]);
     const view::GridMesh east = view::full_mesh(heightfield, placement, tiles[1]);
     const terrain::Triangulation border{{terrain::steps_of({terrain::tile_cells, 7})}, {}};
@@ -101,17 +102,16 @@ TEST(GridMesh, KnownVerticesHaveTheBitsOfNewOnes) {
     const auto heightfield = test::geographic_heightfield(
         test::random_heights(300, 140, -50.0F, 900.0F, 2), 46.0, 7.0, 1.0 / 1200.0);
     const terrain::Placement placement = placed(heightfield);
-    for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement)) {
+    for (const terrain::TileCells& tile : terrain::tile_layout(test::cells_of(heightfield))) {
         const auto chance_part = [&] {
             terrain::Triangulation part;
             for (int i = 0; i < 2000; ++i) {
                 // Every second one at a sample.
                 const int scale = i % 2 == 0 ? terrain::steps_per_sample : 1;
-                const glm::ivec2 most(terrain::steps_per_sample / scale *
-                                      glm::ivec2(tile.cols, tile.rows));
+                const glm::ivec2 most(terrain::steps_per_sample / scale * tile.count);
                 const glm::ivec2 place(std::uniform_int_distribution(0, most.x)(random),
                                        std::uniform_int_distribution(0, most.y)(random));
-                part.vertices.push_back(terrain::steps_of({tile.col, tile.row}) +
+                part.vertices.push_back(terrain::steps_of(tile.first) +
                                         terrain::Steps(scale * place));
             }
             return part;

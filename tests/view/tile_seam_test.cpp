@@ -121,7 +121,7 @@ protected:
         test::plane_heightfield(Grid<float>(cells + 1, cells + 1, 0.0F), {3.0, 3.0});
     terrain::Placement placement_ =
         terrain::Placement::create(heightfield_, terrain::PlacementKind::plane).value();
-    TileSurface surface_{heightfield_, placement_, {0, 0, cells, cells, {}}};
+    TileSurface surface_{heightfield_, placement_, {{0, 0}, {cells, cells}}};
     test::Chance chance_{5};
 };
 
@@ -249,7 +249,7 @@ TEST(TileBorders, AreTheVerticesOfTheTrianglesInOrder) {
     const auto placement =
         terrain::Placement::create(heightfield, terrain::PlacementKind::plane).value();
     const terrain::Bisection bisection(heightfield, placement);
-    const TileSurface surface{heightfield, placement, {0, 0, cells, 40, {}}};
+    const TileSurface surface{heightfield, placement, {{0, 0}, {cells, 40}}};
     terrain::ErrorView view;
     view.perspective = false;
     const CutMesh mesh = cut_tile(view, surface, {&bisection, 0.0, 2.0, {}, nullptr}, {});

@@ -61,9 +61,9 @@ StreamedList with_tiles_of_reliefs(view::DrawList list) {
             view::TileDraw& draw = list.tiles.emplace_back();
             draw.terrain = relief.terrain;
             draw.tile = tile;
-            draw.transform = static_cast<int>(list.transforms.size());
+            draw.node = list.terrains.size();
         }
-        list.transforms.push_back(relief.world_from_local);
+        list.terrains.push_back({relief.world_from_local, {}});
     }
     std::erase_if(list.reliefs,
                   [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });

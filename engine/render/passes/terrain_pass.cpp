@@ -24,7 +24,7 @@ glm::vec4 split_place(glm::dvec2 place) {
 
 // The sample of the terrain where a tile begins.
 glm::dvec2 first_of(const view::TileSurface& surface) {
-    return surface.placement.on_terrain(glm::dvec2(surface.samples.col, surface.samples.row));
+    return surface.placement.on_terrain(glm::dvec2(surface.samples.first));
 }
 
 void bind_ground(gl::Program& program, const ResidentGround& ground) {

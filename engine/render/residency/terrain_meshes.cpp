@@ -73,13 +73,10 @@ Result<std::vector<ResidentMesh>> uploaded(const view::CutMesh& cut, view::Frame
     return meshes;
 }
 
-const view::Coarseness& coarseness_of(const view::DrawList& list,
-                                      const scene::TerrainNode& terrain) {
-    const auto found =
-        std::find_if(list.coarse_terrains.begin(), list.coarse_terrains.end(),
-                     [&](const view::CoarseTerrain& entry) { return entry.terrain == &terrain; });
-    check(found != list.coarse_terrains.end(), "a coarse terrain of the list was expected");
-    return found->coarseness;
+const view::Coarseness& coarseness_of(const view::DrawList& list, const view::TileDraw& draw) {
+    const auto& coarseness = list.terrains[draw.node].coarseness;
+    check(coarseness.has_value(), "a coarse terrain of the list was expected");
+    return *coarseness;
 }
 
 } // namespace
@@ -332,7 +329,7 @@ Result<void> TerrainMeshes::keep(Cuts cuts, const Group& group, view::FrameStats
 
 Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const Draws& draws,
                                 view::FrameStats& stats) {
-    note_errors(coarseness_of(list, *draws.front()->terrain), draws, group);
+    note_errors(coarseness_of(list, *draws.front()), draws, group);
     Cuts cuts = cut_within_budget(group, draws);
     const auto unchanged = static_cast<int>(draws.size() - cuts.tiles.size());
     stats.skipped.cuts_unchanged += unchanged;

@@ -6,11 +6,14 @@
 namespace reljef::scene {
 namespace {
 
-std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::Tile& samples) {
+std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::TileCells& cells,
+                                                  const Box& bounds) {
     TerrainTile tile;
-    tile.id = {0, samples.col / terrain::tile_cells, samples.row / terrain::tile_cells};
-    tile.bounds = samples.bounds;
-    tile.cells = {samples.cols, samples.rows};
+    const glm::ivec2 place = cells.first / terrain::tile_cells;
+    tile.id = {0, place.x, place.y};
+    tile.bounds = bounds;
+    tile.first = cells.first;
+    tile.cells = cells.count;
     tile.borrows = true;
     return std::make_shared<const TerrainTile>(std::move(tile));
 }
@@ -22,13 +25,18 @@ TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
     : terrain_(std::move(terrain)), placement_(std::move(placement)), ramp_(std::move(ramp)),
       pyramid_(terrain_->heightfield.heights.view()) {
     const terrain::Heightfield& heightfield = terrain_->heightfield;
-    for (const terrain::Tile& tile : terrain::tile_layout(heightfield, placement_)) {
-        tiles_.push_back(borrowing_tile(tile));
-        bounds_.add(tile.bounds);
-    }
-    const double height = terrain::reference_height(heightfield);
-    for (const terrain::Tile& tile : terrain::flat_tile_layout(heightfield, placement_, height)) {
-        flat_bounds_.push_back(tile.bounds);
+    const double flat = terrain::reference_height(heightfield);
+    const glm::ivec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    for (const terrain::TileCells& cells : terrain::tile_layout(last)) {
+        const auto bounds_at = [&](terrain::HeightRange range) {
+            return terrain::placed_bounds(placement_, glm::dvec2(cells.first),
+                                          glm::dvec2(cells.last()), range);
+        };
+        const terrain::MinMax range = pyramid_.bounds(cells.first, cells.last() - 1);
+        const Box bounds = bounds_at({range.low, range.high});
+        tiles_.push_back(borrowing_tile(cells, bounds));
+        bounds_.add(bounds);
+        flat_bounds_.push_back(bounds_at({flat, flat}));
     }
 }
 

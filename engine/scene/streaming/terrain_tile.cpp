@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/core/check.h"
 
 namespace reljef::scene {
 
@@ -23,12 +22,6 @@ std::size_t TerrainTile::bytes() const {
     constexpr std::size_t bytes_of_cones = 2 * 2 * sizeof(float); // on the CPU and on the GPU
     return (bytes_per_vertex + (cones != nullptr ? bytes_of_cones : 0)) * normals.size() +
            static_cast<std::size_t>(bytes_per_texel * static_cast<double>(more));
-}
-
-terrain::Tile samples_of(const TerrainTile& tile) {
-    check(tile.borrows, "a tile of a terrain in memory was expected");
-    const glm::ivec2 first = glm::ivec2(tile.id.col, tile.id.row) * terrain::tile_cells;
-    return {first.x, first.y, tile.cells.x, tile.cells.y, tile.bounds};
 }
 
 } // namespace reljef::scene

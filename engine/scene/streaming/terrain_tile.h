@@ -40,6 +40,7 @@ struct TileSummary {
 
 /// A tile of a terrain's quadtree, ready to be drawn.
 struct TerrainTile : TileSummary {
+    glm::ivec2 first{0}; ///< sample of its heightfield
     glm::ivec2 cells{0};
     /// The samples are those of the terrain's surface, as are their places and colours: the members
     /// below are empty.
@@ -80,8 +81,5 @@ inline constexpr std::size_t bytes_per_tile =
 inline constexpr std::size_t bytes_per_triangle = (16 + 2 * 36) / 2 + 2 * 6;
 /// For texels beyond one per vertex; on the GPU with mipmaps.
 inline constexpr double bytes_per_texel = 4.0 + 16.0 / 3.0;
-
-/// The samples of a tile that borrows them.
-terrain::Tile samples_of(const TerrainTile& tile);
 
 } // namespace reljef::scene

@@ -47,9 +47,9 @@ std::uint64_t key_of(Steps from_tile) {
 
 class TriangulationWriter {
 public:
-    explicit TriangulationWriter(const Tile& tile)
-        : first_(steps_of({tile.col, tile.row})),
-          at_samples_(tile.cols + 1, tile.rows + 1, no_vertex) {}
+    explicit TriangulationWriter(const TileCells& tile)
+        : first_(steps_of(tile.first)), at_samples_(tile.count.x + 1, tile.count.y + 1, no_vertex) {
+    }
 
     void add(const BisectionTriangle& triangle) {
         if (parts_.empty() || parts_.back().vertices.size() > max_vertices) {
@@ -205,20 +205,19 @@ private:
 
 class TileBisector {
 public:
-    TileBisector(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+    TileBisector(const Bisection& bisection, const TileCells& tile, const ErrorView& view,
                  TriangleBudget* budget)
         : bisection_(bisection), budget_(budget), morphed_(view), view_(view),
-          morphs_(view.morph_from < 1.0),
-          morphed_vertices_(bisection, steps_of({tile.col, tile.row})), first_(tile.col, tile.row),
-          is_whole_(tile.cols == tile_cells && tile.rows == tile_cells),
-          at_samples_(tile.cols + 1, tile.rows + 1, Choice{false, false, false}),
+          morphs_(view.morph_from < 1.0), morphed_vertices_(bisection, steps_of(tile.first)),
+          first_(tile.first), is_whole_(tile.count.x == tile_cells && tile.count.y == tile_cells),
+          at_samples_(tile.count.x + 1, tile.count.y + 1, Choice{false, false, false}),
           error_(view.max_error), writer_(tile) {
         view_.max_error *= view.morph_from;
     }
 
-    TileTriangles bisect(const Tile& tile) {
+    TileTriangles bisect(const TileCells& tile) {
         constexpr int side = steps_per_sample * tile_cells;
-        const Steps first = steps_of({tile.col, tile.row});
+        const Steps first = steps_of(tile.first);
         const Steps middle = first + std::int64_t{side / 2};
         const std::array corners{first, first + Steps(0, side), first + std::int64_t{side},
                                  first + Steps(side, 0)};
@@ -376,7 +375,7 @@ bool exceeds(const ErrorView& view, const Split& split) {
            (visibility_of(view, split) != Visibility::none && exceeds_bound(view, split));
 }
 
-TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+TileTriangles triangulate(const Bisection& bisection, const TileCells& tile, const ErrorView& view,
                           TriangleBudget* budget) {
     return TileBisector(bisection, tile, view, budget).bisect(tile);
 }

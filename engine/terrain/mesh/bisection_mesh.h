@@ -85,7 +85,7 @@ struct TileTriangles {
 /// The coarsest triangulation of a tile within the error bound. Neighbours share their border
 /// vertices and moves, because a move depends on the vertex and the view only. Ends early, with
 /// some of the triangles, once the budget is exceeded.
-TileTriangles triangulate(const Bisection& bisection, const Tile& tile, const ErrorView& view,
+TileTriangles triangulate(const Bisection& bisection, const TileCells& tile, const ErrorView& view,
                           TriangleBudget* budget = nullptr);
 
 } // namespace reljef::terrain

@@ -25,9 +25,9 @@ int level_at(double distance, double patch_size, int levels) {
 // One patch of a tile; places count samples from the tile's first.
 class Patch {
 public:
-    Patch(const Grid<std::uint8_t>& levels, glm::ivec2 patch, const Tile& tile)
-        : first_(patch_cells * patch - glm::ivec2(tile.col, tile.row)),
-          cells_(glm::min(glm::ivec2(tile.cols, tile.rows) - first_, glm::ivec2(patch_cells))),
+    Patch(const Grid<std::uint8_t>& levels, glm::ivec2 patch, const TileCells& tile)
+        : first_(patch_cells * patch - tile.first),
+          cells_(glm::min(tile.count - first_, glm::ivec2(patch_cells))),
           step_(1 << levels(patch.x, patch.y)) {
         constexpr std::array<glm::ivec2, 4> sides{glm::ivec2(0, -1), glm::ivec2(0, 1),
                                                   glm::ivec2(-1, 0), glm::ivec2(1, 0)};
@@ -105,15 +105,15 @@ Grid<std::uint8_t> patch_levels(const Heightfield& heightfield, const Placement&
     return chosen;
 }
 
-Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const Tile& tile) {
+Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const TileCells& tile) {
     Triangulation result;
     constexpr std::uint16_t no_number = std::numeric_limits<std::uint16_t>::max();
-    Grid<std::uint16_t> numbers(tile.cols + 1, tile.rows + 1, no_number);
+    Grid<std::uint16_t> numbers(tile.count.x + 1, tile.count.y + 1, no_number);
     const auto number_of = [&](glm::ivec2 place) {
         std::uint16_t& number = numbers(place.x, place.y);
         if (number == no_number) {
             number = static_cast<std::uint16_t>(result.vertices.size());
-            result.vertices.push_back(steps_of(place + glm::ivec2(tile.col, tile.row)));
+            result.vertices.push_back(steps_of(place + tile.first));
         }
         return number;
     };
@@ -125,8 +125,8 @@ Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const Tile& 
             }
         }
     };
-    for (int row = tile.row; row < tile.row + tile.rows; row += patch_cells) {
-        for (int col = tile.col; col < tile.col + tile.cols; col += patch_cells) {
+    for (int row = tile.first.y; row < tile.last().y; row += patch_cells) {
+        for (int col = tile.first.x; col < tile.last().x; col += patch_cells) {
             Patch(levels, glm::ivec2(col, row) / patch_cells, tile).add_triangles(add);
         }
     }

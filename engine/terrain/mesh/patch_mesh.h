@@ -25,6 +25,6 @@ Grid<std::uint8_t> patch_levels(const Heightfield& heightfield, const Placement&
 
 /// The triangles of a tile's patches. A patch of level i has a vertex at every 2^i-th sample. It
 /// takes the border vertices of coarser neighbours. `levels` is patch_levels() of the heightfield.
-Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const Tile& tile);
+Triangulation triangulate_patches(const Grid<std::uint8_t>& levels, const TileCells& tile);
 
 } // namespace reljef::terrain

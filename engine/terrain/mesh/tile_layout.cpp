@@ -8,17 +8,6 @@
 namespace reljef::terrain {
 namespace {
 
-HeightRange range_of(const Grid<float>& heights, const Tile& tile) {
-    HeightRange range{heights(tile.col, tile.row), heights(tile.col, tile.row)};
-    for (int row = tile.row; row <= tile.row + tile.rows; ++row) {
-        const auto samples = heights.row(row).subspan(static_cast<std::size_t>(tile.col),
-                                                      static_cast<std::size_t>(tile.cols) + 1);
-        const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
-        range = {std::min<double>(range.low, *low), std::max<double>(range.high, *high)};
-    }
-    return range;
-}
-
 // Nine places of a piece of ground at one height.
 struct NinePlaces {
     std::array<std::array<glm::dvec3, 3>, 3> at; // by row and column
@@ -86,25 +75,6 @@ void add_ground(const Placement& placement, glm::dvec2 first, glm::dvec2 last, d
     box.add(Box{around.low - bulge, around.high + bulge});
 }
 
-template <class RangeOfTile>
-std::vector<Tile> cut(const Heightfield& heightfield, const Placement& placement,
-                      const RangeOfTile& range_of_tile) {
-    const int cols = heightfield.heights.cols() - 1;
-    const int rows = heightfield.heights.rows() - 1;
-    std::vector<Tile> tiles;
-    for (int row = 0; row < rows; row += tile_cells) {
-        for (int col = 0; col < cols; col += tile_cells) {
-            Tile tile{
-                col, row, std::min(tile_cells, cols - col), std::min(tile_cells, rows - row), {}};
-            tile.bounds =
-                placed_bounds(placement, glm::dvec2(col, row),
-                              glm::dvec2(col + tile.cols, row + tile.rows), range_of_tile(tile));
-            tiles.push_back(tile);
-        }
-    }
-    return tiles;
-}
-
 } // namespace
 
 Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
@@ -122,14 +92,15 @@ Box placed_bounds(const Placement& placement, glm::dvec2 first, glm::dvec2 last,
     return box;
 }
 
-std::vector<Tile> tile_layout(const Heightfield& heightfield, const Placement& placement) {
-    return cut(heightfield, placement,
-               [&](const Tile& tile) { return range_of(heightfield.heights, tile); });
-}
-
-std::vector<Tile> flat_tile_layout(const Heightfield& heightfield, const Placement& placement,
-                                   double height) {
-    return cut(heightfield, placement, [&](const Tile&) { return HeightRange{height, height}; });
+std::vector<TileCells> tile_layout(glm::ivec2 cells) {
+    std::vector<TileCells> tiles;
+    for (int row = 0; row < cells.y; row += tile_cells) {
+        for (int col = 0; col < cells.x; col += tile_cells) {
+            const glm::ivec2 first(col, row);
+            tiles.push_back({first, glm::min(cells - first, glm::ivec2(tile_cells))});
+        }
+    }
+    return tiles;
 }
 
 } // namespace reljef::terrain

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/terrain/field/surface_caster.h"
-#include "engine/terrain/mesh/tile_layout.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/landscape.h"
 

@@ -42,7 +42,7 @@ ErrorView view_around(glm::dvec3 eye) {
 
 std::vector<Triangulation> all_parts(const PlacedTerrain& made, const ErrorView& view) {
     std::vector<Triangulation> parts;
-    for (const Tile& tile : made.tiles) {
+    for (const TileCells& tile : made.tiles) {
         for (Triangulation& part : triangulate(made.bisection, tile, view).parts) {
             parts.push_back(std::move(part));
         }

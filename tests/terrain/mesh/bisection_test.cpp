@@ -274,7 +274,7 @@ TEST(Bisection, StatesTheErrorOfTheSmallestSquares) {
             const auto triangles = all_triangles(terrain, view);
             ASSERT_EQ(test::open_edges(terrain, triangles), 0U) << terrain.name;
             double error = 0.0;
-            for (const Tile& tile : terrain.tiles) {
+            for (const TileCells& tile : terrain.tiles) {
                 error = std::max(error, triangulate(terrain.bisection, tile, view).error);
             }
             larger += error > view.max_error ? 1 : 0;

@@ -59,7 +59,7 @@ TEST(PatchMesh, CoversTheHeightfieldOnceWithTrianglesThatMeetWhateverTheLevels) 
                 level = static_cast<std::uint8_t>(random() % max_patch_levels);
             }
             std::vector<Triangulation> tiles;
-            for (const Tile& tile : tile_layout(heightfield, placement)) {
+            for (const TileCells& tile : tile_layout(test::cells_of(heightfield))) {
                 tiles.push_back(triangulate_patches(levels, tile));
             }
             const glm::ivec2 last(cols - 1, rows - 1);
@@ -76,7 +76,7 @@ TEST(PatchMesh, OneLevelIsEverySample) {
     const Placement placement = test::placed(heightfield);
     const auto levels = patch_levels(heightfield, placement, {9e9, 0.0, 0.0}, 1);
     const Triangulation tile =
-        triangulate_patches(levels, tile_layout(heightfield, placement).front());
+        triangulate_patches(levels, tile_layout(test::cells_of(heightfield)).front());
     EXPECT_EQ(tile.vertices.size(), 129U * 100U);
     EXPECT_EQ(tile.indices.size(), 6U * 128U * 99U);
 }

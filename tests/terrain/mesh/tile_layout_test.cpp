@@ -1,10 +1,12 @@
 #include "engine/terrain/mesh/tile_layout.h"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "engine/terrain/field/min_max_pyramid.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::terrain {
@@ -21,14 +23,12 @@ TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
                                      {257, 258},
                                      {2, 500},
                                      {400, 301}}) {
-        const Heightfield heightfield =
-            test::plane_heightfield(test::random_heights(cols, rows, 0.0F, 9.0F, 1));
         Grid<int> covered(cols - 1, rows - 1, 0);
-        for (const Tile& tile : tile_layout(heightfield, test::placed(heightfield))) {
-            ASSERT_GE(std::min(tile.cols, tile.rows), 1);
-            ASSERT_LE(std::max(tile.cols, tile.rows), tile_cells);
-            for (int row = tile.row; row < tile.row + tile.rows; ++row) {
-                for (int col = tile.col; col < tile.col + tile.cols; ++col) {
+        for (const TileCells& tile : tile_layout({cols - 1, rows - 1})) {
+            ASSERT_GE(std::min(tile.count.x, tile.count.y), 1);
+            ASSERT_LE(std::max(tile.count.x, tile.count.y), tile_cells);
+            for (int row = tile.first.y; row < tile.last().y; ++row) {
+                for (int col = tile.first.x; col < tile.last().x; ++col) {
                     ++covered(col, row);
                 }
             }
@@ -39,20 +39,28 @@ TEST(TileLayout, CoversEveryCellOnceWhateverTheSize) {
     }
 }
 
+Box box_of(const Heightfield& heightfield, const Placement& placement, const TileCells& tile,
+           std::optional<double> flat_height) {
+    const MinMax range =
+        MinMaxPyramid(heightfield.heights.view()).bounds(tile.first, tile.last() - 1);
+    return placed_bounds(placement, glm::dvec2(tile.first), glm::dvec2(tile.last()),
+                         {flat_height.value_or(range.low), flat_height.value_or(range.high)});
+}
+
 // The tile's box holds its samples, and the middles between them.
-void expect_inside(const Heightfield& heightfield, const Placement& placement, const Tile& tile,
-                   std::optional<double> flat_height) {
-    for (int j = 0; j <= 2 * tile.rows; ++j) {
-        for (int i = 0; i <= 2 * tile.cols; ++i) {
-            const double col = tile.col + 0.5 * i;
-            const double row = tile.row + 0.5 * j;
+void expect_inside(const Heightfield& heightfield, const Placement& placement,
+                   const TileCells& tile, std::optional<double> flat_height) {
+    const Box bounds = box_of(heightfield, placement, tile, flat_height);
+    for (int j = 0; j <= 2 * tile.count.y; ++j) {
+        for (int i = 0; i <= 2 * tile.count.x; ++i) {
+            const double col = tile.first.x + 0.5 * i;
+            const double row = tile.first.y + 0.5 * j;
             const double height =
                 flat_height.value_or(bilinear_height(heightfield.heights.view(), {col, row}));
             const glm::dvec3 place = placement.world_from_sample({col, row, height});
             for (int axis = 0; axis < 3; ++axis) {
-                ASSERT_GE(place[axis], tile.bounds.low[axis] - 1e-9)
-                    << col << ' ' << row << ' ' << axis;
-                ASSERT_LE(place[axis], tile.bounds.high[axis] + 1e-9)
+                ASSERT_GE(place[axis], bounds.low[axis] - 1e-9) << col << ' ' << row << ' ' << axis;
+                ASSERT_LE(place[axis], bounds.high[axis] + 1e-9)
                     << col << ' ' << row << ' ' << axis;
             }
         }
@@ -61,12 +69,9 @@ void expect_inside(const Heightfield& heightfield, const Placement& placement, c
 
 void expect_bounds_hold(const Heightfield& heightfield, double exaggeration) {
     const Placement placement = test::placed(heightfield, exaggeration);
-    for (const Tile& tile : tile_layout(heightfield, placement)) {
+    for (const TileCells& tile : tile_layout(test::cells_of(heightfield))) {
         expect_inside(heightfield, placement, tile, std::nullopt);
-    }
-    const double reference = reference_height(heightfield);
-    for (const Tile& tile : flat_tile_layout(heightfield, placement, reference)) {
-        expect_inside(heightfield, placement, tile, reference);
+        expect_inside(heightfield, placement, tile, reference_height(heightfield));
     }
 }
 
@@ -76,8 +81,8 @@ TEST(TileLayout, BoundsOnAPlaneAreTight) {
     const Placement placement = test::placed(heightfield, 4.0);
     expect_bounds_hold(heightfield, 4.0);
     Box all;
-    for (const Tile& tile : tile_layout(heightfield, placement)) {
-        all.add(tile.bounds);
+    for (const TileCells& tile : tile_layout(test::cells_of(heightfield))) {
+        all.add(box_of(heightfield, placement, tile, std::nullopt));
     }
     EXPECT_DOUBLE_EQ(all.low.z, 4.0 * heightfield.range.low);
     EXPECT_DOUBLE_EQ(all.high.z, 4.0 * heightfield.range.high);
@@ -123,22 +128,6 @@ TEST(TileLayout, BoundsHoldAWholeGlobe) {
     for (const int cells : {2, 7, 20, 61, 90}) {
         expect_bounds_hold(test::closed_globe(cells, 0.5, 0.5, 3), 1.0);
         expect_bounds_hold(test::closed_globe(cells, 0.0, 0.0, 4), 5.0);
-    }
-}
-
-TEST(TileLayout, FlatTilesHaveTheSameIndices) {
-    const Heightfield heightfield =
-        test::plane_heightfield(test::random_heights(300, 200, 0.0F, 9.0F, 4));
-    const auto tiles = tile_layout(heightfield, test::placed(heightfield));
-    const auto flat = flat_tile_layout(heightfield, test::placed(heightfield), 3.0);
-    ASSERT_EQ(tiles.size(), flat.size());
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-        EXPECT_EQ(tiles[i].col, flat[i].col);
-        EXPECT_EQ(tiles[i].row, flat[i].row);
-        EXPECT_EQ(tiles[i].cols, flat[i].cols);
-        EXPECT_EQ(tiles[i].rows, flat[i].rows);
-        EXPECT_DOUBLE_EQ(flat[i].bounds.low.z, 3.0);
-        EXPECT_DOUBLE_EQ(flat[i].bounds.high.z, 3.0);
     }
 }
 
