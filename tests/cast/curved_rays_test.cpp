@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/cast/frame/driver.h"
-#include "tests/cast/streamed_samples.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/earth_stage.h"
 #include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
 
 namespace reljef::cast {
 namespace {
@@ -24,17 +24,14 @@ struct EarthStage : test::EarthStage {
 
     // From now on its samples are tiles of a stream.
     void stream() {
-        stream_samples(*terrain->get<scene::TerrainNode>());
+        test::stream_samples(*terrain->get<scene::TerrainNode>());
         scene::Polygons bounded;
         bounded.error = 1e-6; // all samples
         set(scene::Technique{bounded});
     }
 
     [[nodiscard]] view::DrawnHits drawn(glm::ivec2 size) const {
-        const auto& node = *terrain->get<scene::TerrainNode>();
-        if (node.stream != nullptr) {
-            render::bring_tiles(node, scene.camera());
-        }
+        render::bring_tiles(scene, size);
         Driver driver = test::must(Driver::create({.size = size}));
         return test::must(driver.draw_hits(view::select(scene, size)));
     }

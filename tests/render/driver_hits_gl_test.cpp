@@ -8,6 +8,8 @@
 
 #include "engine/terrain/field/surface_caster.h"
 #include "tests/render/driver_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
 #include "tests/session/made_session.h"
 
 namespace reljef::render {
@@ -131,13 +133,32 @@ void expect_true_hits(const HitBuffer& hits, const Camera& camera, const Node& n
     EXPECT_LE(report.beyond_patch, 0.05) << "metres, of 24";
 }
 
-TEST_F(DriverGlTest, HitsLieOnTheSurfaceAndProjectBackToTheirPixel) {
+class DriverHitsGlTest : public DriverGlTest,
+                         public testing::WithParamInterface<test::SampleSource> {
+protected:
+    static void give_samples(Node& terrain) {
+        test::give_samples(*terrain.get<scene::TerrainNode>(), GetParam());
+    }
+    HitBuffer hits_of(session::SceneRenderer& made, const Scene& scene, glm::ivec2 picture = size) {
+        bring_tiles(scene, picture);
+        return test::must(made.draw_hits(scene));
+    }
+    HitBuffer hits_of(const Scene& scene) {
+        session::SceneRenderer made = driver();
+        return hits_of(made, scene);
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Sources, DriverHitsGlTest, test::all_sources(), test::name_of_source);
+
+TEST_P(DriverHitsGlTest, HitsLieOnTheSurfaceAndProjectBackToTheirPixel) {
     World world;
+    give_samples(*world.terrain);
     session::SceneRenderer made = driver();
     for (const auto which :
          {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
         world.look(pose(which, *world.terrain));
-        const HitBuffer hits = test::must(made.draw_hits(world.scene));
+        const HitBuffer hits = hits_of(made, world.scene);
         ASSERT_EQ(hits.cols(), size.x);
         ASSERT_EQ(hits.rows(), size.y);
         SCOPED_TRACE(to_string(which));
@@ -145,27 +166,30 @@ TEST_F(DriverGlTest, HitsLieOnTheSurfaceAndProjectBackToTheirPixel) {
     }
 }
 
-TEST_F(DriverGlTest, HitsOfAnExaggeratedTerrainAreInTrueMetres) {
+TEST_P(DriverHitsGlTest, HitsOfAnExaggeratedTerrainAreInTrueMetres) {
     World world(3.0);
-    const HitBuffer hits = test::must(driver().draw_hits(world.scene));
+    give_samples(*world.terrain);
+    const HitBuffer hits = hits_of(world.scene);
     expect_true_hits(hits, world.scene.camera(), *world.terrain);
 }
 
-TEST_F(DriverGlTest, HitsFollowATurnedAndMovedNode) {
+TEST_P(DriverHitsGlTest, HitsFollowATurnedAndMovedNode) {
     World world;
+    give_samples(*world.terrain);
     world.terrain->set_parent_from_local(
         glm::rotate(glm::translate(glm::dmat4(1.0), {20.0, -10.0, 5.0}), 0.8, {0.1, 0.05, 1.0}));
-    const HitBuffer hits = test::must(driver().draw_hits(world.scene));
+    const HitBuffer hits = hits_of(world.scene);
     expect_true_hits(hits, world.scene.camera(), *world.terrain);
 }
 
-TEST_F(DriverGlTest, HitsOnAnEllipsoid) {
+TEST_P(DriverHitsGlTest, HitsOnAnEllipsoid) {
     Scene scene;
     Node& terrain = test::add_terrain(
         scene, test::geographic_heightfield(test::hills(301, 201, 600.0), 46.0, 7.0, 1.0 / 600.0));
+    give_samples(terrain);
     const Camera camera = pose(scene::Pose::overview, terrain);
     scene.add_camera(camera);
-    const HitBuffer hits = test::must(driver().draw_hits(scene));
+    const HitBuffer hits = hits_of(scene);
     int count = 0;
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
@@ -207,12 +231,13 @@ bool is_inner(const Grid<std::uint8_t>& cover, int col, int row) {
     return true;
 }
 
-TEST_F(DriverGlTest, ThePictureShowsTheTerrainExactlyWhereTheExactRaysDo) {
+TEST_P(DriverHitsGlTest, ThePictureShowsTheTerrainExactlyWhereTheExactRaysDo) {
     World world;
+    give_samples(*world.terrain);
     session::SceneRenderer made = driver();
     for (const auto which : {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing}) {
         world.look(pose(which, *world.terrain));
-        const HitBuffer hits = test::must(made.draw_hits(world.scene));
+        const HitBuffer hits = hits_of(made, world.scene);
         const auto cover = exact_cover(world.scene.camera(), *world.terrain);
         int inner = 0;
         int wrong = 0;
@@ -246,11 +271,12 @@ int holes_in(const HitBuffer& hits, const Camera& camera, const Box& bounds) {
 }
 
 // Borders between tiles, where vertices are shared by position only, have no crack.
-TEST_F(DriverGlTest, HasNoHolesBetweenTiles) {
+TEST_P(DriverHitsGlTest, HasNoHolesBetweenTiles) {
     constexpr glm::ivec2 picture{800, 600};
     Scene scene;
     Node& terrain = test::add_terrain(
         scene, test::plane_heightfield(test::hills(641, 641, 150.0), {30.87, 29.3}));
+    give_samples(terrain);
     const Box& bounds = surface_of(terrain).bounds();
     Node& camera = scene.add_camera();
     session::SceneRenderer made = driver(picture);
@@ -260,21 +286,22 @@ TEST_F(DriverGlTest, HasNoHolesBetweenTiles) {
     for (int i = 0; i < 20; ++i) {
         const glm::dvec3 eye(3e3 * unit(random), 3e3 * unit(random), 4e3 + 3e3 * unit(random));
         *camera.get<Camera>() = camera_at(eye, {3e3 * unit(random), 3e3 * unit(random), 0.0});
-        holes += holes_in(test::must(made.draw_hits(scene)), scene.camera(), bounds);
+        holes += holes_in(hits_of(made, scene, picture), scene.camera(), bounds);
     }
     EXPECT_EQ(holes, 0) << "pixels of 20 pictures";
 }
 
-TEST_F(DriverGlTest, TheLeastHeightfieldIsDrawn) {
+TEST_P(DriverHitsGlTest, TheLeastHeightfieldIsDrawn) {
     Scene scene;
     Grid<float> heights(2, 2, 0.0F);
     heights(1, 1) = 1.0F;
     Node& terrain = test::add_terrain(scene, test::plane_heightfield(heights, {10.0, 10.0}));
+    give_samples(terrain);
     scene.add_camera(pose(scene::Pose::map, terrain));
     scene.add_light();
     session::SceneRenderer made = driver();
+    const HitBuffer hits = hits_of(made, scene);
     EXPECT_EQ(test::must(made.draw(scene)).triangles, 2U);
-    const HitBuffer hits = test::must(made.draw_hits(scene));
     expect_true_hits(hits, scene.camera(), terrain);
 }
 

@@ -1,20 +1,22 @@
 #pragma once
 
 #include "engine/scene/streaming/tile_stream.h"
-#include "engine/view/tile_selection.h"
+#include "engine/view/select.h"
 #include "tests/render/driver_fixture.h"
 
 namespace reljef::render {
 
-/// Reads until a view of `size` wants no more tiles of the terrain's stream.
-inline void bring_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera) {
-    while (true) {
-        const auto choice = view::select_tiles(terrain, camera, size, glm::dmat4(1.0));
-        terrain.stream->request(choice.requested, choice.used, view::needs_cones(terrain));
-        if (choice.requested.empty()) {
-            return;
+/// Reads until a view wants no more tiles of the scene's streams.
+inline void bring_tiles(const Scene& scene, glm::ivec2 picture = size,
+                        const view::SelectOptions& options = {}) {
+    bool is_missing = true;
+    while (is_missing) {
+        is_missing = false;
+        for (const view::TileRequests& tiles : view::select(scene, picture, options).requests) {
+            tiles.stream->request(tiles.missing, tiles.used, tiles.with_cones);
+            is_missing = is_missing || !tiles.missing.empty();
+            tiles.stream->wait({});
         }
-        terrain.stream->wait({});
     }
 }
 

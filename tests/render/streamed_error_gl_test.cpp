@@ -89,7 +89,7 @@ protected:
             scene::TileStreamOptions{.memory_budget = 300 * scene::bytes_per_tile, .threads = 2});
     }
 
-    void bring() { bring_tiles(*terrain_->get<scene::TerrainNode>(), scene_.camera()); }
+    void bring() { bring_tiles(scene_); }
 
     // Of the pixels that show terrain, pixels.
     std::vector<double> errors(const HitBuffer& hits) const {

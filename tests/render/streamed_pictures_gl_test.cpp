@@ -64,7 +64,7 @@ public:
     }
     void look_down(glm::dvec3 eye) {
         *camera->get<Camera>() = camera_at(eye, {eye.x + 0.01, eye.y, 0.0});
-        bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera());
+        bring_tiles(scene);
     }
 
     Scene scene;

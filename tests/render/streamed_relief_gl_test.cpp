@@ -72,10 +72,7 @@ struct CutWorld {
             test::must(scene::parse_technique(technique));
     }
     [[nodiscard]] view::FrameView selected() const {
-        const auto& node = *terrain->get<scene::TerrainNode>();
-        if (node.stream != nullptr) {
-            bring_tiles(node, scene.camera());
-        }
+        bring_tiles(scene);
         return view::select(scene, size);
     }
     /// With the tiles of the given level, and the root.

@@ -1,6 +1,7 @@
 #include "engine/cast/frame/driver.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <string>
 
@@ -12,6 +13,8 @@
 #include "engine/view/sample_count.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
 #include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 
@@ -19,6 +22,8 @@ namespace reljef::cast {
 namespace {
 
 constexpr glm::ivec2 small_picture{320, 240};
+constexpr std::array seen_poses{scene::Pose::overview, scene::Pose::low, scene::Pose::grazing,
+                                scene::Pose::map};
 
 // Hills below a sun and a hazy sky, drawn by exact rays.
 struct LitStage : Stage {
@@ -72,8 +77,7 @@ protected:
 // The shaders filter with derivatives of four pixels and round colours to bytes.
 TEST_F(CastDriverGlTest, DrawsWhatTheShadersDraw) {
     LitStage stage;
-    for (const scene::Pose pose :
-         {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
+    for (const scene::Pose pose : seen_poses) {
         stage.look_from(pose);
         const Image rays = drawn_by_rays(stage.scene);
         const Image shaders = drawn_by_opengl(stage.scene);
@@ -147,8 +151,7 @@ Image drawn_with(const scene::Scene& scene, const DriverOptions& options) {
 // Against as many samples everywhere: at most 2 levels off on 99 % of the pixels.
 TEST(CastDriver, SamplesWhereTheyChangeThePicture) {
     LitStage stage;
-    for (const scene::Pose pose :
-         {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
+    for (const scene::Pose pose : seen_poses) {
         stage.look_from(pose);
         const Image one = drawn_by_rays(stage.scene);
         for (const int samples : {2, 4, 8, 16}) {
@@ -176,9 +179,15 @@ TEST(CastDriver, ChoosesFourSamples) {
     EXPECT_NE(chosen, drawn_by_rays(stage.scene));
 }
 
-TEST(CastDriver, FindsTheHitsOfTheTruth) {
+class CastSources : public testing::TestWithParam<test::SampleSource> {};
+
+INSTANTIATE_TEST_SUITE_P(CastDriver, CastSources, test::all_sources(), test::name_of_source);
+
+TEST_P(CastSources, FindsTheHitsOfTheTruth) {
     LitStage stage;
+    test::give_samples(*stage.terrain->get<scene::TerrainNode>(), GetParam());
     stage.look_from(scene::Pose::overview);
+    render::bring_tiles(stage.scene, small_picture);
     Driver driver = test::must(Driver::create({.size = small_picture}));
     const auto drawn = test::must(driver.draw_hits(view::select(stage.scene, small_picture)));
     const auto errors = stage.errors(drawn.hits, stage.truth(small_picture));

@@ -11,9 +11,9 @@
 #include "engine/terrain/field/ray_cast.h"
 #include "engine/truth/image_error.h"
 #include "tests/cast/made_rays.h"
-#include "tests/cast/streamed_samples.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
 #include "tests/session/made_session.h"
 
 namespace reljef::cast {
@@ -156,7 +156,7 @@ TEST(SunShadow, IsThatOfStreamedTiles) {
     SunnyStage stage;
     SunnyStage streamed;
     auto& node = *streamed.terrain->get<scene::TerrainNode>();
-    stream_samples(node);
+    test::stream_samples(node);
     const auto place = [&](double col, double row, double height) {
         return stage.surface().placement().world_from_sample({col, row, height});
     };
@@ -166,7 +166,7 @@ TEST(SunShadow, IsThatOfStreamedTiles) {
     for (const scene::Camera& camera : {over, beside}) {
         stage.look(camera);
         streamed.look(camera);
-        render::bring_tiles(node, camera);
+        render::bring_tiles(streamed.scene, shadow_picture);
         const Image in_memory = stage.drawn();
         const auto errors = truth::image_errors(streamed.drawn(), in_memory);
         ASSERT_TRUE(errors);

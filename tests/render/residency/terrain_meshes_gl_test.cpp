@@ -76,7 +76,7 @@ struct StreamedWorld {
         stream->request(chosen.requested, chosen.used);
         return chosen;
     }
-    void bring() const { bring_tiles(*terrain->get<scene::TerrainNode>(), scene.camera()); }
+    void bring() const { bring_tiles(scene); }
     void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
 };
 
