@@ -158,7 +158,7 @@ struct Poles {
 };
 
 /// NaN for a row without heights.
-double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
+double mean_of_row(const TileLayer& layer, int row, const LayerReading& reading,
                    std::vector<FileError>& errors) {
     const CellWindow window{1, glm::ivec2(0), {0, row}, layer.cols, 1};
     const Grid<double> heights = read_cells(layer, window, reading, errors);
@@ -172,7 +172,7 @@ double mean_of_row(const TileLayer& layer, int row, const TileContent& reading,
 }
 
 Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
-               const TileContent& reading, std::vector<FileError>& errors) {
+               const LayerReading& reading, std::vector<FileError>& errors) {
     const int last = layer.rows - 1;
     bool any_north = false;
     bool any_south = false;
@@ -213,7 +213,7 @@ public:
 
     /// Calls answer(index, answer) for each point on a tile.
     template <class Answer>
-    void find(const TileContent& reading, std::vector<FileError>& errors, const Answer& answer) {
+    void find(const LayerReading& reading, std::vector<FileError>& errors, const Answer& answer) {
         std::vector<OnTile> found;
         found.reserve(block_.points.size());
         for (const int index : block_.points) {
@@ -325,7 +325,7 @@ std::vector<int> unanswered(std::span<const HeightSample> answers, Reach reach) 
 }
 
 void ask_layer(const TileLayer& layer, std::span<const glm::dvec2> places, Reach reach,
-               const TileContent& reading, unsigned threads, TileSet::Heights& result) {
+               const LayerReading& reading, unsigned threads, TileSet::Heights& result) {
     const std::vector<int> requested = unanswered(result.answers, reach);
     if (requested.empty()) {
         return;

@@ -233,14 +233,14 @@ private:
     Grid<std::uint8_t> closed_;
 };
 
-std::filesystem::path path_of(const LayerTile& tile, const TileContent& reading) {
+std::filesystem::path path_of(const LayerTile& tile, const LayerReading& reading) {
     return reading.folder / reading.files[static_cast<std::size_t>(tile.file)].path;
 }
 
 constexpr std::chrono::seconds max_response_time{5}; // longer: the server hangs
 
 /// Opens a tile as in the index. Skips remote files that fail repeatedly.
-Result<DatasetPool::Loan> borrow(const LayerTile& tile, const TileContent& reading,
+Result<DatasetPool::Loan> borrow(const LayerTile& tile, const LayerReading& reading,
                                  const GdalMessages& messages) {
     const std::filesystem::path path = path_of(tile, reading);
     if (auto wrong = reading.failing->skip_reason(path)) {
@@ -269,7 +269,7 @@ struct TileValues {
 
 /// Reads a part of a tile, in lattice points.
 Result<TileValues> read_part(const LayerTile& tile, const Rectangle& part, int reduction,
-                             const TileContent& reading) {
+                             const LayerReading& reading) {
     const std::filesystem::path path = path_of(tile, reading);
     GdalMessages messages;
     auto dataset = borrow(tile, reading, messages);
@@ -313,7 +313,7 @@ int web_tile_side(int reduction) {
 
 /// Reads web tiles one by one to skip damaged ones only.
 void add_web_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
-                   const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
+                   const LayerReading& reading, CellSums& sums, std::vector<FileError>& errors) {
     const int side = web_tile_side(reduction);
     const glm::ivec2 corner(tile.col, tile.row);
     const glm::ivec2 first = (part.low - corner) / side;
@@ -335,7 +335,7 @@ void add_web_tiles(const LayerTile& tile, const Rectangle& part, int reduction,
 
 /// Adds a part of a tile to the sums, or adds its errors.
 void add_part(const LayerTile& tile, const Rectangle& part, int reduction,
-              const TileContent& reading, CellSums& sums, std::vector<FileError>& errors) {
+              const LayerReading& reading, CellSums& sums, std::vector<FileError>& errors) {
     const auto begin = BackOff::Clock::now();
     const auto read = read_part(tile, part, reduction, reading);
     const std::filesystem::path path = path_of(tile, reading);
@@ -398,7 +398,7 @@ std::vector<TileLayer> layers_of(std::span<const PlacedFile> placed,
 }
 
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileContent& reading, std::vector<FileError>& errors) {
+                        const LayerReading& reading, std::vector<FileError>& errors) {
     CellSums sums(window);
     for (const LayerTile& tile : layer.tiles) {
         const Rectangle part = overlap(tile, window);

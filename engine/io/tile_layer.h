@@ -98,7 +98,7 @@ struct CellWindow {
 };
 
 /// Input of read_cells().
-struct TileContent {
+struct LayerReading {
     std::span<const IndexedFile> files;
     std::span<const std::string> crs;               ///< WKT, by IndexedFile::crs
     std::filesystem::path folder;                   ///< base of the files' paths
@@ -113,7 +113,7 @@ struct TileContent {
 /// Averages a layer's samples over cells; the newest tile wins; NaN without samples. Adds an error
 /// for each unreadable file, or for each unreadable web tile.
 Grid<double> read_cells(const TileLayer& layer, const CellWindow& window,
-                        const TileContent& reading, std::vector<FileError>& errors);
+                        const LayerReading& reading, std::vector<FileError>& errors);
 
 /// Placed files of an index. Longitudes are continuous across the antimeridian, so that the set is
 /// as narrow as possible. Adds an error for each file without a sane position and scale on Earth.

@@ -193,9 +193,9 @@ void keep_each_once(std::vector<FileError>& errors) {
     errors.erase(std::unique(errors.begin(), errors.end(), same), errors.end());
 }
 
-TileContent TileSet::State::reading(std::atomic<std::size_t>& bytes_read,
+LayerReading TileSet::State::reading(std::atomic<std::size_t>& bytes_read,
                                     const std::stop_token& stop) const {
-    TileContent reading{indexed, indexed_crs, folder,   {},        &bytes_read,
+    LayerReading reading{indexed, indexed_crs, folder,   {},        &bytes_read,
                         &whole,  &pool,       &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;

@@ -264,7 +264,7 @@ void fill_between(const Grid<double>& cells, const CellWindow& window, const Lay
 }
 
 /// `edges`: heights for samples near a tile's edge, where no layer has all surrounding cells.
-void fill_from(const TileLayer& layer, const LayerPoints& points, const TileContent& reading,
+void fill_from(const TileLayer& layer, const LayerPoints& points, const LayerReading& reading,
                const TileGrid& grid, TileWindow& result, Grid<double>& edges) {
     const CellWindow window = window_for(points, grid, layer);
     if (window.cols == 0) {
@@ -357,7 +357,7 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     TileWindow result{edges, {}, 0};
     const GdalMessages ignored_messages; // projections are undefined at some places
     std::atomic<std::size_t> bytes_read{0};
-    const TileContent reading = state_->reading(bytes_read, stop);
+    const LayerReading reading = state_->reading(bytes_read, stop);
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {
         points.push_back(may_meet(state_->crs, grid, layer)

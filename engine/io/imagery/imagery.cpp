@@ -123,19 +123,17 @@ struct PlacedImage {
 /// The placed image as RGB, subsampled if it is huge.
 Result<Dataset> open_colors(const std::filesystem::path& path, double white, GDALDataset& heights,
                             const CommonSpace& space, const GdalMessages& messages) {
-    auto image = open_raster(path, messages);
-    if (!image) {
-        return image.error();
+    auto colors = open_rgb(path, white, messages);
+    if (!colors) {
+        return colors.error();
     }
-    const int subsampling = subsampling_of(**image);
-    Dataset colors = as_rgb(std::move(*image), white);
-    if (colors != nullptr && subsampling > 1) {
-        colors = subsampled(std::move(colors), subsampling);
+    if (const int subsampling = subsampling_of(**colors); subsampling > 1) {
+        *colors = subsampled(std::move(*colors), subsampling);
+        if (*colors == nullptr) {
+            return unreadable_image(path, messages);
+        }
     }
-    if (colors == nullptr) {
-        return unreadable_image(path, messages);
-    }
-    if (auto good = place_image(heights, *colors, space, path.string()); !good) {
+    if (auto good = place_image(heights, **colors, space, path.string()); !good) {
         return good.error();
     }
     return colors;

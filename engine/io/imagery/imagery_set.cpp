@@ -53,20 +53,13 @@ std::vector<ImageInfo::Overview> overviews_of(GDALDataset& rgb) {
     return found;
 }
 
-/// Opens an image as RGB; `crs` is its CRS if it names none.
-Result<Dataset> open_rgb(const std::filesystem::path& path, double white, const std::string& crs,
-                         const GdalMessages& messages) {
-    auto image = open_raster(path, messages);
-    if (!image) {
-        return image.error();
-    }
-    Dataset rgb = as_rgb(std::move(*image), white);
-    if (rgb == nullptr) {
-        return unreadable_image(path, messages);
-    }
-    if (rgb->GetSpatialRef() == nullptr) {
+/// `crs` is its CRS if it names none.
+Result<Dataset> open_placed(const std::filesystem::path& path, double white, const std::string& crs,
+                            const GdalMessages& messages) {
+    auto rgb = open_rgb(path, white, messages);
+    if (rgb && (*rgb)->GetSpatialRef() == nullptr) {
         const OGRSpatialReference own = crs_from_text(crs);
-        rgb->SetSpatialRef(&own);
+        (*rgb)->SetSpatialRef(&own);
     }
     return rgb;
 }
@@ -138,7 +131,7 @@ struct ImagerySet::State {
         : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
           reading_memory(options.reading_memory), white(white_of_all),
           pool([this](const std::filesystem::path& path, const GdalMessages& messages) {
-              return open_rgb(path, white, crs, messages);
+              return open_placed(path, white, crs, messages);
           }),
           failing(options.first_pause) {}
 
@@ -222,7 +215,7 @@ Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names
         const auto index = static_cast<std::size_t>(i);
         const ReadScope thread_scope(options.stop);
         const GdalMessages messages;
-        const auto rgb = open_rgb(files.paths[index], files.white, crs, messages);
+        const auto rgb = open_placed(files.paths[index], files.white, crs, messages);
         found[index] = rgb ? image_info(files.paths[index], **rgb) : std::nullopt;
     };
     parallel_for(static_cast<int>(found.size()), inspect,

@@ -221,6 +221,16 @@ Dataset as_rgb(Dataset image, double white) {
     return keeping_open(std::move(made), std::move(image));
 }
 
+Result<Dataset> open_rgb(const std::filesystem::path& path, double white,
+                         const GdalMessages& messages) {
+    auto image = open_raster(path, messages);
+    if (!image) {
+        return image.error();
+    }
+    Dataset rgb = as_rgb(std::move(*image), white);
+    return rgb != nullptr ? Result<Dataset>(std::move(rgb)) : unreadable_image(path, messages);
+}
+
 int subsampling_of(GDALDataset& image) {
     constexpr double max_pixels_read = 1U << 29U;
     const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();

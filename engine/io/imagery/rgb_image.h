@@ -30,6 +30,10 @@ inline constexpr int max_window_pixels = 1 << 18;
 /// 8 bits are divided by `white`. Keeps `image` open. Null for a truncated or unsuitable image.
 Dataset as_rgb(Dataset image, double white);
 
+/// Opens an image as_rgb(). Fails with its name if it cannot be read as one.
+Result<Dataset> open_rgb(const std::filesystem::path& path, double white,
+                         const GdalMessages& messages);
+
 /// Subsampling per side that keeps the reading time of a huge image short; 1 for others.
 int subsampling_of(GDALDataset& image);
 Dataset subsampled(Dataset rgb, int subsampling);
