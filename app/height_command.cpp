@@ -86,13 +86,13 @@ void print_answers(std::span<const std::string_view> texts,
 }
 
 // The only file of a terrain fails with its own sentence.
-bool is_whole_terrain(const io::FileError& error, const cli::TerrainChoice& choice) {
+bool is_whole_terrain(const FileError& error, const cli::TerrainChoice& choice) {
     return error.file == choice.terrain;
 }
 
-void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& choice,
-                 std::vector<io::FileError>& errors) {
-    for (io::FileError& error : found) {
+void keep_errors(std::vector<FileError> found, const cli::TerrainChoice& choice,
+                 std::vector<FileError>& errors) {
+    for (FileError& error : found) {
         if (std::find(errors.begin(), errors.end(), error) == errors.end()) {
             if (!choice.quiet && !is_whole_terrain(error, choice)) {
                 cli::write_stderr(fmt::format("reljef: left out: {}\n", error.message));
@@ -103,7 +103,7 @@ void keep_errors(std::vector<io::FileError> found, const cli::TerrainChoice& cho
 }
 
 // For places that may lie in an unreadable file.
-std::string left_out_text(std::span<const io::FileError> errors) {
+std::string left_out_text(std::span<const FileError> errors) {
     return errors.empty() ? std::string()
                           : fmt::format("; {} of its files could not be read: {}", errors.size(),
                                         errors.front().message);
@@ -129,7 +129,7 @@ io::TileSet::Heights heights_within(const session::HeightSource& source,
 }
 
 Result<void> print_places(const HeightChoice& choice, const session::HeightSource& source,
-                          const cli::Interrupt& interrupt, std::vector<io::FileError>& errors) {
+                          const cli::Interrupt& interrupt, std::vector<FileError>& errors) {
     auto found = heights_within(source, choice.places, interrupt);
     if (interrupt.requested()) {
         return Error{"interrupted"};
@@ -151,7 +151,7 @@ Result<void> print_places(const HeightChoice& choice, const session::HeightSourc
 }
 
 Result<void> print_points(const HeightChoice& choice, const session::HeightSource& source,
-                          const cli::Interrupt& interrupt, std::vector<io::FileError>& errors) {
+                          const cli::Interrupt& interrupt, std::vector<FileError>& errors) {
     auto file = PlaceFile::open(choice.points, bytes_of_piece(choice.terrain));
     if (!file) {
         return file.error();
@@ -176,7 +176,7 @@ Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& int
     if (!source) {
         return source.error();
     }
-    std::vector<io::FileError> errors;
+    std::vector<FileError> errors;
     keep_errors({source->tiles.errors().begin(), source->tiles.errors().end()}, choice.terrain,
                 errors);
     if (auto printed = print_places(choice, *source, interrupt, errors); !printed) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,14 @@ struct Error {
 
     std::string message;
     Kind kind = Kind::failure;
+};
+
+/// A file, or part of one, that could not be read. The message names it.
+struct FileError {
+    std::filesystem::path file;
+    std::string message;
+
+    friend bool operator==(const FileError&, const FileError&) = default;
 };
 
 inline Error usage_error(std::string message) {

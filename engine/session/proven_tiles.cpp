@@ -76,7 +76,7 @@ std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) cons
 void ProvenTiles::contradict(const std::string& error) const {
     if (!is_wrong_.exchange(true)) {
         const std::lock_guard lock(mutex_);
-        error_ = {source_.file.string(), error};
+        error_ = {source_.file, error};
     }
 }
 
@@ -101,15 +101,13 @@ std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
     if (content.is_proven && tile.level >= level_of_samples_) {
         content.parts = found->parts;
     }
-    for (const io::FileError& error : found->errors) {
-        content.errors.push_back({error.file.string(), error.message});
-    }
+    content.errors = found->errors;
     content.heights =
         tile.level < level_of_samples_ ? part(tile, found->heights) : std::move(found->heights);
     return content;
 }
 
-std::optional<scene::TileContent::FileError> ProvenTiles::take_error() const {
+std::optional<FileError> ProvenTiles::take_error() const {
     const std::lock_guard lock(mutex_);
     return std::exchange(error_, std::nullopt);
 }

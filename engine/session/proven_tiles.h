@@ -30,7 +30,7 @@ public:
     /// Whether there was a contradiction.
     [[nodiscard]] bool is_wrong() const { return is_wrong_; }
     /// The contradiction, once.
-    [[nodiscard]] std::optional<scene::TileContent::FileError> take_error() const;
+    [[nodiscard]] std::optional<FileError> take_error() const;
 
 private:
     void contradict(const std::string& error) const;
@@ -43,7 +43,7 @@ private:
     int level_of_samples_;
     mutable std::atomic<bool> is_wrong_{false};
     mutable std::mutex mutex_;
-    mutable std::optional<scene::TileContent::FileError> error_;
+    mutable std::optional<FileError> error_;
 };
 
 } // namespace reljef::session

@@ -45,13 +45,6 @@ void return_freed_blocks() {
 #endif
 }
 
-void add_errors(std::vector<scene::TileContent::FileError>& errors,
-                std::span<const io::FileError> added) {
-    for (const io::FileError& error : added) {
-        errors.push_back({error.file.string(), error.message});
-    }
-}
-
 scene::TileContent content_of(const io::TileWindow& window) {
     scene::TileContent content;
     content.bytes_read = window.bytes_read;
@@ -59,7 +52,7 @@ scene::TileContent content_of(const io::TileWindow& window) {
     const auto heights = window.heights.samples();
     std::transform(heights.begin(), heights.end(), content.heights.samples().begin(),
                    [](double height) { return static_cast<float>(height); });
-    add_errors(content.errors, window.errors);
+    content.errors = window.errors;
     return content;
 }
 
@@ -139,7 +132,8 @@ private:
         io::wrap_picture(window.texels, maker_.rows(), maker_.first(tile).y,
                          cells.y * maker_.step(tile));
         content.picture = {std::move(window.texels), window.whole, window.has_more};
-        add_errors(content.picture_errors, window.errors);
+        content.picture_errors.insert(content.picture_errors.end(), window.errors.begin(),
+                                      window.errors.end());
     }
 
     io::TileSet tiles_;

@@ -114,7 +114,7 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
     if (!source) {
         return source.error();
     }
-    for (const io::FileError& error : source->tiles.errors()) {
+    for (const FileError& error : source->tiles.errors()) {
         log.message(MessageKind::left_out, error.message);
     }
     const auto plan = source->tiles.plan(source->plan_options);
@@ -144,7 +144,7 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
     if (!report) {
         return report.error();
     }
-    for (const io::FileError& error : report->errors) {
+    for (const FileError& error : report->errors) {
         log.message(MessageKind::left_out, error.message);
     }
     return IndexedTerrain{std::move(*report), {}, index->file, watch.seconds()};

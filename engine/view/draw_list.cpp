@@ -1,7 +1,6 @@
 #include "engine/view/draw_list.h"
 
 #include <cmath>
-#include <utility>
 
 #include <glm/trigonometric.hpp>
 
@@ -9,17 +8,14 @@ namespace reljef::view {
 
 Result<void> check_techniques(const DrawList& list) {
     Result<void> checked;
-    const scene::TerrainNode* last = nullptr;
-    const auto check_terrains = [&](const auto& draws) {
-        for (const auto& draw : draws) {
-            if (checked && std::exchange(last, draw.terrain) != draw.terrain) {
-                const scene::TerrainNode& node = *draw.terrain;
-                checked = scene::check_technique(node.material.technique, *node.surface);
+    for (const auto* const terrains : {&list.terrains, &list.reliefs}) {
+        for (const TerrainDraw& draw : *terrains) {
+            if (checked) {
+                checked = scene::check_technique(draw.terrain->material.technique,
+                                                 *draw.terrain->surface);
             }
         }
-    };
-    check_terrains(list.tiles);
-    check_terrains(list.reliefs);
+    }
     for (const MeshDraw& draw : list.meshes) {
         if (checked) {
             checked = scene::check_technique(draw.mesh->material.technique, *draw.mesh);

@@ -52,25 +52,20 @@ struct TileDraw {
     }
 };
 
-/// A terrain that is drawn as tiles.
-struct TerrainDraw {
-    glm::dmat4 world_from_local{1.0};
-    std::optional<Coarseness> coarseness; ///< empty: its tiles have a vertex at every sample
-};
-
-/// Maximum of ReliefDraw::tiles.
+/// Maximum of TerrainDraw::tiles.
 inline constexpr std::size_t max_relief_tiles = 2048;
 
-/// One terrain whose pixels search for the surface along their rays.
-struct ReliefDraw {
+/// A terrain: its tiles are in DrawList::tiles, or each pixel searches for its surface along a ray.
+struct TerrainDraw {
     const scene::TerrainNode* terrain = nullptr;
     glm::dmat4 world_from_local{1.0};
-    double distance = 0.0;
-    /// Loaded tiles of a stream, the coarsest first: the root, those that the view needs, and those
-    /// above them. Where they overlap, the finest is the surface, so that rays find ground beside
-    /// the picture, too. Empty: the samples of the terrain's surface.
-    std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
-    std::optional<RayCourse> course; ///< on the ellipsoid
+    double distance = 0.0;                     ///< of rays
+    std::optional<Coarseness> coarseness = {}; ///< of its tiles; empty: a vertex at every sample
+    /// For rays: loaded tiles of a stream, the coarsest first: the root, those that the view needs,
+    /// and those above them. Where they overlap, the finest is the surface, so that rays find
+    /// ground beside the picture, too. Empty: the samples of the terrain's surface.
+    std::vector<std::shared_ptr<const scene::TerrainTile>> tiles = {};
+    std::optional<RayCourse> course = {}; ///< of rays on the ellipsoid
 };
 
 struct MeshDraw {
@@ -85,9 +80,9 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<TerrainDraw> terrains;
-    std::vector<TileDraw> tiles;     ///< of `terrains`, front to back
-    std::vector<ReliefDraw> reliefs; ///< front to back
+    std::vector<TerrainDraw> terrains; ///< as tiles
+    std::vector<TileDraw> tiles;       ///< of `terrains`, front to back
+    std::vector<TerrainDraw> reliefs;  ///< by rays, front to back
     std::vector<MeshDraw> meshes;
     FrameStats stats; ///< of the selection
 

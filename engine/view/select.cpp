@@ -188,8 +188,9 @@ private:
 
     void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
-        ReliefDraw draw{
-            &terrain, world_from_local, glm::length(away_from(list_.camera.eye, bounds)), {}, {}};
+        TerrainDraw draw{.terrain = &terrain,
+                         .world_from_local = world_from_local,
+                         .distance = glm::length(away_from(list_.camera.eye, bounds))};
         bool is_seen = frustum_.may_see(bounds);
         std::optional<TileSelection> choice;
         if (has_streamed_tiles(terrain)) {
@@ -213,7 +214,7 @@ private:
         }
     }
 
-    void add_on_ellipsoid(ReliefDraw draw, std::optional<TileSelection> choice) {
+    void add_on_ellipsoid(TerrainDraw draw, std::optional<TileSelection> choice) {
         const scene::TerrainNode& terrain = *draw.terrain;
         const Box samples =
             choice && choice->has_root
@@ -272,7 +273,7 @@ private:
             add(hidden, true);
         }
         if (choice.has_root) {
-            list_.terrains.push_back({world_from_local, std::move(coarseness)});
+            add_entry(terrain, world_from_local, std::move(coarseness));
         }
         return choice.has_root;
     }
@@ -306,7 +307,14 @@ private:
             ++list_.stats.skipped.nodes_outside_frustum;
             return;
         }
-        list_.terrains.push_back({world_from_local, std::move(coarseness)});
+        add_entry(terrain, world_from_local, std::move(coarseness));
+    }
+
+    void add_entry(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local,
+                   std::optional<Coarseness> coarseness) {
+        list_.terrains.push_back({.terrain = &terrain,
+                                  .world_from_local = world_from_local,
+                                  .coarseness = std::move(coarseness)});
     }
 
     // A tile of the next terrain.

@@ -200,8 +200,8 @@ double tile_height(const scene::TileBuilder& builder, const scene::TerrainTile& 
                                     builder.lattice(tile.id).from_terrain(sample));
 }
 
-const scene::TerrainTile& finest_at(const scene::TileBuilder& builder, const view::ReliefDraw& draw,
-                                    glm::dvec2 sample) {
+const scene::TerrainTile& finest_at(const scene::TileBuilder& builder,
+                                    const view::TerrainDraw& draw, glm::dvec2 sample) {
     for (auto tile = draw.tiles.rbegin(); tile != draw.tiles.rend(); ++tile) {
         const terrain::TileLattice lattice = builder.lattice((*tile)->id);
         if (glm::all(glm::greaterThanEqual(sample, lattice.first - 1e-3)) &&
@@ -221,7 +221,7 @@ TEST_F(StreamedReliefGlTest, HitsLieOnTheFinestTileAndOnTheirRay) {
         for (const Pose pose : {Pose::overview, Pose::low, Pose::grazing}) {
             cut.look(pose);
             const view::FrameView frame = cut.selected();
-            const view::ReliefDraw& draw = frame.list.reliefs.at(0);
+            const view::TerrainDraw& draw = frame.list.reliefs.at(0);
             ASSERT_GT(draw.tiles.front()->id.level, draw.tiles.back()->id.level);
             const scene::TileBuilder& builder = draw.terrain->stream->maker();
             const HitBuffer hits = test::must(driver.draw_hits(frame)).hits;

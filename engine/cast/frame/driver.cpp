@@ -43,7 +43,7 @@ std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
 // The finest tiles of reliefs over streams as tiles, and the others, above them.
 StreamedList with_tiles_of_reliefs(view::DrawList list) {
     StreamedList made;
-    for (view::ReliefDraw& relief : list.reliefs) {
+    for (view::TerrainDraw& relief : list.reliefs) {
         std::set<terrain::TreeTile> above;
         for (const auto& tile : relief.tiles) {
             terrain::TreeTile id = tile->id;
@@ -63,10 +63,11 @@ StreamedList with_tiles_of_reliefs(view::DrawList list) {
             draw.tile = tile;
             draw.node = list.terrains.size();
         }
-        list.terrains.push_back({relief.world_from_local, {}});
+        list.terrains.push_back(
+            {.terrain = relief.terrain, .world_from_local = relief.world_from_local});
     }
     std::erase_if(list.reliefs,
-                  [](const view::ReliefDraw& relief) { return !relief.tiles.empty(); });
+                  [](const view::TerrainDraw& relief) { return !relief.tiles.empty(); });
     made.list = std::move(list);
     return made;
 }

@@ -50,7 +50,7 @@ void add_surface(SeenTerrain& seen) {
 
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
     std::vector<SeenTerrain> seen;
-    for (const view::ReliefDraw& draw : list.reliefs) {
+    for (const view::TerrainDraw& draw : list.reliefs) {
         SeenTerrain& terrain = found_or_added(seen, draw.terrain, draw.world_from_local);
         for (const auto& tile : draw.tiles) {
             add_tile(terrain, *tile);

@@ -13,13 +13,6 @@
 
 namespace reljef::io {
 
-/// A file that could not be read; the message names it.
-struct FileError {
-    std::filesystem::path file;
-    std::string message;
-    friend bool operator==(const FileError&, const FileError&) = default;
-};
-
 // Web tiles of heights encoded as colours: z/x/y.png with 256×256 pixels in web mercator
 // (EPSG:3857). Level z has 2^z tiles per side; x counts from the antimeridian, y from the north.
 // The name is the encoding and the location: "terrarium+FOLDER" or

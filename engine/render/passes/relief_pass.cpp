@@ -15,11 +15,11 @@
 namespace reljef::render {
 namespace {
 
-bool is_streamed(const view::ReliefDraw& draw) {
+bool is_streamed(const view::TerrainDraw& draw) {
     return !draw.tiles.empty();
 }
 
-std::uint32_t surface_features(const view::ReliefDraw& draw) {
+std::uint32_t surface_features(const view::TerrainDraw& draw) {
     return (is_streamed(draw) ? feature_streamed : 0U) | (draw.course ? feature_curved : 0U);
 }
 
@@ -31,7 +31,7 @@ struct DrawnSpace {
     double samples_a_cell = 1.0;
 };
 
-DrawnSpace space_of(const FrameContext& frame, const view::ReliefDraw& draw) {
+DrawnSpace space_of(const FrameContext& frame, const view::TerrainDraw& draw) {
     if (is_streamed(draw)) {
         const StreamedSpace& streamed = frame.residency.relief_tiles().tiles(draw).space;
         return {streamed.space, streamed.origin, streamed.origin_sample, streamed.samples_a_cell};
@@ -61,7 +61,7 @@ Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
     return with_heights(course.samples, course, space);
 }
 
-Box local_box(const view::ReliefDraw& draw, const ReliefSpace& space) {
+Box local_box(const view::TerrainDraw& draw, const ReliefSpace& space) {
     if (!draw.course) {
         return space.local_box;
     }
@@ -70,7 +70,7 @@ Box local_box(const view::ReliefDraw& draw, const ReliefSpace& space) {
                                   glm::dvec2(visible.high), {visible.low.z, visible.high.z});
 }
 
-ReliefBlock relief_block(const view::ReliefDraw& draw, const ReliefSpace& space) {
+ReliefBlock relief_block(const view::TerrainDraw& draw, const ReliefSpace& space) {
     const Box local = local_box(draw, space);
     return {.box_low = glm::vec4(glm::vec3(local.low), 0.0F),
             .box_high = glm::vec4(glm::vec3(local.high), 0.0F),
@@ -161,7 +161,7 @@ CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space
     return block;
 }
 
-void set_heights(gl::Program& program, const FrameContext& frame, const view::ReliefDraw& draw) {
+void set_heights(gl::Program& program, const FrameContext& frame, const view::TerrainDraw& draw) {
     if (is_streamed(draw)) {
         set_streamed_heights(program, frame.residency.relief_tiles().tiles(draw));
     } else {
@@ -169,7 +169,7 @@ void set_heights(gl::Program& program, const FrameContext& frame, const view::Re
     }
 }
 
-Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw) {
+Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw) {
     DrawState& state = frame.state;
     auto program = state.use({ShaderKind::beams, surface_features(draw)});
     if (!program) {
@@ -203,7 +203,7 @@ Result<void> draw_beams(const FrameContext& frame, const view::ReliefDraw& draw)
     return {};
 }
 
-void bind_light(gl::Program& program, const FrameContext& frame, const view::ReliefDraw& draw) {
+void bind_light(gl::Program& program, const FrameContext& frame, const view::TerrainDraw& draw) {
     if (is_streamed(draw)) {
         const ResidentReliefTiles& tiles = frame.residency.relief_tiles().tiles(draw);
         tiles.lit->bind(bindings::lit_map_unit);
@@ -231,7 +231,7 @@ void set_space(gl::Program& program, const scene::Camera& camera, const ReliefSp
 }
 
 // Texels of the lit map in a unit of the search space.
-glm::vec2 texels_in_space(const FrameContext& frame, const view::ReliefDraw& draw) {
+glm::vec2 texels_in_space(const FrameContext& frame, const view::TerrainDraw& draw) {
     if (is_streamed(draw)) {
         return glm::vec2(1.0F); // relief_light.glsl counts cells
     }
@@ -240,7 +240,7 @@ glm::vec2 texels_in_space(const FrameContext& frame, const view::ReliefDraw& dra
 }
 
 // Texels of the lit map per pixel at a distance of one metre.
-float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& draw,
+float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& draw,
                             const ReliefSpace& space) {
     const view::DrawList& list = frame.list;
     if (frame.hits || !is_perspective(list.camera)) {
@@ -253,7 +253,7 @@ float texels_per_metre_away(const FrameContext& frame, const view::ReliefDraw& d
 }
 
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
-                        const view::ReliefDraw& draw) {
+                        const view::TerrainDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
     const DrawnSpace drawn = space_of(frame, draw);
     const ReliefSpace& space = drawn.space;
@@ -279,7 +279,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     return frame.state.set(technique_block(technique, reference_height(technique)));
 }
 
-Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw) {
+Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
     DrawState& state = frame.state;
     frame.no_vertices.bind();
@@ -310,7 +310,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::ReliefDraw& draw
 } // namespace
 
 Result<void> draw_reliefs(const FrameContext& frame) {
-    for (const view::ReliefDraw& draw : frame.list.reliefs) {
+    for (const view::TerrainDraw& draw : frame.list.reliefs) {
         // The eye may be inside the box: draw its far sides.
         frame.state.set_culling(gl::Culling::front);
         if (auto drawn = draw_relief(frame, draw); !drawn) {

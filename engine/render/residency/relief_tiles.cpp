@@ -235,7 +235,7 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
 Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, TileMaps& lights,
                                   view::FrameStats& stats) {
     ++frame_;
-    for (const view::ReliefDraw& draw : list.reliefs) {
+    for (const view::TerrainDraw& draw : list.reliefs) {
         if (draw.tiles.empty()) {
             continue;
         }
@@ -250,7 +250,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, T
     return {};
 }
 
-Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::ReliefDraw& draw,
+Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::TerrainDraw& draw,
                                   bool with_light, TileMaps& lights, view::FrameStats& stats) {
     const std::shared_ptr<scene::TileStream>& source = draw.terrain->stream;
     const scene::Technique& technique = draw.terrain->material.technique;
@@ -274,7 +274,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Relief
 
 // A layer for each tile that is no finer than the pages.
 std::vector<ReliefTiles::Drawn> ReliefTiles::placed(Stream& stream,
-                                                    const view::ReliefDraw& draw) const {
+                                                    const view::TerrainDraw& draw) const {
     std::vector<Drawn> drawn;
     for (const Tile& tile : draw.tiles) {
         if (tile->id.level >= stream.resident.space.level) {
@@ -488,7 +488,7 @@ Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>
     return {};
 }
 
-const ResidentReliefTiles& ReliefTiles::tiles(const view::ReliefDraw& draw) const {
+const ResidentReliefTiles& ReliefTiles::tiles(const view::TerrainDraw& draw) const {
     return streams_.at(draw.terrain->stream.get()).resident;
 }
 

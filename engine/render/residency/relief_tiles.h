@@ -50,7 +50,7 @@ public:
                          view::FrameStats& stats);
 
     /// Precondition: a draw with tiles of the prepared list.
-    [[nodiscard]] const ResidentReliefTiles& tiles(const view::ReliefDraw& draw) const;
+    [[nodiscard]] const ResidentReliefTiles& tiles(const view::TerrainDraw& draw) const;
 
 private:
     using Tile = std::shared_ptr<const scene::TerrainTile>;
@@ -85,9 +85,9 @@ private:
         Slot* slot = nullptr;
     };
 
-    Result<void> prepare(const view::DrawList& list, const view::ReliefDraw& draw, bool with_light,
+    Result<void> prepare(const view::DrawList& list, const view::TerrainDraw& draw, bool with_light,
                          TileMaps& lights, view::FrameStats& stats);
-    [[nodiscard]] std::vector<Drawn> placed(Stream& stream, const view::ReliefDraw& draw) const;
+    [[nodiscard]] std::vector<Drawn> placed(Stream& stream, const view::TerrainDraw& draw) const;
     void place_new(Stream& stream) const;
     static Result<void> prepare_heights(Stream& stream, const std::vector<Drawn>& tiles,
                                         view::FrameStats& stats);

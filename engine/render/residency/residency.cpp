@@ -69,7 +69,7 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     }
     done = done ? prepare_warped(list, stats) : done;
     done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;
-    for (const view::ReliefDraw& draw : list.reliefs) {
+    for (const view::TerrainDraw& draw : list.reliefs) {
         done = done && draw.tiles.empty() ? prepare_relief(draw, stats) : done;
     }
     return done ? meshes_.prepare(list.meshes, list.camera, stats) : done;
@@ -116,7 +116,7 @@ Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::Frame
             return done;
         }
     }
-    for (const view::ReliefDraw& draw : list.reliefs) {
+    for (const view::TerrainDraw& draw : list.reliefs) {
         if (!draw.tiles.empty()) {
             continue;
         }
@@ -164,7 +164,7 @@ Residency::maps_for(const scene::TerrainNode& terrain,
     return entries.back().maps;
 }
 
-Result<void> Residency::prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats) {
+Result<void> Residency::prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const scene::Technique& technique = draw.terrain->material.technique;
     std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
@@ -219,7 +219,7 @@ const ResidentMaps& Residency::maps(const scene::TerrainNode& terrain) const {
     return *maps_.at(&terrain);
 }
 
-const ResidentRelief& Residency::relief(const view::ReliefDraw& draw) const {
+const ResidentRelief& Residency::relief(const view::TerrainDraw& draw) const {
     const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
     check(relief.has_value(), "a relief that was not prepared");
     return *relief;

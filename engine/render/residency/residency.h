@@ -49,7 +49,7 @@ public:
     [[nodiscard]] const TerrainMeshes& terrain_meshes() const { return terrain_meshes_; }
     [[nodiscard]] const TileMaps& tile_maps() const { return tile_maps_; }
     [[nodiscard]] const ResidentMaps& maps(const scene::TerrainNode& terrain) const;
-    [[nodiscard]] const ResidentRelief& relief(const view::ReliefDraw& draw) const;
+    [[nodiscard]] const ResidentRelief& relief(const view::TerrainDraw& draw) const;
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
     [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
@@ -75,7 +75,7 @@ private:
     Result<std::shared_ptr<const ResidentMaps>>
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              view::FrameStats& stats);
-    Result<void> prepare_relief(const view::ReliefDraw& draw, view::FrameStats& stats);
+    Result<void> prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats);
     Result<void> prepare_warped(const view::DrawList& list, view::FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;

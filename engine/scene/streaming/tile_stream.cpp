@@ -429,12 +429,11 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
 }
 
 // All tiles of a bad file wait together: it delays a flight once, not for each new tile.
-void TileStream::note_failure(terrain::TreeTile tile,
-                              std::span<const TileContent::FileError> errors) {
+void TileStream::note_failure(terrain::TreeTile tile, std::span<const FileError> errors) {
     ++stats_.failed;
     const auto now = Clock::now();
     TileFailure failure;
-    for (const TileContent::FileError& error : errors) {
+    for (const FileError& error : errors) {
         BackOff& file = file_failures_.try_emplace(error.file, options_.first_pause).first->second;
         file.fail(now);
         if (failure.files.empty() || failure.latest.again() < file.again()) {
@@ -450,7 +449,7 @@ void TileStream::note_failure(terrain::TreeTile tile,
 void TileStream::forget_failure(terrain::TreeTile tile) {
     const auto found = failures_.find(tile);
     if (found != failures_.end()) {
-        for (const std::string& file : found->second.files) {
+        for (const std::filesystem::path& file : found->second.files) {
             file_failures_.erase(file);
         }
         revision_ += found->second.latest.has_failed_for_good() ? 1U : 0U;
@@ -458,8 +457,8 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
     }
 }
 
-void TileStream::record_errors(std::span<const TileContent::FileError> errors) {
-    for (const TileContent::FileError& error : errors) {
+void TileStream::record_errors(std::span<const FileError> errors) {
+    for (const FileError& error : errors) {
         if (failed_files_.insert(error.file).second) {
             new_errors_.push_back(error.message);
         }

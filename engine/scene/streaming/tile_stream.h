@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "engine/core/back_off.h"
+#include "engine/core/result.h"
 #include "engine/scene/streaming/tile_builder.h"
 #include "engine/terrain/tree/tile_error.h"
 
@@ -28,10 +30,6 @@ namespace reljef::scene {
 struct TileContent {
     Grid<float> heights; ///< at its vertices and one step around them; NaN: void
     TilePicture picture;
-    struct FileError {
-        std::string file;
-        std::string message;
-    };
     std::vector<FileError> errors;         ///< one per file
     std::vector<FileError> picture_errors; ///< also of heights that the overview replaces
     bool of_overview = false;              ///< the heights are TileBuilder::overview_heights
@@ -151,7 +149,7 @@ private:
     };
     struct TileFailure {
         BackOff latest; // the longest pause of its files
-        std::vector<std::string> files;
+        std::vector<std::filesystem::path> files;
     };
     void work(const std::stop_token& stop);
     void load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock);
@@ -163,9 +161,9 @@ private:
     [[nodiscard]] bool lacks_cones(terrain::TreeTile tile) const;
     static Made better_of(const Made& before, Made now, bool has_whole_picture);
     void finish(terrain::TreeTile tile, const TileContent& content, Made made, bool stopped);
-    void note_failure(terrain::TreeTile tile, std::span<const TileContent::FileError> errors);
+    void note_failure(terrain::TreeTile tile, std::span<const FileError> errors);
     void forget_failure(terrain::TreeTile tile);
-    void record_errors(std::span<const TileContent::FileError> errors);
+    void record_errors(std::span<const FileError> errors);
     void keep(terrain::TreeTile tile, Made made);
     void drop_proofs();
     [[nodiscard]] std::vector<terrain::TreeTile>
@@ -187,8 +185,8 @@ private:
     std::vector<terrain::TreeTile> requested_;                    // the most urgent first
     std::map<terrain::TreeTile, std::stop_source> in_flight_;
     std::map<terrain::TreeTile, TileFailure> failures_;
-    std::map<std::string, BackOff> file_failures_; // shared by all tiles of a file
-    std::set<std::string> failed_files_;
+    std::map<std::filesystem::path, BackOff> file_failures_; // shared by all tiles of a file
+    std::set<std::filesystem::path> failed_files_;
     std::vector<std::string> new_errors_;
     std::vector<std::string> new_notes_;
     bool has_proofs_ = false;

@@ -448,7 +448,7 @@ TEST_F(TerrainMeshesGlTest, ATileOfDetailLiesOnThemAsOnAnyTiles) {
     EXPECT_GT(pixels_off(detailed, picture(world.scene, *world.terrain, false), 8), 20000);
 }
 
-TEST_F(TerrainMeshesGlTest, TextureAndReliefDrawTiles) {
+TEST_F(TerrainMeshesGlTest, TextureAndTerrainDrawTiles) {
     StreamedWorld world;
     auto& material = world.terrain->get<scene::TerrainNode>()->material;
     session::SceneRenderer made = driver();
