@@ -113,6 +113,10 @@ TEST(Project, CrowdsNoFolder) {
     EXPECT_THAT(crowded_folders(files), IsEmpty());
 }
 
+TEST(Project, HasNoLongFile) {
+    EXPECT_THAT(complaints_about(all_code(), long_file), IsEmpty());
+}
+
 TEST(Project, NamesNoPlaceOnOneMachine) {
     std::vector<SourceFile> files =
         files_below({"engine", "app", "bench", "terrains", "tests", "shaders", "cmake", ".ci"});

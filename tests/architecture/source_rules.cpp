@@ -327,4 +327,11 @@ Complaints crowded_folders(std::span<const SourceFile> files) {
     return complaints;
 }
 
+Complaints long_file(const SourceFile& file) {
+    const auto lines = std::count(file.text.begin(), file.text.end(), '\n');
+    return lines <= max_lines ? Complaints()
+                              : Complaints{fmt::format("{} has {} lines, at most {} were expected",
+                                                       file.path, lines, max_lines)};
+}
+
 } // namespace reljef::test

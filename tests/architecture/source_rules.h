@@ -73,4 +73,8 @@ Complaints private_headers_in_public_ones(std::span<const SourceFile> files);
 inline constexpr std::size_t max_concepts = 16;
 Complaints crowded_folders(std::span<const SourceFile> files);
 
+/// Lines of a file of code at most.
+inline constexpr std::ptrdiff_t max_lines = 500;
+Complaints long_file(const SourceFile& file);
+
 } // namespace reljef::test

@@ -369,5 +369,12 @@ TEST(CrowdedFolders, AreThoseOfTooManyConcepts) {
     EXPECT_THAT(crowded_folders(files), SizeIs(1));
 }
 
+TEST(LongFiles, AreThoseOfMoreThanFiveHundredLines) {
+    const std::string lines(static_cast<std::size_t>(max_lines), '\n');
+    EXPECT_THAT(long_file({"a.cpp", lines}), IsEmpty());
+    EXPECT_THAT(long_file({"a.cpp", lines + '\n'}),
+                ElementsAre("a.cpp has 501 lines, at most 500 were expected"));
+}
+
 } // namespace
 } // namespace reljef::test

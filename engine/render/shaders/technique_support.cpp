@@ -128,8 +128,8 @@ nearest_technique(scene::TechniqueId id, const DrawnSurface& surface, const gl::
 }
 
 Result<void> check_support(const view::DrawList& list, const gl::Limits& limits) {
-    const auto check_terrains = [&](const auto& draws) -> Result<void> {
-        for (const auto& draw : draws) {
+    const auto check_terrains = [&](const std::vector<view::TerrainDraw>& draws) -> Result<void> {
+        for (const view::TerrainDraw& draw : draws) {
             const scene::TerrainNode& terrain = *draw.terrain;
             if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
                 !good) {
@@ -138,7 +138,7 @@ Result<void> check_support(const view::DrawList& list, const gl::Limits& limits)
         }
         return {};
     };
-    auto good = check_terrains(list.tiles);
+    auto good = check_terrains(list.terrains);
     good = good ? check_terrains(list.reliefs) : good;
     for (const view::MeshDraw& draw : list.meshes) {
         const scene::Material& material = draw.mesh->material;

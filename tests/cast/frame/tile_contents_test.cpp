@@ -95,7 +95,7 @@ public:
         bounded.error = 1.0;
         node_.material.technique = scene::Technique{bounded};
         list_.size = view_size;
-        list_.terrains = {{}};
+        list_.terrains = {{.terrain = &node_}};
         add(tree.root(), chance);
         std::shuffle(list_.tiles.begin(), list_.tiles.end(),
                      std::mt19937(static_cast<unsigned>(chance.whole(0, 999))));
