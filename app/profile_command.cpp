@@ -59,7 +59,7 @@ Result<void> print_profile(const ProfileChoice& choice, const cli::Interrupt& in
     if (!profile) {
         return profile.error();
     }
-    for (const io::FileError& error : profile->errors) {
+    for (const FileError& error : profile->errors) {
         log.message(session::MessageKind::left_out, error.message);
     }
     const std::string csv = session::profile_csv(*profile);

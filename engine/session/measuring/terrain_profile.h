@@ -23,7 +23,7 @@ struct ProfileRequest {
 struct TerrainProfile {
     std::vector<glm::dvec2> places; ///< latitude and longitude, degrees
     std::vector<terrain::ProfilePoint> points;
-    std::vector<io::FileError> errors; ///< of files that could not be read
+    std::vector<FileError> errors; ///< of files that could not be read
 };
 
 /// Reads the profile from the source files, whatever the size of the terrain. Fails if no place of
