@@ -5,7 +5,7 @@
 namespace reljef::io {
 namespace {
 
-std::string error_of(std::string_view text) {
+std::string ramp_error(std::string_view text) {
     const auto ramp = parse_ramp(text, "a.txt");
     return ramp ? "" : ramp.error().message;
 }
@@ -30,15 +30,15 @@ TEST(RampFile, ReadsWhatGdaldemReads) {
 }
 
 TEST(RampFile, NamesTheFileAndTheLineOfAMistake) {
-    EXPECT_EQ(error_of("0 1 2 3\n\n100 1 2\n"),
+    EXPECT_EQ(ramp_error("0 1 2 3\n\n100 1 2\n"),
               "a.txt, line 3: '100 1 2' found, a height and a colour (red, green and blue from 0 "
               "to 255, or a name) was expected");
-    EXPECT_NE(error_of("high 1 2 3").find("line 1: 'high 1 2 3'"), std::string::npos);
-    EXPECT_NE(error_of("0 1 2 300").find("line 1"), std::string::npos);
-    EXPECT_NE(error_of("120% 1 2 3").find("0% to 100%"), std::string::npos);
-    EXPECT_NE(error_of("0 puce").find("line 1"), std::string::npos);
-    EXPECT_NE(error_of("nan 1 2 3").find("line 1"), std::string::npos);
-    EXPECT_NE(error_of("# nothing\n").find("at least one was expected"), std::string::npos);
+    EXPECT_NE(ramp_error("high 1 2 3").find("line 1: 'high 1 2 3'"), std::string::npos);
+    EXPECT_NE(ramp_error("0 1 2 300").find("line 1"), std::string::npos);
+    EXPECT_NE(ramp_error("120% 1 2 3").find("0% to 100%"), std::string::npos);
+    EXPECT_NE(ramp_error("0 puce").find("line 1"), std::string::npos);
+    EXPECT_NE(ramp_error("nan 1 2 3").find("line 1"), std::string::npos);
+    EXPECT_NE(ramp_error("# nothing\n").find("at least one was expected"), std::string::npos);
     EXPECT_FALSE(read_ramp_file("/nowhere/a.txt"));
     EXPECT_FALSE(read_ramp_file("/"));
 }
