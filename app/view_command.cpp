@@ -27,7 +27,29 @@ struct ViewerChoice {
     cli::TerrainChoice terrain;
     cli::ViewChoice view;
     bool frames_given = false;
+    bool hides_panels = false;
+    std::string named_terrain; ///< as on the command line
 };
+
+StartOptions start_options(const ViewerChoice& choice) {
+    StartOptions start{choice.terrain, choice.view, choice.view.context, choice.view.simd,
+                       choice.view.allow_underground};
+    start.source.terrain = choice.named_terrain;
+    return start;
+}
+
+Result<Panels> make_panels(const ViewerChoice& choice, platform::Window& window) {
+    auto interface = Interface::create(
+        {.scale = window.content_scale(),
+         .clipboard = [&window] { return window.clipboard(); },
+         .set_clipboard = [&window](const std::string& text) { window.set_clipboard(text); }});
+    if (!interface) {
+        return interface.error();
+    }
+    Panels panels(std::move(*interface));
+    panels.set_visible(!choice.hides_panels);
+    return panels;
+}
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
     session::limit_software_threads(choice.terrain.threads);
@@ -58,7 +80,7 @@ Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
 }
 
 Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, OpenedScene& opened,
-                 const ViewerChoice& choice, session::Log& log, const cli::Interrupt& interrupt) {
+                 const ViewerChoice& choice, MessageHistory& log, const cli::Interrupt& interrupt) {
     session::TerrainScene& scene = opened.scene;
     auto path =
         session::open_path(scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
@@ -85,10 +107,18 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
     }
+    auto panels = make_panels(choice, window);
+    if (!panels) {
+        log.note(panels.error().message);
+    } else if (!panels->note().empty()) {
+        log.note(panels->note());
+    }
     return run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
                            {.frames = choice.frames_given ? choice.view.frames : 0,
-                            .keeps_quality = choice.view.samples.has_value(),
-                            .open_video = open_video});
+                            .samples = choice.view.samples,
+                            .open_video = open_video,
+                            .start = start_options(choice),
+                            .panels = panels ? &*panels : nullptr});
 }
 
 // Without a GPU, rays draw what they can; OpenGL draws all else in the same window.
@@ -134,7 +164,8 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     if (!renderer) {
         return renderer.error();
     }
-    cli::ConsoleLog log(choice.terrain.quiet);
+    cli::ConsoleLog console(choice.terrain.quiet);
+    MessageHistory log(console);
     session::SceneOptions options = choice.view;
     options.rays = rays;
     auto opened = open_in_window(**window, choice.terrain, options, renderer->max_texture_side(),
@@ -154,6 +185,8 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_view_options(*arguments, choice->view);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
+    arguments->add_flag("--no-panels", choice->hides_panels,
+                        "hide the panels until Tab shows them");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         const auto context = choice->view.context;
@@ -177,6 +210,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef view urban --technique texture --size 1600x900");
     return {arguments, [arguments, choice, &interrupt] {
                 choice->frames_given = arguments->count("--frames") > 0;
+                choice->named_terrain = choice->terrain.terrain;
                 return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
                                                 [&] { return view(*choice, interrupt); });
             }};

@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME reljef)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
-  "libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg, reljef-doc")
+  "fonts-open-sans | fonts-dejavu-core, libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg, reljef-doc")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libreljef-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/viewer/panels/panel_text.h"
 #include "engine/geo/place.h"
 #include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/motion/poses.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double seconds_across = 20.0;   // duration of a flight across the terrain
 constexpr double first_step = 1.0 / 60.0; // longest step after rest, seconds
-constexpr int coarse_levels = 5;          // until the maps of a technique are ready
 constexpr double min_duration = 1e-9;     // of a path, seconds
 constexpr double min_lift = 1e-3;         // metres; less is rounding
 constexpr double heading_length = 100.0;  // metres ahead that define the heading
@@ -101,28 +101,6 @@ scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 s
     return camera;
 }
 
-std::vector<scene::Technique> techniques_with(const scene::Technique& requested,
-                                              const session::TerrainScene& scene) {
-    std::vector<scene::Technique> techniques;
-    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
-        if (!scene.check(scene::make_technique(info.id))) {
-            continue;
-        }
-        const bool is_polygons = info.id == scene::TechniqueId::polygons;
-        techniques.push_back(info.id == requested.id() ? requested
-                             : is_polygons             ? session::technique_of({})
-                                                       : scene::make_technique(info.id));
-    }
-    return techniques;
-}
-
-std::string length_text(double metres) {
-    return metres < 0.1       ? fmt::format("{:.2g} mm", 1000.0 * metres)
-           : metres < 10.0    ? fmt::format("{:.2f} m", metres)
-           : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
-                              : fmt::format("{:.1f} km", metres / 1000.0);
-}
-
 std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Camera& camera) {
     if (!surface.heightfield().georeference) {
         return {};
@@ -139,17 +117,6 @@ std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Ca
 
 } // namespace
 
-scene::Technique first_technique(const session::TerrainScene& scene) {
-    const std::vector<scene::Material*> materials = scene.materials();
-    const scene::Technique own = materials.front()->technique;
-    const bool is_one =
-        std::all_of(materials.begin(), materials.end(),
-                    [&](const scene::Material* material) { return material->technique == own; });
-    return is_one && !session::missing_maps(scene).empty()
-               ? scene::Technique{scene::Polygons{.max_levels = coarse_levels}}
-               : own;
-}
-
 struct Viewer::Binding {
     Key key;
     Key other; // alternative; unknown: none
@@ -159,13 +126,19 @@ struct Viewer::Binding {
 };
 
 std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 22> all{
+    static constexpr std::array<Binding, 27> all{
         {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
          {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
           "keep the height above the ground, or fly where you look"},
          {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
          {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
           "next technique, or the technique of that number"},
+         {Key::right_bracket, Key::unknown, &Viewer::raise_parameter, "]",
+          "raise the technique's parameter that is highlighted"},
+         {Key::left_bracket, Key::unknown, &Viewer::lower_parameter, "[", "lower it"},
+         {Key::period, Key::unknown, &Viewer::next_parameter, ".", "highlight the next parameter"},
+         {Key::comma, Key::unknown, &Viewer::last_parameter, ",",
+          "highlight the parameter before it"},
          {Key::l, Key::unknown, &Viewer::turn_light, "L", "turn the light by 15 degrees"},
          {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
           "only the edges of triangles, or filled triangles"},
@@ -193,21 +166,33 @@ std::span<const Viewer::Binding> Viewer::bindings() {
           "render the path to a video; Esc cancels it"},
          {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
           "save the picture here as reljef-0001.png, reljef-0002.png, ..."},
-         {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show these lines"},
+         {Key::z, Key::unknown, &Viewer::ask_for_command, "Z",
+          "copy the command that renders this view"},
+         {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show the keys, or hide them"},
          {Key::escape, Key::unknown, &Viewer::leave, "Esc", "release the mouse, or quit"}}};
     return all;
 }
 
-std::string Viewer::keys() {
-    std::string text = "  wheel            closer to the ground under the pointer, or farther\n"
-                       "  left drag        orbit around the ground under the pointer\n"
-                       "  right drag       pan; the map: every button (Q E: closer, farther)\n"
-                       "  middle drag      turn in place; so does a left drag from the sky\n"
-                       "  double click     fly there\n"
-                       "  W A S D, arrows  move (shift: faster; Ctrl and wheel: speed)\n"
-                       "  Q E              down, up; never under the ground\n";
+std::vector<KeyContent> Viewer::key_list() {
+    std::vector<KeyContent> list{
+        {"wheel", "closer to the ground under the pointer, or farther"},
+        {"left drag", "orbit around the ground under the pointer"},
+        {"right drag", "pan; the map: every button (Q E: closer, farther)"},
+        {"middle drag", "turn in place; so does a left drag from the sky"},
+        {"double click", "fly there"},
+        {"W A S D, arrows", "move (shift: faster; Ctrl and wheel: speed)"},
+        {"Q E", "down, up; never under the ground"}};
     for (const Binding& binding : bindings()) {
-        text += fmt::format("  {:<15}  {}\n", binding.names, binding.meaning);
+        list.push_back({binding.names, binding.meaning});
+    }
+    list.push_back({"Tab", "hide the panels, or show them"});
+    return list;
+}
+
+std::string Viewer::keys() {
+    std::string text;
+    for (const KeyContent& key : key_list()) {
+        text += fmt::format("  {:<15}  {}\n", key.names, key.meaning);
     }
     return text;
 }
@@ -215,12 +200,16 @@ std::string Viewer::keys() {
 Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
                const ViewerOptions& options)
     : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
-      techniques_(techniques_with(material().technique, scene)), switch_(scene, options.maps),
+      switch_(scene, options.maps), techniques_(scene, switch_, material().technique),
+      exaggeration_(scene, options.maps.threads, options.maps.largest_side),
       flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)),
       measuring_(*scene.terrain->get<scene::TerrainNode>()), terrain_(options.terrain) {
     if (options.bookmarks) {
         bookmarks_.emplace(*options.bookmarks);
+    }
+    for (const scene::Material* const shown : scene_.materials()) {
+        start_techniques_.push_back(shown->technique);
     }
     const scene::Technique technique = material().technique;
     if (const scene::Technique first = first_technique(scene); first != technique) {
@@ -339,6 +328,13 @@ void Viewer::advance(double seconds) {
     rested_ = !is_moving();
     redraw_ = switch_.update() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
+    if (exaggeration_.update(switch_.technique(), switch_.light())) {
+        show_camera(camera());
+        if (!map_) { // the ground may have risen above it
+            flight_.set_camera(camera());
+            show_camera(flight_.camera());
+        }
+    }
     before_ = camera();
     last_step_ = step;
     if (playing_) {
@@ -377,6 +373,7 @@ void Viewer::advance_path(double seconds) {
 void Viewer::relay_to(session::Log& log) {
     notes_.relay_to(log);
     switch_.relay_to(log);
+    exaggeration_.relay_to(log);
     if (proofs_) {
         proofs_->relay_to(log);
     }
@@ -384,6 +381,7 @@ void Viewer::relay_to(session::Log& log) {
 
 std::shared_ptr<const view::PreparedLight> Viewer::take_light() {
     auto light = switch_.take_light();
+    light = light == nullptr ? exaggeration_.take_light() : light;
     return light == nullptr && proofs_ ? proofs_->take_light() : light;
 }
 
@@ -453,22 +451,6 @@ void Viewer::toggle_mouse_look() {
     flight_.set_mouse_look(mouse_look_);
 }
 
-void Viewer::next_technique() {
-    const auto found =
-        std::find_if(techniques_.begin(), techniques_.end(), [&](const auto& technique) {
-            return technique.id() == switch_.technique().id();
-        });
-    const auto index = static_cast<std::size_t>(found - techniques_.begin());
-    choose_technique((index + 1) % techniques_.size());
-}
-
-void Viewer::choose_technique(std::size_t index) {
-    if (index < techniques_.size() && techniques_[index] != switch_.technique()) {
-        switch_.request(techniques_[index]);
-        redraw_ = redraw_ || !switch_.is_preparing();
-    }
-}
-
 void Viewer::leave() {
     if (mouse_look_) {
         toggle_mouse_look();
@@ -495,15 +477,23 @@ std::string error_text(const view::FrameStats& stats, const scene::Technique& te
 
 } // namespace
 
+std::optional<double> Viewer::heading() const {
+    const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
+    if (surface.heightfield().georeference) {
+        return heading_at(surface.placement(), camera());
+    }
+    const scene::ViewAxes axes = scene::view_axes(camera());
+    const glm::dvec3 ahead =
+        std::abs(axes.forward.z) > std::abs(axes.up.z) ? axes.up : axes.forward;
+    return std::fmod(glm::degrees(std::atan2(ahead.x, ahead.y)) + 360.0, 360.0);
+}
+
 std::string Viewer::title(const view::FrameStats& stats, const FrameTiming& timing) const {
     const auto& surface = *scene_.terrain->get<scene::TerrainNode>()->surface;
     const std::string rate = timing.frames_per_second
                                  ? fmt::format("{:.1f} fps", *timing.frames_per_second)
                                  : std::string("still");
-    auto preparing = proofs_ && !switch_.is_preparing() ? proofs_->progress() : switch_.progress();
-    if (preparing.label.empty()) {
-        preparing = measuring_.progress();
-    }
+    const auto preparing = progress();
     const std::string progress =
         preparing.label.empty()
             ? std::string()

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,12 +10,16 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/viewer/appearance_switch.h"
+#include "app/viewer/appearance/appearance_switch.h"
+#include "app/viewer/appearance/exaggeration_switch.h"
+#include "app/viewer/appearance/proof_switch.h"
+#include "app/viewer/appearance/technique_editor.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/measuring.h"
 #include "app/viewer/navigation.h"
+#include "app/viewer/panels/panel_action.h"
+#include "app/viewer/panels/panel_content.h"
 #include "app/viewer/path_desk.h"
-#include "app/viewer/proof_switch.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/camera_path.h"
@@ -40,10 +45,6 @@ struct ViewerOptions {
         bookmarks; ///< their file; absent: there is no place for it
 };
 
-/// The technique until the scene's maps are ready: levels by distance, which need no maps. The
-/// scene's own technique if no maps are missing.
-scene::Technique first_technique(const session::TerrainScene& scene);
-
 /// The viewer's logic without a window. It receives events and moves the scene's camera.
 class Viewer {
 public:
@@ -52,6 +53,9 @@ public:
     Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
            const ViewerOptions& options = {});
 
+    /// The keys and what they do.
+    static std::vector<KeyContent> key_list();
+    /// The same as lines of text.
     static std::string keys();
 
     void receive(const Event& event);
@@ -99,6 +103,29 @@ public:
     [[nodiscard]] bool is_moving() const;
 
     bool take_video_request() { return std::exchange(video_, false); }
+    /// Fails if the technique cannot draw what it is chosen for.
+    Result<void> request(const ChooseTechnique& choice);
+    void set_sun(const SetSun& sun);
+    /// See ExaggerationSwitch::request(). The eye stays unless the ground rises above it.
+    void set_exaggeration(double factor) { exaggeration_.request(factor); }
+    [[nodiscard]] TechniqueEditor& techniques() { return techniques_; }
+    [[nodiscard]] const TechniqueEditor& techniques() const { return techniques_; }
+    [[nodiscard]] const scene::Technique& technique() const { return switch_.technique(); }
+    [[nodiscard]] const scene::Light& light() const { return switch_.light(); }
+    [[nodiscard]] double exaggeration() const { return exaggeration_.factor(); }
+    [[nodiscard]] std::string exaggeration_obstacle() const { return exaggeration_.obstacle(); }
+    /// Whether the models have the techniques with which the scene was opened.
+    [[nodiscard]] bool keeps_techniques() const;
+    /// The ground that a pixel shows, world metres; empty over the sky and in the gallery.
+    [[nodiscard]] std::optional<glm::dvec3> ground_at_pixel(glm::dvec2 pixel) const;
+    /// Degrees clockwise from north, [0, 360); empty outside the map's domain.
+    [[nodiscard]] std::optional<double> heading() const;
+    [[nodiscard]] double speed() const { return flight_.speed(); } ///< metres a second
+    [[nodiscard]] bool follows_ground() const { return flight_.follows_ground(); }
+    /// Of background work; its label is empty if there is none.
+    [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
+
+    bool take_command_request() { return std::exchange(command_, false); }
     bool take_screenshot_request() { return std::exchange(screenshot_, false); }
     bool take_help_request() { return std::exchange(help_, false); }
     /// Text for the clipboard since the last call.
@@ -112,7 +139,9 @@ public:
     [[nodiscard]] double path_lifted() const { return path_lifted_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
     // As in AppearanceSwitch.
-    [[nodiscard]] bool is_preparing() const { return switch_.is_preparing(); }
+    [[nodiscard]] bool is_preparing() const {
+        return switch_.is_preparing() || exaggeration_.is_preparing();
+    }
     void relay_to(session::Log& log);
     bool undo_technique();
     std::shared_ptr<const view::PreparedLight> take_light();
@@ -147,6 +176,14 @@ private:
     void toggle_follow_ground() { flight_.set_follow_ground(!flight_.follows_ground()); }
     void next_technique();
     void choose_technique(std::size_t index);
+    void step_parameter(int steps);
+    void change_technique(const std::function<void()>& change);
+    void select_parameter(int steps);
+    void raise_parameter() { step_parameter(1); }
+    void lower_parameter() { step_parameter(-1); }
+    void next_parameter() { select_parameter(1); }
+    void last_parameter() { select_parameter(-1); }
+    void ask_for_command() { command_ = true; }
     void ask_for_screenshot() { screenshot_ = true; }
     void ask_for_help() { help_ = true; }
     void leave();
@@ -161,8 +198,10 @@ private:
     PathDesk desk_;
     glm::ivec2 size_;
     scene::Camera start_;
-    std::vector<scene::Technique> techniques_; // in the catalogue's order
+    std::vector<scene::Technique> start_techniques_; // of the materials
     AppearanceSwitch switch_;
+    TechniqueEditor techniques_; // uses the switch
+    ExaggerationSwitch exaggeration_;
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     Navigation navigation_;
@@ -184,6 +223,7 @@ private:
     bool redraw_ = true;
     bool screenshot_ = false;
     bool video_ = false;
+    bool command_ = false;
     bool help_ = false;
     bool close_ = false;
 };

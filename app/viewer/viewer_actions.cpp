@@ -1,4 +1,7 @@
 // What the viewer's keys and panels do beside steering.
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "app/viewer/camera_text.h"
@@ -175,6 +178,65 @@ Result<void> Viewer::save_path() {
         output_ += fmt::format("saved {}\n", written.filename().string());
     }
     return {};
+}
+
+void Viewer::next_technique() {
+    change_technique([&] { techniques_.next(); });
+}
+
+void Viewer::choose_technique(std::size_t index) {
+    change_technique([&] { techniques_.choose(index); });
+}
+
+void Viewer::step_parameter(int steps) {
+    change_technique([&] { techniques_.step_parameter(steps); });
+}
+
+void Viewer::change_technique(const std::function<void()>& change) {
+    const scene::Technique before = switch_.technique();
+    change();
+    redraw_ = redraw_ || (before != switch_.technique() && !switch_.is_preparing());
+}
+
+void Viewer::select_parameter(int steps) {
+    techniques_.select_next_parameter(steps);
+    redraw_ = true; // the panels show it
+}
+
+Result<void> Viewer::request(const ChooseTechnique& choice) {
+    auto requested = techniques_.request(choice.technique);
+    redraw_ = redraw_ || !switch_.is_preparing();
+    return requested;
+}
+
+void Viewer::set_sun(const SetSun& sun) {
+    scene::Light light = switch_.light();
+    light.azimuth = sun.azimuth;
+    light.altitude = sun.altitude;
+    switch_.follow(light);
+    redraw_ = redraw_ || !switch_.is_preparing();
+}
+
+session::RelayedLog::TaskProgress Viewer::progress() const {
+    if (switch_.is_preparing()) {
+        return switch_.progress();
+    }
+    auto preparing =
+        exaggeration_.is_preparing() || !proofs_ ? exaggeration_.progress() : proofs_->progress();
+    return preparing.label.empty() ? measuring_.progress() : preparing;
+}
+
+bool Viewer::keeps_techniques() const {
+    const std::vector<scene::Material*> materials = scene_.materials();
+    return std::equal(materials.begin(), materials.end(), start_techniques_.begin(),
+                      start_techniques_.end(),
+                      [](const scene::Material* material, const scene::Technique& technique) {
+                          return material->technique == technique;
+                      });
+}
+
+std::optional<glm::dvec3> Viewer::ground_at_pixel(glm::dvec2 pixel) const {
+    return scene_.models.empty() ? navigation_.ground_at(camera(), pixel) : std::nullopt;
 }
 
 } // namespace reljef::app

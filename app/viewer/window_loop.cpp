@@ -7,10 +7,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "app/viewer/message_history.h"
 #include "app/viewer/motion_quality.h"
+#include "app/viewer/viewer_content.h"
 #include "engine/core/stopwatch.h"
 #include "engine/io/image/image.h"
 #include "engine/session/streaming.h"
@@ -19,6 +22,8 @@ namespace reljef::app {
 namespace {
 
 constexpr double seconds_between_titles = 0.5;
+constexpr double seconds_between_panels = 0.1; // at rest, while messages or progress change
+constexpr std::size_t plotted_frames = 96;
 // Longest waits for an event.
 constexpr std::chrono::milliseconds no_wait{0};
 constexpr std::chrono::milliseconds still{100};          // nothing moves
@@ -28,10 +33,10 @@ constexpr std::chrono::milliseconds stuck{10};           // moves without a visi
 class WindowLoop {
 public:
     WindowLoop(platform::Window& window, session::SceneRenderer& renderer,
-               session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+               session::TerrainScene& scene, Viewer& viewer, MessageHistory& log,
                const WindowLoopOptions& options)
-        : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), log_(log),
-          options_(options) {}
+        : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), messages_(log),
+          options_(options), samples_(options.samples), panels_(options.panels) {}
 
     Result<void> run(const std::stop_token& stop) {
         Stopwatch step;
@@ -44,17 +49,20 @@ public:
             }
             viewer_.advance(step.restart());
             has_drawn_ = false;
+            act();
             const bool has_new_tiles = session::take_arrivals(scene_.scene);
             if (viewer_.take_redraw() || options_.frames > 0 || has_new_tiles || is_to_sharpen()) {
                 if (auto drawn = draw(); !drawn) {
                     if (!viewer_.undo_technique()) {
                         return drawn;
                     }
-                    log_.note(drawn.error().message);
+                    messages_.note(drawn.error().message);
                 }
+            } else if (auto shown = refresh_panels(); !shown) {
+                return shown;
             }
-            session::log_stream_errors(scene_.scene, log_);
-            viewer_.relay_to(log_);
+            session::log_stream_errors(scene_.scene, messages_);
+            viewer_.relay_to(messages_);
             log_raised_path();
             serve_requests();
             show_title();
@@ -70,11 +78,11 @@ private:
 
     // Whether a view at rest was drawn with reduced quality.
     [[nodiscard]] bool is_to_sharpen() const {
-        return quality_.is_reduced() && !viewer_.is_moving();
+        return resamples_ || (quality_.is_reduced() && !viewer_.is_moving());
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
-        if (drawn_ == 0 || video_) {
+        if (drawn_ == 0 || video_ || (panels_ != nullptr && panels_->is_stale())) {
             return no_wait;
         }
         if (viewer_.is_preparing() && !viewer_.is_moving()) {
@@ -104,7 +112,10 @@ private:
                 receive_while_filming(event);
                 continue;
             }
-            if (!scene_.scene.dispatch(event)) {
+            if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
+                pointer_ = move->position;
+            }
+            if (!is_for_panels(event) && !scene_.scene.dispatch(event)) {
                 viewer_.receive(event);
             }
         }
@@ -130,12 +141,12 @@ private:
         auto video = PathVideo::begin(viewer_.path_desk().path(), file, window_.framebuffer_size(),
                                       options_.open_video);
         if (!video) {
-            log_.note(video.error().message);
+            messages_.note(video.error().message);
             return;
         }
         video_.emplace(std::move(*video));
         before_video_ = *scene_.camera->get<scene::Camera>();
-        video_task_ = log_.start("video " + file.filename().string());
+        video_task_ = messages_.start("video " + file.filename().string());
     }
 
     void end_video(const std::string& note) {
@@ -144,7 +155,7 @@ private:
         *scene_.camera->get<scene::Camera>() = before_video_;
         viewer_.fly_to(before_video_);
         if (!note.empty()) {
-            log_.note(note);
+            messages_.note(note);
         }
     }
 
@@ -187,16 +198,128 @@ private:
         return video_->write(renderer_.read_color());
     }
 
+    // A captured mouse has no place on the window.
+    bool is_for_panels(const Event& event) {
+        const bool is_mouse = std::holds_alternative<MouseMoveEvent>(event) ||
+                              std::holds_alternative<MouseButtonEvent>(event) ||
+                              std::holds_alternative<ScrollEvent>(event);
+        return panels_ != nullptr && !(is_mouse && mouse_captured_) && panels_->receive(event);
+    }
+
+    [[nodiscard]] bool shows_panels() const { return panels_ != nullptr && panels_->is_visible(); }
+
+    [[nodiscard]] std::optional<PlaceContent> place_under_pointer(glm::ivec2 size) const {
+        const bool is_outside =
+            pointer_.x < 0.0 || pointer_.y < 0.0 || pointer_.x >= size.x || pointer_.y >= size.y;
+        if (is_outside || mouse_captured_ || panels_->is_over_panel(pointer_)) {
+            return std::nullopt;
+        }
+        const auto ground = viewer_.ground_at_pixel(pointer_);
+        return ground ? std::optional(place_of(scene_, *ground)) : std::nullopt;
+    }
+
+    PanelContent content(glm::ivec2 size) {
+        const auto* surface = scene_.terrain->get<scene::TerrainNode>()->surface.get();
+        if (std::exchange(legend_of_, surface) != surface) {
+            legend_ = legend_of(scene_);
+        }
+        PanelContent content = content_of(viewer_, scene_, size);
+        content.frame = {stats_,     timing_.last_ms,  timing_.frames_per_second,
+                         recent_ms_, renderer_.size(), size};
+        content.appearance.samples = samples_;
+        content.cursor = place_under_pointer(size);
+        content.legend = legend_;
+        content.messages = messages_.messages();
+        return content;
+    }
+
+    // Precondition: the picture is in the back buffer.
+    void draw_panels(glm::ivec2 size) {
+        if (shows_panels()) {
+            actions_ += panels_->draw(content(size), size, since_panels_.restart());
+        }
+    }
+
+    // Draws the panels again over the last picture if they changed.
+    Result<void> refresh_panels() {
+        const bool is_busy =
+            shows_panels() &&
+            (messages_.youngest() < message_seconds + 1.0 || !viewer_.progress().label.empty()) &&
+            since_panels_.seconds() > seconds_between_panels;
+        const glm::ivec2 size = window_.framebuffer_size();
+        if (panels_ == nullptr || drawn_ == 0 || !(panels_->is_stale() || is_busy) || size.x == 0 ||
+            size.y == 0) {
+            return {};
+        }
+        if (auto shown = renderer_.show_in_window(size); !shown) {
+            return shown;
+        }
+        if (shows_panels()) {
+            draw_panels(size);
+        } else {
+            panels_->draw({}, size, 0.0); // nothing, once
+        }
+        window_.swap_buffers();
+        return {};
+    }
+
+    void act() {
+        for (const PanelAction& action : std::exchange(actions_, {})) {
+            std::visit([this](const auto& chosen) { act_on(chosen); }, action);
+        }
+    }
+
+    void act_on(const ChooseTechnique& choice) {
+        if (const auto requested = viewer_.request(choice); !requested) {
+            messages_.note(requested.error().message);
+        }
+    }
+    void act_on(const SelectModel& choice) { viewer_.techniques().select_model(choice.model); }
+    void act_on(const SelectParameter& choice) {
+        viewer_.techniques().select_parameter(choice.index);
+    }
+    void act_on(const SetSun& sun) { viewer_.set_sun(sun); }
+    void act_on(const SetExaggeration& set) { viewer_.set_exaggeration(set.factor); }
+    void act_on(const SetSamples& set) {
+        samples_ = set.samples;
+        resamples_ = true;
+    }
+    void act_on(const PressKey& press) {
+        viewer_.receive(KeyEvent{.key = press.key, .pressed = true});
+        viewer_.receive(KeyEvent{.key = press.key, .pressed = false});
+    }
+    void act_on(const CopyCommand& /*action*/) { copy_command(); }
+
+    void copy_command() {
+        const auto command = render_command(options_.start, scene_,
+                                            {.technique = viewer_.technique(),
+                                             .light = viewer_.light(),
+                                             .exaggeration = viewer_.exaggeration(),
+                                             .size = window_.framebuffer_size(),
+                                             .samples = samples_,
+                                             .keeps_techniques = viewer_.keeps_techniques()});
+        if (!command) {
+            messages_.note(command.error().message);
+            return;
+        }
+        window_.set_clipboard(*command);
+        fmt::print("{}\n", *command);
+        messages_.confirm("Copied: " + *command);
+    }
+
     void log_raised_path() {
         if (viewer_.path_lifted() > 0.0 && !std::exchange(raise_logged_, true)) {
-            log_.note(
+            messages_.note(
                 "the path leads under the ground or too close to it: the camera is lifted there");
         }
     }
 
     void serve_requests() {
         if (viewer_.take_help_request()) {
-            fmt::print("{}", Viewer::keys());
+            show_help();
+        }
+        if (viewer_.take_command_request()) {
+            copy_command();
         }
         if (viewer_.take_video_request() && options_.open_video) {
             begin_video();
@@ -211,20 +334,29 @@ private:
         std::fflush(stdout);
     }
 
+    void show_help() {
+        if (panels_ != nullptr && panels_->has_room(window_.framebuffer_size())) {
+            panels_->toggle_help();
+        } else {
+            fmt::print("{}", Viewer::keys());
+        }
+    }
+
     // Failures are notes.
     void save_picture() {
         if (quality_.is_reduced()) {
             if (auto drawn = draw_at({}); !drawn) {
-                log_.note(drawn.error().message);
+                messages_.note(drawn.error().message);
                 return;
             }
         }
         const auto file = next_screenshot(".");
         if (const auto written = io::write_image(file, renderer_.read_color()); !written) {
-            log_.note(written.error().message);
+            messages_.note(written.error().message);
             return;
         }
         fmt::print("saved {}\n", file.filename().string());
+        messages_.confirm("Saved " + file.filename().string());
     }
 
     Result<void> draw() {
@@ -234,8 +366,8 @@ private:
         }
         const Stopwatch watch;
         const FrameQuality quality =
-            options_.keeps_quality ? FrameQuality()
-                                   : quality_.choose(viewer_.is_moving(), renderer_.shows_rays());
+            samples_ ? FrameQuality()
+                     : quality_.choose(viewer_.is_moving(), renderer_.shows_rays());
         if (auto drawn = draw_at(quality); !drawn) {
             return drawn;
         }
@@ -245,6 +377,8 @@ private:
         timing_.last_ms = watch.milliseconds();
         timing_.divisor = quality.divisor;
         quality_.add_frame(timing_.last_ms);
+        add_time(static_cast<float>(timing_.last_ms));
+        draw_panels(size);
         window_.swap_buffers();
         has_drawn_ = true;
         ++drawn_;
@@ -262,9 +396,8 @@ private:
                 return resized;
             }
         }
-        if (!options_.keeps_quality) {
-            renderer_.set_samples(quality.samples);
-        }
+        renderer_.set_samples(samples_.value_or(quality.samples));
+        resamples_ = false;
         while (auto light = viewer_.take_light()) {
             renderer_.add_light(std::move(light));
         }
@@ -275,9 +408,16 @@ private:
         }
         stats_ = *stats;
         if (const std::string note = renderer_.take_note(); !note.empty()) {
-            log_.note(note);
+            messages_.note(note);
         }
         return {};
+    }
+
+    void add_time(float milliseconds) {
+        if (recent_ms_.size() == plotted_frames) {
+            recent_ms_.erase(recent_ms_.begin());
+        }
+        recent_ms_.push_back(milliseconds);
     }
 
     void show_title() {
@@ -301,8 +441,17 @@ private:
     session::SceneRenderer& renderer_;
     session::TerrainScene& scene_;
     Viewer& viewer_;
-    session::Log& log_;
+    MessageHistory& messages_;
     WindowLoopOptions options_;
+    std::optional<int> samples_; // absent: automatic
+    bool resamples_ = false;     // since the last frame
+    Panels* panels_;
+    PanelActions actions_; // of the last frame of the panels
+    Stopwatch since_panels_;
+    glm::dvec2 pointer_{-1.0};
+    std::vector<float> recent_ms_;
+    const scene::TerrainSurface* legend_of_ = nullptr; // whose colours the legend has
+    std::vector<LegendStop> legend_;
     MotionQuality quality_;
     view::FrameStats stats_;
     FrameTiming timing_;
@@ -321,7 +470,7 @@ private:
 } // namespace
 
 Result<void> run_window_loop(platform::Window& window, session::SceneRenderer& renderer,
-                             session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+                             session::TerrainScene& scene, Viewer& viewer, MessageHistory& log,
                              const std::stop_token& stop, const WindowLoopOptions& options) {
     return WindowLoop(window, renderer, scene, viewer, log, options).run(stop);
 }

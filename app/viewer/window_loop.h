@@ -1,26 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <stop_token>
 
+#include "app/viewer/message_history.h"
+#include "app/viewer/panels/panels.h"
 #include "app/viewer/path_video.h"
+#include "app/viewer/render_command_text.h"
 #include "app/viewer/viewer.h"
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
-#include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"
 
 namespace reljef::app {
 
 struct WindowLoopOptions {
-    int frames = 0;             ///< draws this number of frames, then closes; 0: no limit
-    bool keeps_quality = false; ///< does not use MotionQuality
-    OpenVideo open_video = {};  ///< for the path as a video; empty: there are none
+    int frames = 0; ///< draws this number of frames, then closes; 0: no limit
+    /// Samples per pixel of all frames; absent: MotionQuality chooses.
+    std::optional<int> samples = {};
+    OpenVideo open_video = {}; ///< for the path as a video; empty: there are none
+    StartOptions start = {};   ///< for the command that renders a view
+    /// Null: none. Outlives the loop.
+    Panels* panels = nullptr;
 };
 
 /// Passes events to the viewer and draws its scene until the user or `stop` ends it. Fails if a
 /// frame cannot be drawn.
 Result<void> run_window_loop(platform::Window& window, session::SceneRenderer& renderer,
-                             session::TerrainScene& scene, Viewer& viewer, session::Log& log,
+                             session::TerrainScene& scene, Viewer& viewer, MessageHistory& log,
                              const std::stop_token& stop, const WindowLoopOptions& options = {});
 
 } // namespace reljef::app

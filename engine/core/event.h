@@ -44,6 +44,11 @@ struct KeyEvent {
     Modifiers modifiers{};
 };
 
+/// A character that the user typed, with the keyboard's layout and dead keys applied.
+struct TextEvent {
+    char32_t character = 0; ///< Unicode code point
+};
+
 /// Framebuffer pixels from the upper left corner; unbounded while the mouse is captured.
 struct MouseMoveEvent {
     glm::dvec2 position{0.0, 0.0};
@@ -102,7 +107,7 @@ struct FocusEvent {
     bool focused = false;
 };
 
-using Event = std::variant<KeyEvent, MouseMoveEvent, MouseButtonEvent, ScrollEvent, ResizeEvent,
-                           CloseEvent, FocusEvent>;
+using Event = std::variant<KeyEvent, TextEvent, MouseMoveEvent, MouseButtonEvent, ScrollEvent,
+                           ResizeEvent, CloseEvent, FocusEvent>;
 
 } // namespace reljef

@@ -59,6 +59,10 @@ void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int modif
                                         .modifiers = modifiers_from_glfw(modifiers)});
 }
 
+void on_text(GLFWwindow* window, unsigned int character) {
+    queue(window).emplace_back(TextEvent{static_cast<char32_t>(character)});
+}
+
 void on_mouse_move(GLFWwindow* window, double x, double y) {
     queue(window).emplace_back(MouseMoveEvent{in_pixels(window, x, y)});
 }
@@ -104,6 +108,7 @@ public:
         : context_(std::move(context)), window_(window_of(*context_)) {
         glfwSetWindowUserPointer(window_, &input_);
         glfwSetKeyCallback(window_, on_key);
+        glfwSetCharCallback(window_, on_text);
         glfwSetCursorPosCallback(window_, on_mouse_move);
         glfwSetMouseButtonCallback(window_, on_mouse_button);
         glfwSetScrollCallback(window_, on_scroll);
@@ -129,6 +134,12 @@ public:
     }
 
     [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_in_pixels(window_); }
+    [[nodiscard]] double content_scale() const override {
+        float x = 1.0F;
+        float y = 1.0F;
+        glfwGetWindowContentScale(window_, &x, &y);
+        return std::max(1.0F, std::max(x, y)); // some displays report less than they need
+    }
     void set_title(const std::string& title) override {
         glfwSetWindowTitle(window_, title.c_str());
     }
@@ -138,6 +149,10 @@ public:
     }
     void capture_mouse(bool on) override {
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    }
+    [[nodiscard]] std::string clipboard() const override {
+        const char* const text = glfwGetClipboardString(window_);
+        return text == nullptr ? std::string() : text;
     }
 
 private:

@@ -31,12 +31,16 @@ public:
 
     /// Pixels; 0 x 0 while minimized.
     [[nodiscard]] virtual glm::ivec2 framebuffer_size() const = 0;
+    /// Framebuffer pixels per unit of text and panels; 1 on usual screens, 2 on dense ones.
+    [[nodiscard]] virtual double content_scale() const = 0;
     virtual void set_title(const std::string& title) = 0;
     /// Shows the back buffer; waits for the screen (vsync). Precondition: the context is current.
     virtual void swap_buffers() = 0;
     virtual void set_clipboard(const std::string& text) = 0;
     /// Hides the pointer and removes its bounds, for mouse look.
     virtual void capture_mouse(bool on) = 0;
+    /// The text that the user copied last, UTF-8; empty if it is none.
+    [[nodiscard]] virtual std::string clipboard() const = 0;
 
 protected:
     Window() = default;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -12,6 +13,7 @@ namespace reljef::app {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ViewCommand, ContextWithoutAWindowIsRefused) {
     for (const std::string context : {"osmesa", "egl"}) {
@@ -169,6 +171,55 @@ TEST(ViewCommand, PathOfARealWindowBecomesAVideoOrIsCancelled) {
     EXPECT_THAT(result.err, HasSubstr("a path with one keyframe found"));
     EXPECT_THAT(result.err, HasSubstr("the video is cancelled, nothing is saved"));
     EXPECT_THAT(folder.names(), testing::ElementsAre("reljef-0001.mp4", "reljef-path-0001.toml"));
+}
+
+// Rays draw both, so that the pictures have the same bits.
+TEST(ViewCommand, TheCopiedCommandRendersWhatTheWindowShows) {
+    if (!can_drive()) {
+        GTEST_SKIP() << "no display or no xdotool";
+    }
+    const test::TemporaryFolder folder;
+    const auto result = drive(folder,
+                              "titled 'exact - still'; pressed l; pressed bracketright\n"
+                              "pressed w; titled still; pressed z; titled still\n"
+                              "pressed c; until_true test -e reljef-0001.png\n"
+                              "pressed Escape",
+                              "--context cpu");
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    const auto begin = result.out.find("reljef render");
+    ASSERT_NE(begin, std::string::npos) << result.out;
+    const std::string command = result.out.substr(begin, result.out.find('\n', begin) - begin);
+    test::ProgramOptions options;
+    options.folder = folder.path();
+    const auto rendered = test::run_program(
+        "/bin/sh", {"-c", "PATH=\"$(dirname '" RELJEF_BINARY "'):$PATH\"; " + command}, options);
+    EXPECT_EQ(rendered.exit_code, 0) << command << rendered.err;
+    const auto window = io::read_image(folder.path() / "reljef-0001.png");
+    const auto picture = io::read_image(folder.path() / "view.png");
+    ASSERT_TRUE(window && picture) << command;
+    EXPECT_TRUE(std::ranges::equal(window->samples(), picture->samples())) << command;
+}
+
+// The view behind a panel does not turn, zoom or end; Tab gives the mouse back to it.
+TEST(ViewCommand, PanelsOfARealWindowTakeTheMouseUntilTabHidesThem) {
+    if (!can_drive()) {
+        GTEST_SKIP() << "no display or no xdotool";
+    }
+    const test::TemporaryFolder folder;
+    const auto result =
+        drive(folder, "titled 'texture - still'\n"
+                      "xdotool windowsize --sync $window 1024 768; titled still\n"
+                      "state() { xdotool getwindowname $window | sed 's/.* triangles//'; }\n"
+                      "point() { xdotool mousemove --window $window $1 $2; sleep 0.3; }\n"
+                      "changed() { [ \"$(state)\" != \"$before\" ]; }\n"
+                      "settled() { before=$(state); sleep 1.5; ! changed; }\n"
+                      "point 100 60; until_true settled; xdotool click 4; sleep 1\n"
+                      "changed && echo 'the wheel went through the panel'\n"
+                      "pressed h; sleep 0.5; pressed Escape; sleep 0.5\n"
+                      "pressed Tab; sleep 0.5; xdotool click 4; until_true changed\n"
+                      "pressed Escape");
+    EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_THAT(result.out, Not(HasSubstr("went through")));
 }
 
 TEST(ViewCommand, CtrlCClosesTheWindow) {

@@ -159,6 +159,10 @@ TEST(Libraries, StayInTheirRoomAndItsTests) {
     EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/a.cpp", gdal + images)),
                 IsEmpty());
     EXPECT_THAT(libraries_outside_their_room(file_with("tests/io/a.cpp", gdal)), IsEmpty());
+    const std::string panels = "#include <imgui.h>\n#include <backends/imgui_impl_opengl3.h>\n";
+    EXPECT_THAT(libraries_outside_their_room(file_with("app/viewer/panels/a.cpp", panels)),
+                IsEmpty());
+    EXPECT_THAT(libraries_outside_their_room(file_with("app/viewer/a.cpp", panels)), SizeIs(2));
     EXPECT_THAT(libraries_outside_their_room(file_with("engine/geo/a.cpp", geodesy)), IsEmpty());
     EXPECT_THAT(libraries_outside_their_room(file_with("app/a.cpp", gdal + images + geodesy)),
                 SizeIs(3));

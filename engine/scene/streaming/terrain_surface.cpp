@@ -56,6 +56,11 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
     return TerrainSurface(std::move(terrain), std::move(*placement), options.ramp);
 }
 
+Result<TerrainSurface> TerrainSurface::exaggerated(double factor) const {
+    return create(terrain_,
+                  {.placement = placement_.kind(), .exaggeration = factor, .ramp = ramp_});
+}
+
 std::optional<double> TerrainSurface::height_at(double x, double y) const {
     const Grid<float>& heights = heightfield().heights;
     // On a curved Earth the vertical through (x, y) is not parallel to z. Each round looks up the

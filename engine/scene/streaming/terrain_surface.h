@@ -29,6 +29,9 @@ public:
     static Result<TerrainSurface> create(std::shared_ptr<const terrain::Terrain> terrain,
                                          const TerrainOptions& options = {});
 
+    /// The same terrain with another exaggeration. Fails if the factor is out of range.
+    [[nodiscard]] Result<TerrainSurface> exaggerated(double factor) const;
+
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }

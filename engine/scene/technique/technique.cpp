@@ -174,6 +174,17 @@ Technique make_technique(TechniqueId id) {
     return {technique_info(id).defaults, {}};
 }
 
+Technique with_parameter(Technique technique, const ParameterInfo& parameter, double value) {
+    for (const ParameterInfo& other : technique_info(technique.id()).parameters) {
+        if (other.replaced_by == parameter.name ||
+            (!parameter.replaced_by.empty() && other.name == parameter.replaced_by)) {
+            other.set(technique, other.default_value);
+        }
+    }
+    parameter.set(technique, value);
+    return technique;
+}
+
 Result<Technique> parse_technique(std::string_view text) {
     auto [name, assignments] = split(text, ':');
     const TechniqueInfo* const info = named(technique_catalogue(), name);

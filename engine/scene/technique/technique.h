@@ -59,6 +59,10 @@ double* parallax_offset(TechniqueParameters& parameters);
 /// The technique with default parameters and no options.
 Technique make_technique(TechniqueId id);
 
+/// The technique with another value of one of its parameters. Parameters that exclude this one get
+/// their defaults. Precondition: the parameter is the technique's and allows the value.
+Technique with_parameter(Technique technique, const ParameterInfo& parameter, double value);
+
 /// Parses "ID" or "ID:key=value,key=value": parameters and options in any order. A part without '='
 /// belongs to the option before it. Errors name what was found and what was expected. Levels and an
 /// error bound exclude each other.

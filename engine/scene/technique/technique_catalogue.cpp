@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -187,6 +189,49 @@ static_assert(std::all_of(catalogue.begin(), catalogue.end(),
               "every default lies in its range");
 
 } // namespace
+
+namespace {
+
+constexpr double steps_across = 40.0; // of a range
+constexpr double part_of_value = 0.1; // a step of a wide range
+constexpr double wide = 100.0;        // highest value over the lowest
+
+double step_of(const NumberInfo& number, double value) {
+    const double lowest = std::max(number.low, number.min_above_low);
+    const bool is_wide = lowest > 0.0 && number.high >= wide * lowest;
+    const double step = is_wide ? std::max(part_of_value * value, part_of_value * lowest)
+                                : (number.high - number.low) / steps_across;
+    return number.whole ? std::max(1.0, std::floor(step)) : step;
+}
+
+} // namespace
+
+double nearest_allowed(const NumberInfo& number, double value) {
+    if (std::isnan(value)) {
+        return number.default_value;
+    }
+    const double inside = std::clamp(value, number.low, number.high);
+    const double gap_end = std::max(number.min_above_low, number.low);
+    if (inside < gap_end) {
+        return inside - number.low < gap_end - inside ? number.low : gap_end;
+    }
+    return number.whole ? std::round(inside) : inside;
+}
+
+double stepped(const NumberInfo& number, double value, int steps) {
+    double reached = value;
+    for (int i = 0; i < std::abs(steps); ++i) {
+        const double step = step_of(number, reached);
+        const double moved = steps > 0 ? reached + step : reached - step;
+        double allowed = nearest_allowed(number, moved);
+        if (allowed == reached && number.min_above_low > number.low) { // over the gap
+            allowed = steps > 0 && reached == number.low ? number.min_above_low : allowed;
+            allowed = steps < 0 && reached == number.min_above_low ? number.low : allowed;
+        }
+        reached = allowed;
+    }
+    return reached;
+}
 
 Result<double> parse_number(std::string_view subject, const NumberInfo& number,
                             std::string_view text) {

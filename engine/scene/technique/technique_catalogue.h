@@ -40,6 +40,13 @@ constexpr NumberInfo number_of(Value Owner::*member, NumberInfo row) {
     return row;
 }
 
+/// The allowed value next to a value; its default for NaN.
+double nearest_allowed(const NumberInfo& number, double value);
+
+/// The allowed value some steps up (over 0) or down: whole numbers by 1, wide ranges by tenths of
+/// the value, others by fortieths of the range. At least one allowed value away, if there is one.
+double stepped(const NumberInfo& number, double value, int steps);
+
 /// Parses a number that its row allows. Errors name `subject`, the number, what was found and what
 /// was expected.
 Result<double> parse_number(std::string_view subject, const NumberInfo& number,

@@ -1,4 +1,4 @@
-#include "app/viewer/appearance_switch.h"
+#include "app/viewer/appearance/appearance_switch.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "app/viewer/proof_switch.h"
+#include "app/viewer/appearance/proof_switch.h"
 
 #include <filesystem>
 #include <thread>

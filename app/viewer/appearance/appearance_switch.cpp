@@ -1,4 +1,4 @@
-#include "app/viewer/appearance_switch.h"
+#include "app/viewer/appearance/appearance_switch.h"
 
 namespace reljef::app {
 
@@ -12,7 +12,20 @@ AppearanceSwitch::~AppearanceSwitch() {
 }
 
 void AppearanceSwitch::request(const scene::Light& light) {
-    begin({pending_ != nullptr ? pending_->appearance.technique : std::nullopt, light});
+    Appearance appearance;
+    if (pending_ != nullptr) {
+        appearance = pending_->appearance;
+    }
+    appearance.light = light;
+    begin(appearance);
+}
+
+void AppearanceSwitch::follow(const scene::Light& light) {
+    if (pending_ != nullptr) {
+        next_light_ = light;
+    } else {
+        request(light);
+    }
 }
 
 bool AppearanceSwitch::update() {
@@ -31,11 +44,15 @@ bool AppearanceSwitch::update() {
     const Appearance appearance = std::exchange(pending_, nullptr)->appearance;
     if (!maps) {
         log_.note(maps.error().message);
+        next_light_.reset();
         return false;
     }
     session::apply_maps(scene_, *maps);
     light_ = maps->light != nullptr ? maps->light : light_;
     show(appearance);
+    if (next_light_) {
+        request(*std::exchange(next_light_, std::nullopt));
+    }
     return true;
 }
 
@@ -55,6 +72,9 @@ const scene::Technique& AppearanceSwitch::technique() const {
 }
 
 const scene::Light& AppearanceSwitch::light() const {
+    if (next_light_) {
+        return *next_light_;
+    }
     return pending_ != nullptr ? pending_->appearance.light : *scene_.light->get<scene::Light>();
 }
 
@@ -84,6 +104,7 @@ session::MissingMaps AppearanceSwitch::missing(const Appearance& appearance) con
 
 void AppearanceSwitch::begin(const Appearance& appearance) {
     retire();
+    next_light_.reset();
     session::MissingMaps missing = this->missing(appearance);
     if (missing.empty()) {
         show(appearance);
@@ -101,8 +122,12 @@ void AppearanceSwitch::show(const Appearance& appearance) {
     *scene_.light->get<scene::Light>() = appearance.light;
     if (appearance.technique) {
         before_.clear();
-        for (scene::Material* const material : scene_.materials()) {
-            before_.push_back(std::exchange(material->technique, *appearance.technique));
+        const std::vector<scene::Material*> materials = scene_.materials();
+        for (std::size_t i = 0; i < materials.size(); ++i) {
+            before_.push_back(materials[i]->technique);
+            if (appearance.model.value_or(i) == i) {
+                materials[i]->technique = *appearance.technique;
+            }
         }
     }
 }

@@ -27,8 +27,15 @@ public:
     ~AppearanceSwitch();
 
     /// Shows the technique when its maps are ready. Replaces an earlier request.
-    void request(const scene::Technique& technique) { begin({technique, light()}); }
+    /// `model`: only this one; absent: all.
+    void request(const scene::Technique& technique,
+                 std::optional<std::size_t> model = std::nullopt) {
+        begin({technique, model, light()});
+    }
     void request(const scene::Light& light);
+    /// Shows the light after what is being prepared. Replaces an earlier one that has not begun, so
+    /// that a light that moves does not restart its work with each move.
+    void follow(const scene::Light& light);
     /// Shows the request if its maps are ready. Returns whether the scene changed.
     bool update();
     /// Restores the techniques before the last change, for a technique that cannot be drawn. False
@@ -52,6 +59,7 @@ public:
 private:
     struct Appearance {
         std::optional<scene::Technique> technique; // absent: unchanged
+        std::optional<std::size_t> model;          // of the technique; absent: all
         scene::Light light;
     };
     struct Pending {
@@ -69,6 +77,7 @@ private:
     AppearanceSwitchOptions options_;
     session::RelayedLog log_; // of finished work
     std::shared_ptr<const view::PreparedLight> light_;
+    std::optional<scene::Light> next_light_;
     std::vector<scene::Technique> before_; // of the materials, before the last change
     std::unique_ptr<Pending> pending_;
     std::vector<std::unique_ptr<Pending>> retired_; // stopping

@@ -1,4 +1,4 @@
-#include "app/viewer/proof_switch.h"
+#include "app/viewer/appearance/proof_switch.h"
 
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"

@@ -1,0 +1,78 @@
+#include "app/viewer/appearance/exaggeration_switch.h"
+
+namespace reljef::app {
+
+std::string ExaggerationSwitch::obstacle() const {
+    if (!scene_.models.empty()) {
+        return "models have no vertical exaggeration; a terrain has";
+    }
+    return scene_.terrain->get<scene::TerrainNode>()->stream != nullptr
+               ? "a terrain that is read tile by tile keeps its exaggeration; --exaggeration sets "
+                 "it"
+               : "";
+}
+
+double ExaggerationSwitch::factor() const {
+    if (next_) {
+        return *next_;
+    }
+    return work_ ? preparing_
+                 : scene_.terrain->get<scene::TerrainNode>()->surface->placement().exaggeration();
+}
+
+bool ExaggerationSwitch::update(const scene::Technique& technique, const scene::Light& light) {
+    if (work_ && work_->is_done()) {
+        return show();
+    }
+    if (!work_ && next_) {
+        begin(*std::exchange(next_, std::nullopt), technique, light);
+    }
+    return false;
+}
+
+void ExaggerationSwitch::begin(double factor, const scene::Technique& technique,
+                               const scene::Light& light) {
+    const auto& node = *scene_.terrain->get<scene::TerrainNode>();
+    session::MissingMaps missing;
+    missing.bisection = node.bisection != nullptr; // its errors depend on the heights
+    missing.light = session::light_request(scene_, light, technique, largest_side_);
+    preparing_ = factor;
+    work_.emplace([surface = node.surface, missing = std::move(missing), factor, threads = threads_,
+                   this](const std::stop_token& stop) -> Result<Exaggerated> {
+        auto exaggerated = surface->exaggerated(factor);
+        if (!exaggerated) {
+            return exaggerated.error();
+        }
+        Exaggerated made;
+        made.surface = std::make_shared<const scene::TerrainSurface>(std::move(*exaggerated));
+        session::MissingMaps requested = missing;
+        requested.surface = made.surface;
+        if (requested.light) {
+            requested.light->surface = made.surface;
+        }
+        auto maps = session::prepare_maps(requested, threads, log_, stop);
+        if (!maps) {
+            return maps.error();
+        }
+        made.maps = std::move(*maps);
+        return made;
+    });
+}
+
+bool ExaggerationSwitch::show() {
+    const auto made = work_->take();
+    work_.reset();
+    if (!made) {
+        log_.note(made.error().message);
+        return false;
+    }
+    auto& node = *scene_.terrain->get<scene::TerrainNode>();
+    node.surface = made->surface;
+    node.bisection = nullptr;
+    session::apply_maps(scene_, made->maps);
+    scene_.bounds = scene_.terrain->world_bounds();
+    light_ = made->maps.light;
+    return true;
+}
+
+} // namespace reljef::app

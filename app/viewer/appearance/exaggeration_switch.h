@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/session/background.h"
+#include "engine/session/log.h"
+#include "engine/session/prepared_maps.h"
+#include "engine/session/scene_setup.h"
+
+namespace reljef::app {
+
+/// Changes the vertical exaggeration of a terrain in memory. The surface and its maps are made in
+/// the background; the scene changes when they are ready.
+class ExaggerationSwitch {
+public:
+    /// The scene outlives this. `largest_side`: as in AppearanceSwitchOptions.
+    ExaggerationSwitch(session::TerrainScene& scene, int threads, int largest_side)
+        : scene_(scene), threads_(threads), largest_side_(largest_side) {}
+
+    /// Why the exaggeration cannot change; empty: it can.
+    [[nodiscard]] std::string obstacle() const;
+    /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
+    /// is in (0, terrain::max_exaggeration].
+    void request(double factor) { next_ = factor; }
+    /// Begins and ends the work, for a scene with this technique and light. Returns whether the
+    /// scene changed.
+    bool update(const scene::Technique& technique, const scene::Light& light);
+
+    /// The requested factor, else the current one.
+    [[nodiscard]] double factor() const;
+    [[nodiscard]] bool is_preparing() const { return work_.has_value() || next_.has_value(); }
+    /// The current task; its label is empty if there is none.
+    [[nodiscard]] session::RelayedLog::TaskProgress progress() const { return log_.progress(); }
+    void relay_to(session::Log& log) { log_.relay_to(log); }
+    /// The light for SceneRenderer::add_light() if it is new since the last call, else null.
+    std::shared_ptr<const view::PreparedLight> take_light() {
+        return std::exchange(light_, nullptr);
+    }
+
+private:
+    struct Exaggerated {
+        std::shared_ptr<const scene::TerrainSurface> surface;
+        session::PreparedMaps maps;
+    };
+    void begin(double factor, const scene::Technique& technique, const scene::Light& light);
+    bool show();
+
+    session::TerrainScene& scene_;
+    int threads_;
+    int largest_side_;
+    std::optional<double> next_;
+    double preparing_ = 1.0; // the factor of the work
+    session::RelayedLog log_;
+    std::shared_ptr<const view::PreparedLight> light_;
+    std::optional<session::Background<Exaggerated>> work_; // uses the log
+};
+
+} // namespace reljef::app

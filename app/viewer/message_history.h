@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/viewer/panels/panel_content.h"
+#include "engine/core/stopwatch.h"
+#include "engine/session/log.h"
+
+namespace reljef::app {
+
+/// Passes messages on and keeps the latest for the panels.
+class MessageHistory : public session::Log {
+public:
+    static constexpr std::size_t max_messages = 200;
+
+    /// `next` outlives this.
+    explicit MessageHistory(session::Log& next) : next_(next) {}
+
+    void message(session::MessageKind kind, std::string_view sentence) override;
+    [[nodiscard]] std::unique_ptr<session::Task> start(const std::string& label) override {
+        return next_.start(label);
+    }
+    /// Only for the panels.
+    void confirm(std::string_view sentence);
+
+    /// Oldest first.
+    [[nodiscard]] std::vector<MessageContent> messages() const;
+    /// The youngest message's age, seconds; infinite without messages.
+    [[nodiscard]] double youngest() const;
+
+private:
+    void keep(std::string_view sentence, bool is_error);
+
+    session::Log& next_;
+    Stopwatch clock_;
+    std::vector<MessageContent> messages_; // age: seconds on the clock at the arrival
+};
+
+} // namespace reljef::app

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "engine/core/event.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::app {
+
+/// Draws all models, or one, with a technique.
+struct ChooseTechnique {
+    scene::Technique technique;
+    std::optional<std::size_t> model; ///< absent: all
+};
+
+/// The model that the technique panel edits; absent: all.
+struct SelectModel {
+    std::optional<std::size_t> model;
+};
+
+/// The parameter that keys change.
+struct SelectParameter {
+    std::size_t index = 0;
+};
+
+struct SetSun {
+    double azimuth = 0.0;  ///< degrees clockwise from north
+    double altitude = 0.0; ///< degrees above the horizon, (0, 90]
+};
+
+struct SetExaggeration {
+    double factor = 1.0; ///< (0, terrain::max_exaggeration]
+};
+
+struct SetSamples {
+    std::optional<int> samples; ///< absent: chosen for each frame
+};
+
+/// Does what the key does.
+struct PressKey {
+    Key key = Key::unknown;
+};
+
+/// Copies the command that renders this view.
+struct CopyCommand {};
+
+using PanelAction = std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun,
+                                 SetExaggeration, SetSamples, PressKey, CopyCommand>;
+using PanelActions = std::vector<PanelAction>;
+
+inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {
+    actions.insert(actions.end(), std::make_move_iterator(more.begin()),
+                   std::make_move_iterator(more.end()));
+    return actions;
+}
+
+} // namespace reljef::app

@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/core/color.h"
+#include "engine/geo/georeference.h"
+#include "engine/scene/graph/scene.h"
+#include "engine/scene/technique/technique.h"
+#include "engine/view/frame_stats.h"
+
+namespace reljef::app {
+
+// What the panels show: values only. A panel reads them and returns actions (panel_action.h).
+
+struct FrameContent {
+    view::FrameStats stats;
+    double last_ms = 0.0;                    ///< of the last frame
+    std::optional<double> frames_per_second; ///< absent at rest
+    std::vector<float> recent_ms;            ///< oldest first
+    glm::ivec2 picture{0};                   ///< drawn pixels; the window may show them enlarged
+    glm::ivec2 window{0};                    ///< pixels
+};
+
+struct TechniqueChoice {
+    scene::Technique technique;
+    std::string reason;            ///< why it cannot be chosen; empty: it can
+    std::optional<int> digit = {}; ///< the key that chooses it
+};
+
+struct ModelContent {
+    std::string name;
+    scene::Technique technique;
+};
+
+struct TechniqueContent {
+    scene::Technique requested;              ///< of the first model if there are several
+    std::vector<TechniqueChoice> choices;    ///< in the catalogue's order
+    std::vector<ModelContent> models;        ///< the gallery's, else empty
+    std::optional<std::size_t> model;        ///< that the panel edits; absent: all
+    std::vector<std::string> option_reasons; ///< in the catalogue's order: why one cannot be set
+    std::size_t parameter = 0;               ///< that keys change, in the catalogue's order
+    bool wireframe = false;
+};
+
+struct AppearanceContent {
+    scene::Light light;             ///< requested
+    double exaggeration = 1.0;      ///< requested
+    std::string fixed_exaggeration; ///< why it cannot change; empty: it can
+    std::optional<int> samples;     ///< absent: chosen for each frame
+    bool shows_map = false;
+    bool plays_path = false;
+    bool follows_ground = false;
+};
+
+struct CrsPlace {
+    glm::dvec2 at{0.0};
+    std::string name; ///< "WGS 84 / UTM zone 10N"
+    bool is_metric = true;
+};
+
+/// A point of the scene.
+struct PlaceContent {
+    glm::dvec3 world{0.0};                 ///< scene metres
+    std::optional<geo::Geodetic> on_earth; ///< height: true metres
+    std::optional<CrsPlace> in_crs;
+    double height = 0.0;                ///< true metres above the DEM's zero
+    std::optional<double> above_ground; ///< true metres; of the eye
+};
+
+struct LegendStop {
+    double height = 0.0; ///< true metres
+    Rgba8 color;
+};
+
+struct TaskContent {
+    std::string label; ///< empty: none
+    double fraction = 0.0;
+};
+
+/// How long new messages stay in view, seconds.
+inline constexpr double message_seconds = 9.0;
+
+struct MessageContent {
+    std::string text;
+    bool is_error = false;
+    double age = 0.0; ///< seconds
+};
+
+struct KeyContent {
+    std::string names; ///< "T, 1 2 ..."
+    std::string meaning;
+};
+
+struct PanelContent {
+    std::string terrain;
+    FrameContent frame;
+    TechniqueContent technique;
+    AppearanceContent appearance;
+    PlaceContent eye;
+    std::optional<PlaceContent> cursor;     ///< the ground under the pointer
+    std::optional<double> heading;          ///< degrees clockwise from north
+    std::optional<double> metres_per_pixel; ///< of the window, at its middle
+    double speed = 0.0;                     ///< metres per second
+    std::vector<LegendStop> legend;         ///< upwards; empty: heights have no colours
+    TaskContent task;
+    std::vector<MessageContent> messages; ///< oldest first
+    std::vector<KeyContent> keys;
+};
+
+} // namespace reljef::app

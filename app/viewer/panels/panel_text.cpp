@@ -1,0 +1,91 @@
+#include "app/viewer/panels/panel_text.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/geo/place.h"
+
+namespace reljef::app {
+namespace {
+
+bool has_format(const PlaceContent& place, PlaceFormat format) {
+    switch (format) {
+    case PlaceFormat::geographic:
+    case PlaceFormat::mgrs:
+        return place.on_earth.has_value();
+    case PlaceFormat::crs:
+        return place.in_crs.has_value();
+    case PlaceFormat::scene:
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+std::string length_text(double metres) {
+    return metres < 0.1       ? fmt::format("{:.2g} mm", 1000.0 * metres)
+           : metres < 10.0    ? fmt::format("{:.2f} m", metres)
+           : metres < 10000.0 ? fmt::format("{:.0f} m", metres)
+                              : fmt::format("{:.1f} km", metres / 1000.0);
+}
+
+std::string count_text(std::size_t count) {
+    const auto number = static_cast<double>(count);
+    return count < 10'000      ? fmt::format("{}", count)
+           : count < 1'000'000 ? fmt::format("{:.1f} k", number / 1e3)
+                               : fmt::format("{:.2f} M", number / 1e6);
+}
+
+PlaceFormat next_format(PlaceFormat format, const PlaceContent& place) {
+    constexpr std::array order{PlaceFormat::geographic, PlaceFormat::mgrs, PlaceFormat::crs,
+                               PlaceFormat::scene};
+    auto index = static_cast<std::size_t>(format);
+    do {
+        index = (index + 1) % order.size();
+    } while (!has_format(place, order.at(index)));
+    return order.at(index);
+}
+
+std::string place_text(const PlaceContent& place, PlaceFormat format) {
+    if (!has_format(place, format)) {
+        return place_text(place, PlaceFormat::scene);
+    }
+    switch (format) {
+    case PlaceFormat::geographic:
+        return fmt::format("{:.5f}\u00b0 {}  {:.5f}\u00b0 {}", std::abs(place.on_earth->latitude),
+                           place.on_earth->latitude < 0.0 ? 'S' : 'N',
+                           std::abs(place.on_earth->longitude),
+                           place.on_earth->longitude < 0.0 ? 'W' : 'E');
+    case PlaceFormat::mgrs:
+        return geo::mgrs_text(*place.on_earth);
+    case PlaceFormat::crs:
+        return fmt::format("{0:.{2}f}, {1:.{2}f}", place.in_crs->at.x, place.in_crs->at.y,
+                           place.in_crs->is_metric ? 1 : 6);
+    case PlaceFormat::scene:
+        break;
+    }
+    return fmt::format("x {:.1f} m  y {:.1f} m", place.world.x, place.world.y);
+}
+
+std::string error_summary(const view::FrameStats& stats, const scene::Technique& technique) {
+    if (stats.reliefs_as_triangles > 0) {
+        return "triangles: rays bend too much";
+    }
+    if (technique.id() == scene::TechniqueId::exact) {
+        return "none";
+    }
+    const double bound = scene::error_bound(technique);
+    if (bound > 0.0 && stats.tiles_unproven > 0) {
+        return "unproven";
+    }
+    if (stats.kept_error) {
+        return *stats.kept_error > bound ? fmt::format("up to {:.1f} px", *stats.kept_error)
+                                         : fmt::format("at most {:.2g} px", bound);
+    }
+    return "no bound";
+}
+
+} // namespace reljef::app

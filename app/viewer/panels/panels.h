@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <glm/vec2.hpp>
+
+#include "app/viewer/panels/panel_action.h"
+#include "app/viewer/panels/panel_content.h"
+#include "app/viewer/panels/place_panel.h"
+#include "app/viewer/panels/toolkit/interface.h"
+#include "engine/core/event.h"
+
+namespace reljef::app {
+
+/// All panels of the viewer. Hidden ones do nothing. Destroy while the OpenGL context is current.
+class Panels {
+public:
+    explicit Panels(Interface interface) : interface_(std::move(interface)) {}
+
+    /// Tab hides and shows all. Returns whether the event is for the panels alone.
+    bool receive(const Event& event);
+    /// Whether the next frame differs from the last one, whatever the content.
+    [[nodiscard]] bool is_stale() const { return is_visible_ ? interface_.is_stale() : is_hiding_; }
+    /// A sentence about fonts that are not installed, or empty.
+    [[nodiscard]] const std::string& note() const { return interface_.fonts().note; }
+    [[nodiscard]] bool is_visible() const { return is_visible_; }
+    [[nodiscard]] bool is_over_panel(glm::dvec2 pixel) const {
+        return is_visible_ && interface_.is_over_panel(pixel);
+    }
+    void set_visible(bool visible);
+    /// Whether a window of that size, pixels, has panels.
+    [[nodiscard]] bool has_room(glm::ivec2 window) const;
+    /// Shows or hides the keys; shows the panels.
+    void toggle_help();
+
+    /// Draws over the window's back buffer, `seconds` after the last frame. Returns what the user
+    /// asks for. A window that is too small for panels has none.
+    PanelActions draw(const PanelContent& content, glm::ivec2 window, double seconds);
+
+private:
+    PanelActions draw_inspector(const PanelContent& content, const Area& area);
+
+    Interface interface_;
+    PlacePanel place_;
+    double inspector_content_ = 0.0; // height in the last frame, pixels
+    bool is_visible_ = true;
+    bool is_hiding_ = false; // since the last frame
+    bool shows_help_ = false;
+};
+
+} // namespace reljef::app

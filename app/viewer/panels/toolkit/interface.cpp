@@ -1,0 +1,277 @@
+#include "app/viewer/panels/toolkit/interface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_internal.h> // the areas of windows
+
+#include "engine/gl/texture.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr const char* glsl_version = "#version 330 core";
+constexpr double min_step = 1e-4; // seconds; ImGui needs more than 0
+// After an event: one frame to react, one with the new state, one with areas that fit it.
+constexpr int frames_after_event = 3;
+
+struct KeyPair {
+    ImGuiKey imgui;
+    Key key;
+};
+constexpr std::array keys{KeyPair{ImGuiKey_Tab, Key::tab},
+                          KeyPair{ImGuiKey_LeftArrow, Key::left},
+                          KeyPair{ImGuiKey_RightArrow, Key::right},
+                          KeyPair{ImGuiKey_UpArrow, Key::up},
+                          KeyPair{ImGuiKey_DownArrow, Key::down},
+                          KeyPair{ImGuiKey_PageUp, Key::page_up},
+                          KeyPair{ImGuiKey_PageDown, Key::page_down},
+                          KeyPair{ImGuiKey_Home, Key::home},
+                          KeyPair{ImGuiKey_End, Key::end},
+                          KeyPair{ImGuiKey_Insert, Key::insert},
+                          KeyPair{ImGuiKey_Delete, Key::erase},
+                          KeyPair{ImGuiKey_Backspace, Key::backspace},
+                          KeyPair{ImGuiKey_Space, Key::space},
+                          KeyPair{ImGuiKey_Enter, Key::enter},
+                          KeyPair{ImGuiKey_Escape, Key::escape},
+                          KeyPair{ImGuiKey_A, Key::a},
+                          KeyPair{ImGuiKey_C, Key::c},
+                          KeyPair{ImGuiKey_V, Key::v},
+                          KeyPair{ImGuiKey_X, Key::x},
+                          KeyPair{ImGuiKey_Y, Key::y},
+                          KeyPair{ImGuiKey_Z, Key::z}};
+
+std::optional<int> button_of(const Event& event) {
+    const auto* const button = std::get_if<MouseButtonEvent>(&event);
+    return button == nullptr || button->button == MouseButton::other
+               ? std::nullopt
+               : std::optional(static_cast<int>(button->button));
+}
+
+ImVec2 in_floats(glm::dvec2 pixel) {
+    return {static_cast<float>(pixel.x), static_cast<float>(pixel.y)};
+}
+
+void set_modifiers(ImGuiIO& io, const Modifiers& with) {
+    io.KeyShift = with.shift;
+    io.KeyCtrl = with.control;
+    io.KeyAlt = with.alt;
+    io.KeySuper = with.super;
+}
+
+void pass_to(ImGuiIO& io, const Event& event) {
+    if (const auto* key = std::get_if<KeyEvent>(&event)) {
+        io.KeysDown[static_cast<std::size_t>(key->key)] = key->pressed;
+        set_modifiers(io, key->modifiers);
+    } else if (const auto* text = std::get_if<TextEvent>(&event)) {
+        io.AddInputCharacter(static_cast<unsigned int>(text->character));
+    } else if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
+        io.MousePos = in_floats(move->position);
+    } else if (const auto* button = std::get_if<MouseButtonEvent>(&event)) {
+        io.MousePos = in_floats(button->position);
+        set_modifiers(io, button->modifiers);
+        if (const auto index = button_of(event)) {
+            io.MouseDown[*index] = button->pressed;
+        }
+    } else if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
+        io.MouseWheel += static_cast<float>(scroll->offset.y);
+    } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
+        io.AddFocusEvent(focus->focused);
+    }
+}
+
+// Texels of letters lie on pixels, and areas have one colour: the nearest texel is exact, and takes
+// software renderers less time than the bilinear filter that ImGui sets.
+void sharpen_font(ImGuiIO& io) {
+    const auto texture =
+        static_cast<unsigned int>(reinterpret_cast<std::uintptr_t>(io.Fonts->TexID));
+    gl::set_sampling(texture, {.filter = gl::Filter::nearest}, 1);
+}
+
+} // namespace
+
+struct Interface::State {
+    InterfaceOptions options;
+    Fonts fonts;
+    ImGuiContext* context = nullptr;
+    PointerFocus focus;
+    std::deque<Event> events; // that no frame has seen
+    int frames_due = frames_after_event;
+    std::vector<Area> areas; // of the panels in the last frame
+    bool types_text = false;
+    bool opens_list = false;
+    bool closes_list = false; // in the next frame
+    std::string copied;       // what ImGui asked for last
+
+    State() = default;
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    ~State() {
+        if (context != nullptr) {
+            ImGui::SetCurrentContext(context);
+            if (ImGui::GetIO().BackendRendererUserData != nullptr) {
+                ImGui_ImplOpenGL3_Shutdown();
+            }
+            ImGui::DestroyContext(context);
+        }
+    }
+
+    [[nodiscard]] bool is_over(glm::dvec2 pixel) const {
+        return std::any_of(areas.begin(), areas.end(),
+                           [&](const Area& area) { return area.contains(pixel); });
+    }
+
+    // A press and its release in one frame would be none: the second change of a button waits.
+    void pass_events(ImGuiIO& io) {
+        std::array<bool, 3> has_changed{};
+        while (!events.empty()) {
+            if (const auto button = button_of(events.front())) {
+                bool& changed = has_changed.at(static_cast<std::size_t>(*button));
+                if (std::exchange(changed, true)) {
+                    return;
+                }
+            }
+            pass_to(io, events.front());
+            events.pop_front();
+        }
+    }
+
+    void read_areas() {
+        areas.clear();
+        for (const ImGuiWindow* const window : context->Windows) {
+            const bool is_panel = window->WasActive && window->ParentWindow == nullptr &&
+                                  (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+                                  !window->IsFallbackWindow;
+            if (is_panel) {
+                const ImVec2 low = window->Pos;
+                areas.push_back({{low.x, low.y}, {low.x + window->Size.x, low.y + window->Size.y}});
+            }
+        }
+    }
+};
+
+Interface::Interface(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Interface::Interface(Interface&& other) noexcept = default;
+Interface& Interface::operator=(Interface&& other) noexcept = default;
+Interface::~Interface() = default;
+
+Result<Interface> Interface::create(const InterfaceOptions& options) {
+    auto state = std::make_unique<State>();
+    state->options = options;
+    state->context = ImGui::CreateContext();
+    ImGui::SetCurrentContext(state->context);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;
+    io.LogFilename = nullptr;
+    io.ConfigWindowsMoveFromTitleBarOnly = true;
+    for (const KeyPair& pair : keys) {
+        io.KeyMap[pair.imgui] = static_cast<int>(pair.key);
+    }
+    io.ClipboardUserData = state.get();
+    io.GetClipboardTextFn = [](void* user) {
+        auto& self = *static_cast<State*>(user);
+        self.copied = self.options.clipboard ? self.options.clipboard() : self.copied;
+        return self.copied.c_str();
+    };
+    io.SetClipboardTextFn = [](void* user, const char* text) {
+        auto& self = *static_cast<State*>(user);
+        self.copied = text;
+        if (self.options.set_clipboard) {
+            self.options.set_clipboard(self.copied);
+        }
+    };
+    state->fonts = apply_theme(static_cast<float>(options.scale));
+    if (!options.draws) {
+        io.Fonts->Build();
+    } else if (!ImGui_ImplOpenGL3_Init(glsl_version)) {
+        return Error{"panels: libGL.so.1 cannot be loaded, the package libgl1 was expected"};
+    }
+    return Interface(std::move(state));
+}
+
+bool Interface::receive(const Event& event) {
+    const PanelsShown shown{[this](glm::dvec2 pixel) { return state_->is_over(pixel); },
+                            state_->types_text, state_->opens_list};
+    const auto receiver = state_->focus.receiver_of(event, shown);
+    const auto* const key = std::get_if<KeyEvent>(&event);
+    state_->closes_list = state_->closes_list || (state_->opens_list && key != nullptr &&
+                                                  key->pressed && key->key == Key::escape);
+    if (receiver != PointerFocus::Receiver::view) {
+        state_->events.push_back(event);
+        state_->frames_due = frames_after_event;
+    }
+    return receiver == PointerFocus::Receiver::panels;
+}
+
+bool Interface::is_stale() const {
+    return state_->frames_due > 0 || !state_->events.empty();
+}
+
+bool Interface::types_text() const {
+    return state_->types_text;
+}
+
+bool Interface::is_over_panel(glm::dvec2 pixel) const {
+    return state_->opens_list || state_->is_over(pixel);
+}
+
+void Interface::forget() {
+    ImGui::SetCurrentContext(state_->context);
+    ImGuiIO& io = ImGui::GetIO();
+    std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
+    std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
+    state_->events.clear();
+    state_->areas.clear();
+    state_->focus = {};
+    state_->types_text = false;
+    state_->opens_list = false;
+    state_->frames_due = frames_after_event;
+}
+
+void Interface::begin(glm::ivec2 size, double seconds) {
+    ImGui::SetCurrentContext(state_->context);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = in_floats(glm::dvec2(size));
+    io.DeltaTime = static_cast<float>(std::max(std::isfinite(seconds) ? seconds : 0.0, min_step));
+    state_->pass_events(io);
+    state_->frames_due = std::max(state_->frames_due - 1, 0);
+    if (state_->options.draws) {
+        ImGui_ImplOpenGL3_NewFrame();
+        sharpen_font(io);
+    }
+    ImGui::NewFrame();
+    if (std::exchange(state_->closes_list, false)) {
+        ImGui::ClosePopupsOverWindow(nullptr, false);
+    }
+}
+
+void Interface::end() {
+    ImGui::Render();
+    if (state_->options.draws) {
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    state_->types_text = io.WantTextInput;
+    state_->opens_list =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    state_->read_areas();
+}
+
+const Fonts& Interface::fonts() const {
+    return state_->fonts;
+}
+
+float Interface::scale() const {
+    return static_cast<float>(state_->options.scale);
+}
+
+} // namespace reljef::app

@@ -1,0 +1,47 @@
+#include "app/viewer/panels/toolkit/pointer_focus.h"
+
+#include <algorithm>
+#include <variant>
+
+namespace reljef::app {
+
+PointerFocus::Receiver PointerFocus::receiver_of(const Event& event, const PanelsShown& shown) {
+    const auto is_over = [&] { return shown.opens_list || shown.is_over(pointer_); };
+    if (const auto* key = std::get_if<KeyEvent>(&event)) {
+        const bool is_typed = shown.types_text || (shown.opens_list && key->key == Key::escape);
+        return is_typed && key->pressed ? Receiver::panels
+                                        : Receiver::both; // both learn what is released
+    }
+    if (std::holds_alternative<TextEvent>(event)) {
+        return shown.types_text ? Receiver::panels : Receiver::view;
+    }
+    if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
+        pointer_ = move->position;
+        if (held_ == 0) {
+            return Receiver::both; // panels highlight what is below the pointer
+        }
+        return dragged_;
+    }
+    if (const auto* button = std::get_if<MouseButtonEvent>(&event)) {
+        pointer_ = button->position;
+        return receiver_of_button(*button, is_over());
+    }
+    if (std::holds_alternative<ScrollEvent>(event)) {
+        return is_over() ? Receiver::panels : Receiver::view;
+    }
+    if (const auto* focus = std::get_if<FocusEvent>(&event); focus != nullptr && !focus->focused) {
+        held_ = 0;
+    }
+    return Receiver::both;
+}
+
+PointerFocus::Receiver PointerFocus::receiver_of_button(const MouseButtonEvent& event,
+                                                        bool is_over) {
+    if (held_ == 0) {
+        dragged_ = is_over ? Receiver::panels : Receiver::view;
+    }
+    held_ = std::max(held_ + (event.pressed ? 1 : -1), 0);
+    return dragged_;
+}
+
+} // namespace reljef::app

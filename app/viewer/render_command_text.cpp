@@ -1,0 +1,210 @@
+#include "app/viewer/render_command_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace reljef::app {
+namespace {
+
+class CommandText {
+public:
+    explicit CommandText(std::string text) : text_(std::move(text)) {}
+
+    CommandText& add(std::string_view option) {
+        text_ += fmt::format(" {}", option);
+        return *this;
+    }
+    CommandText& add(std::string_view option, std::string_view value) {
+        text_ += fmt::format(" {} {}", option, shell_word(value));
+        return *this;
+    }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+std::string point_text(glm::dvec3 point) {
+    return fmt::format("{},{},{}", point.x, point.y, point.z);
+}
+
+void add_source(CommandText& command, const session::SourceOptions& source) {
+    for (const auto& file : source.imagery) {
+        command.add("--imagery", file.string());
+    }
+    if (source.textures) {
+        command.add("--textures", *source.textures);
+    }
+    if (const auto& area = source.area) {
+        command.add("--area",
+                    fmt::format("{},{},{},{}", area->south, area->west, area->north, area->east));
+    }
+    if (source.gaps) {
+        command.add("--gaps", *source.gaps == io::Gaps::sea ? "sea" : "holes");
+    }
+    if (!source.geoid.empty()) {
+        command.add("--geoid", source.geoid);
+    }
+    if (source.allow_external) {
+        command.add("--allow-external");
+    }
+    const session::SourceOptions usual;
+    if (source.memory_megabytes != usual.memory_megabytes) {
+        command.add("--memory", fmt::format("{}", source.memory_megabytes));
+    }
+    if (source.index == session::IndexUse::none) {
+        command.add("--no-index");
+    }
+}
+
+void add_detail(CommandText& command, const session::SceneOptions& options) {
+    if (const auto& detail = options.detail) {
+        std::string numbers;
+        if (detail->width) {
+            numbers += fmt::format(",width={}", *detail->width);
+        }
+        if (detail->scale) {
+            numbers += fmt::format(",scale={}", *detail->scale);
+        }
+        std::replace(numbers.begin(), numbers.begin() + (numbers.empty() ? 0 : 1), ',', ':');
+        command.add("--detail", detail->textures + numbers);
+    }
+    if (options.detail_technique) {
+        command.add("--detail-technique", scene::to_string(*options.detail_technique));
+    }
+}
+
+// Sky, air and colours do not change in flight.
+void add_surroundings(CommandText& command, const StartOptions& start) {
+    if (start.source.ramp) {
+        command.add("--ramp", *start.source.ramp);
+    }
+    if (start.scene.turbidity) {
+        command.add("--turbidity", fmt::format("{}", *start.scene.turbidity));
+    }
+    if (start.scene.visibility) {
+        command.add("--visibility", fmt::format("{}", *start.scene.visibility));
+    }
+    if (start.scene.base) {
+        command.add("--base", *start.scene.base == session::BaseKind::plane ? "plane" : "none");
+    }
+    if (start.scene.hides_sky) {
+        command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");
+    }
+}
+
+// Heading and pitch, degrees, with which scene::camera_from_angles gives the view back.
+glm::dvec2 angles_of(const scene::Camera& camera, const terrain::Placement& placement) {
+    const glm::dvec3 up = placement.up(camera.eye);
+    const glm::dvec3 north = placement.north(camera.eye);
+    const glm::dvec3 east = glm::cross(north, up);
+    const scene::ViewAxes axes = scene::view_axes(camera);
+    const double rise = std::clamp(glm::dot(axes.forward, up), -1.0, 1.0);
+    const double pitch = glm::degrees(std::asin(rise));
+    const double heading =
+        glm::degrees(std::atan2(glm::dot(axes.forward, east), glm::dot(axes.forward, north)));
+    return {heading, pitch};
+}
+
+void add_camera(CommandText& command, const session::TerrainScene& scene) {
+    const auto& camera = *scene.camera->get<scene::Camera>();
+    const auto& placement = scene.terrain->get<scene::TerrainNode>()->surface->placement();
+    command.add("--fov", fmt::format("{}", camera.vertical_fov));
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        const glm::dvec3 forward = scene::view_axes(camera).forward;
+        const double distance =
+            0.5 * camera.view_height / std::tan(0.5 * glm::radians(camera.vertical_fov));
+        command.add("--projection", "orthographic")
+            .add("--eye=" + point_text(camera.target - distance * forward))
+            .add("--look=" + point_text(camera.target));
+        return;
+    }
+    const auto eye = placement.geodetic_from_world(camera.eye);
+    if (placement.kind() == terrain::PlacementKind::plane || !eye) { // z is up
+        command.add("--eye=" + point_text(camera.eye)).add("--look=" + point_text(camera.target));
+        return;
+    }
+    const glm::dvec2 angles = angles_of(camera, placement);
+    command.add(fmt::format("--camera={},{},{},{},{}", eye->latitude, eye->longitude, eye->height,
+                            angles.x, angles.y));
+}
+
+Result<void> add_technique(CommandText& command, const session::TerrainScene& scene,
+                           const StartOptions& start, const ShownState& shown) {
+    const auto materials = scene.materials();
+    const bool is_one =
+        std::all_of(materials.begin(), materials.end(), [&](const scene::Material* material) {
+            return material->technique == materials.front()->technique;
+        });
+    if (shown.keeps_techniques) {
+        if (start.scene.mixed) {
+            command.add("--technique", "mixed");
+        } else if (start.scene.technique) {
+            command.add("--technique", scene::to_string(*start.scene.technique));
+        }
+        return {};
+    }
+    if (!is_one) {
+        return Error{"the models have several techniques, one was expected: --technique draws all "
+                     "models with one"};
+    }
+    command.add("--technique", scene::to_string(shown.technique));
+    return {};
+}
+
+} // namespace
+
+std::string shell_word(std::string_view text) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) {
+        return std::string(text);
+    }
+    std::string quoted = "'";
+    for (const char character : text) {
+        quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
+    }
+    return quoted + "'";
+}
+
+Result<std::string> render_command(const StartOptions& start, const session::TerrainScene& scene,
+                                   const ShownState& shown) {
+    CommandText command("reljef render " + shell_word(start.source.terrain));
+    add_source(command, start.source);
+    const auto& placement = scene.terrain->get<scene::TerrainNode>()->surface->placement();
+    if (scene.models.empty()) {
+        const bool is_plane = placement.kind() == terrain::PlacementKind::plane;
+        command.add("--placement", is_plane ? "plane" : "ellipsoid");
+        command.add("--exaggeration", fmt::format("{}", shown.exaggeration));
+    }
+    if (auto added = add_technique(command, scene, start, shown); !added) {
+        return added.error();
+    }
+    add_detail(command, start.scene);
+    add_surroundings(command, start);
+    if (scene.materials().front()->wireframe) {
+        command.add("--wireframe");
+    }
+    command.add("--sun", fmt::format("{},{}", shown.light.azimuth, shown.light.altitude));
+    add_camera(command, scene);
+    if (start.allow_underground) {
+        command.add("--allow-underground");
+    }
+    if (start.context) {
+        command.add("--context", session::to_string(*start.context));
+    }
+    if (!start.simd.empty()) {
+        command.add("--simd", start.simd);
+    }
+    if (shown.samples) {
+        command.add("--samples", fmt::format("{}", *shown.samples));
+    }
+    command.add("--size", fmt::format("{}x{}", shown.size.x, shown.size.y));
+    return command.add("-o", "view.png").text();
+}
+
+} // namespace reljef::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "app/viewer/panels/panel_content.h"
+#include "app/viewer/viewer.h"
+#include "engine/session/scene_setup.h"
+
+namespace reljef::app {
+
+/// What the panels show of the scene and the viewer; without the frame, messages, samples and the
+/// cursor, which the window has. Leaves the legend empty.
+PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene,
+                        glm::ivec2 window);
+
+/// A point of the scene, world metres.
+PlaceContent place_of(const session::TerrainScene& scene, glm::dvec3 world);
+
+/// The colours of the heights, upwards; empty if the scene shows none: images or models cover them.
+std::vector<LegendStop> legend_of(const session::TerrainScene& scene);
+
+} // namespace reljef::app

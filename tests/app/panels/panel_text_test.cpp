@@ -1,0 +1,72 @@
+#include "app/viewer/panels/panel_text.h"
+
+#include <cmath>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/viewer/panels/compass_panel.h"
+#include "engine/geo/place.h"
+
+namespace reljef::app {
+namespace {
+
+TEST(PanelText, CountsAndLengthsAreShort) {
+    EXPECT_EQ(count_text(9999), "9999");
+    EXPECT_EQ(count_text(12'345), "12.3 k");
+    EXPECT_EQ(count_text(2'073'600), "2.07 M");
+    EXPECT_EQ(length_text(0.012), "12 mm");
+    EXPECT_EQ(length_text(4.561), "4.56 m");
+    EXPECT_EQ(length_text(12'340.0), "12.3 km");
+}
+
+TEST(PanelText, PlacesHaveEachFormatThatTheyCanHave) {
+    PlaceContent place;
+    place.world = {1.0, -2.0, 3.0};
+    EXPECT_EQ(place_text(place, PlaceFormat::mgrs), "x 1.0 m  y -2.0 m");
+    EXPECT_EQ(next_format(PlaceFormat::scene, place), PlaceFormat::scene);
+    place.on_earth = geo::Geodetic{-45.5, 7.25, 100.0};
+    EXPECT_EQ(place_text(place, PlaceFormat::geographic), "45.50000° S  7.25000° E");
+    EXPECT_EQ(place_text(place, PlaceFormat::mgrs), geo::mgrs_text(*place.on_earth));
+    place.in_crs = CrsPlace{{500'000.04, 10.0}, "UTM", true};
+    EXPECT_EQ(place_text(place, PlaceFormat::crs), "500000.0, 10.0");
+    std::set<PlaceFormat> seen;
+    PlaceFormat format = PlaceFormat::geographic;
+    for (int i = 0; i < 4; ++i) {
+        seen.insert(format);
+        format = next_format(format, place);
+    }
+    EXPECT_EQ(seen.size(), 4U);
+    EXPECT_EQ(format, PlaceFormat::geographic);
+}
+
+TEST(PanelText, ErrorsAreWhatTheFrameKept) {
+    const scene::Technique bounded{scene::Polygons{.error = 1.0}};
+    view::FrameStats stats;
+    stats.kept_error = 1.0;
+    EXPECT_EQ(error_summary(stats, bounded), "at most 1 px");
+    stats.kept_error = 2.5;
+    EXPECT_EQ(error_summary(stats, bounded), "up to 2.5 px");
+    stats.tiles_unproven = 1;
+    EXPECT_EQ(error_summary(stats, bounded), "unproven");
+    EXPECT_EQ(error_summary({}, scene::Technique{scene::Texture{}}), "no bound");
+    EXPECT_EQ(error_summary({}, scene::Technique{scene::Exact{}}), "none");
+}
+
+TEST(ScaleBar, HasARoundLengthNextToTheLongest) {
+    for (double scale = 1e-4; scale < 1e5; scale *= 1.37) {
+        const ScaleBar bar = scale_bar(scale, 128.0);
+        EXPECT_NEAR(bar.pixels * scale, bar.metres, 1e-9 * bar.metres);
+        EXPECT_LE(bar.pixels, 128.0 * (1.0 + 1e-12)); // rounding of one division
+        EXPECT_GT(bar.pixels, 128.0 / 2.5 * (1.0 - 1e-12));
+        const double digit =
+            bar.metres / std::pow(10.0, std::floor(std::log10(bar.metres * 1.0001)));
+        EXPECT_TRUE(std::abs(digit - 1.0) < 1e-9 || std::abs(digit - 2.0) < 1e-9 ||
+                    std::abs(digit - 5.0) < 1e-9)
+            << bar.metres;
+    }
+}
+
+} // namespace
+} // namespace reljef::app

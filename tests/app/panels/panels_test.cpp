@@ -1,0 +1,186 @@
+#include "app/viewer/panels/panels.h"
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/viewer/panels/panel_layout.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr glm::ivec2 made_window{1024, 768};
+constexpr double frame_seconds = 1.0 / 60.0;
+
+PanelContent made_content() {
+    PanelContent content;
+    content.terrain = "Höhe über Čačak Ελλάδα";
+    content.technique.requested = scene::Technique{scene::Relief{}};
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        content.technique.choices.push_back({scene::make_technique(info.id), {}, {}});
+    }
+    content.frame.recent_ms = {1.0F, 2.0F, 3.0F};
+    content.metres_per_pixel = 10.0;
+    content.legend = {{0.0, {0, 0, 0, 255}}, {1000.0, {255, 255, 255, 255}}};
+    content.messages = {{"a note", false, 0.0}, {"an error", true, 1.0}};
+    content.task = {"bounding", 0.5};
+    content.keys = {{"H", "help"}};
+    return content;
+}
+
+// Panels without a window or OpenGL.
+struct PanelsTest : testing::Test {
+    PanelActions draw() { return panels.draw(content, made_window, frame_seconds); }
+
+    PanelActions click(glm::dvec2 at, Modifiers with = {}) {
+        panels.receive(MouseMoveEvent{at});
+        draw();
+        used = panels.receive(MouseButtonEvent{MouseButton::left, true, at, with});
+        PanelActions actions = draw();
+        panels.receive(MouseButtonEvent{MouseButton::left, false, at, with});
+        actions += draw();
+        actions += draw();
+        return actions;
+    }
+
+    // Clicks over an area until a click does that; no action otherwise.
+    template <class Action> std::optional<Action> found_in(const Area& area, double step = 12.0) {
+        for (double y = area.high.y - 6.0; y > area.low.y; y -= step) {
+            for (double x = area.low.x + 24.0; x < area.high.x; x += 40.0) {
+                for (const PanelAction& action : click({x, y})) {
+                    if (const auto* found = std::get_if<Action>(&action)) {
+                        return *found;
+                    }
+                }
+            }
+        }
+        return std::nullopt;
+    }
+
+    void press(Key key) {
+        used = panels.receive(KeyEvent{.key = key, .pressed = true});
+        panels.receive(KeyEvent{.key = key, .pressed = false});
+    }
+
+    Panels panels{Interface::create({.draws = false}).value()};
+    PanelLayout layout = layout_for(made_window, 1.0);
+    PanelContent content = made_content();
+    bool used = false; // whether the last press was for the panels alone
+};
+
+TEST_F(PanelsTest, ClicksOnButtonsAreActions) {
+    draw();
+    draw();
+    EXPECT_TRUE(found_in<CopyCommand>(layout.inspector));
+    const auto picture = found_in<PressKey>(layout.inspector);
+    ASSERT_TRUE(picture);
+    EXPECT_EQ(picture->key, Key::c);
+}
+
+TEST_F(PanelsTest, ASliderChangesAParameterToAnAllowedValue) {
+    draw();
+    draw();
+    const auto choice = found_in<ChooseTechnique>(layout.inspector);
+    ASSERT_TRUE(choice);
+    EXPECT_NE(choice->technique, content.technique.requested);
+    EXPECT_EQ(choice->technique.id(), scene::TechniqueId::relief);
+    const auto read_back = scene::parse_technique(scene::to_string(choice->technique));
+    ASSERT_TRUE(read_back) << read_back.error().message;
+    EXPECT_EQ(*read_back, choice->technique);
+}
+
+TEST_F(PanelsTest, OnlyEventsOverPanelsAreTheirs) {
+    draw();
+    draw();
+    click(0.5 * (layout.compass.low + layout.compass.high));
+    EXPECT_TRUE(used);
+    click({512.0, 300.0});
+    EXPECT_FALSE(used);
+    EXPECT_FALSE(panels.is_over_panel({512.0, 300.0}));
+    press(Key::w);
+    EXPECT_FALSE(used);
+}
+
+TEST_F(PanelsTest, HiddenPanelsTakeNoEventsAndDrawNothing) {
+    draw();
+    press(Key::tab);
+    EXPECT_TRUE(used);
+    EXPECT_FALSE(panels.is_visible());
+    EXPECT_TRUE(panels.is_stale()); // one frame without them
+    EXPECT_TRUE(draw().empty());
+    EXPECT_FALSE(panels.is_stale());
+    click(0.5 * (layout.compass.low + layout.compass.high));
+    EXPECT_FALSE(used);
+    EXPECT_FALSE(panels.is_stale());
+    press(Key::tab);
+    EXPECT_TRUE(panels.is_visible());
+}
+
+TEST_F(PanelsTest, TheyRestWhereNothingHappens) {
+    for (int i = 0; i < 4; ++i) {
+        draw();
+    }
+    EXPECT_FALSE(panels.is_stale());
+    panels.receive(MouseMoveEvent{{10.0, 10.0}});
+    EXPECT_TRUE(panels.is_stale());
+}
+
+TEST_F(PanelsTest, HelpCoversTheViewUntilEscape) {
+    const glm::dvec2 middle = 0.5 * glm::dvec2(made_window);
+    draw();
+    draw();
+    EXPECT_FALSE(panels.is_over_panel(middle));
+    panels.toggle_help();
+    draw();
+    draw();
+    EXPECT_TRUE(panels.is_over_panel(middle));
+    press(Key::escape);
+    EXPECT_TRUE(used);
+    draw();
+    draw();
+    EXPECT_FALSE(panels.is_over_panel(middle));
+    press(Key::escape);
+    EXPECT_FALSE(used); // the viewer's
+}
+
+// A slider that is clicked with control becomes a text field.
+TEST_F(PanelsTest, KeysTypedIntoAFieldAreNotTheViews) {
+    draw();
+    draw();
+    const Modifiers control{.control = true};
+    panels.receive(KeyEvent{.key = Key::control, .pressed = true, .modifiers = control});
+    bool types = false;
+    for (double y = layout.inspector.low.y + 60.0; y < layout.inspector.low.y + 300.0 && !types;
+         y += 8.0) {
+        click({layout.inspector.low.x + 60.0, y}, control);
+        press(Key::w);
+        types = used;
+    }
+    EXPECT_TRUE(types);
+}
+
+TEST_F(PanelsTest, TinyAndHugeWindowsWork) {
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), glm::ivec2(320, 240), glm::ivec2(7680, 4320)}) {
+        panels.draw(content, size, frame_seconds);
+        EXPECT_TRUE(panels.draw(content, size, frame_seconds).empty());
+    }
+    panels.draw(content, {1, 1}, frame_seconds);
+    EXPECT_FALSE(panels.is_over_panel({0.0, 0.0}));
+}
+
+TEST_F(PanelsTest, EveryTechniqueOfTheCatalogueHasItsPanel) {
+    for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
+        content.technique.requested = scene::make_technique(info.id);
+        for (const scene::OptionInfo& option : scene::options_of(info.id)) {
+            option.choose(content.technique.requested.options,
+                          option.words.empty() ? 0 : option.words.size() - 1);
+        }
+        EXPECT_TRUE(draw().empty());
+    }
+}
+
+} // namespace
+} // namespace reljef::app

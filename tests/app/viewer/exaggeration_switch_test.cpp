@@ -1,0 +1,78 @@
+#include "app/viewer/appearance/exaggeration_switch.h"
+
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "app/viewer/viewer.h"
+#include "tests/app/made_hill.h"
+
+namespace reljef::app {
+namespace {
+
+void wait_for_maps(Viewer& viewer) {
+    viewer.advance(1.0 / 60.0);
+    while (viewer.is_preparing()) {
+        std::this_thread::yield();
+        viewer.advance(1.0 / 60.0);
+    }
+}
+
+struct ExaggerationTest : testing::Test {
+    const scene::TerrainSurface& surface() {
+        return *scene.terrain->get<scene::TerrainNode>()->surface;
+    }
+    glm::dvec3 eye() { return scene.camera->get<scene::Camera>()->eye; }
+    static session::SceneOptions above_the_hill() {
+        session::SceneOptions view;
+        view.eye = glm::dvec3(0.0, 0.0, 100.0);
+        view.target = glm::dvec3(10.0, 100.0, 50.0);
+        return view;
+    }
+
+    session::TerrainScene scene = hill_scene(above_the_hill());
+    Viewer viewer{scene, scene::orbit_path(scene.bounds, 10.0), {400, 300}};
+};
+
+TEST_F(ExaggerationTest, RaisesTheGroundAndLeavesTheEye) {
+    const glm::dvec3 before = eye();
+    viewer.set_exaggeration(1.5);
+    EXPECT_EQ(viewer.exaggeration(), 1.5);
+    viewer.take_redraw();
+    wait_for_maps(viewer);
+    EXPECT_TRUE(viewer.take_redraw());
+    EXPECT_EQ(surface().placement().exaggeration(), 1.5);
+    EXPECT_NEAR(*surface().height_at(0.0, 0.0), 90.0, 1e-6); // 60 m of float heights
+    EXPECT_EQ(scene.bounds.high.z, scene.terrain->world_bounds().high.z);
+    EXPECT_EQ(eye(), before);
+    EXPECT_NE(viewer.take_light(), nullptr);
+}
+
+TEST_F(ExaggerationTest, LiftsTheEyeAboveGroundThatRisesOverIt) {
+    viewer.set_exaggeration(3.0);
+    wait_for_maps(viewer);
+    EXPECT_GT(eye().z, 180.0);
+}
+
+TEST_F(ExaggerationTest, TheLastOfManyRequestsIsShown) {
+    for (double factor = 1.0; factor < 4.0; factor += 0.25) {
+        viewer.set_exaggeration(factor);
+        viewer.advance(1.0 / 60.0);
+    }
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().placement().exaggeration(), 3.75);
+}
+
+TEST_F(ExaggerationTest, TheLastOfManySunsIsShown) {
+    for (int azimuth = 0; azimuth < 180; ++azimuth) {
+        viewer.set_sun({static_cast<double>(azimuth), 30.0});
+    }
+    wait_for_maps(viewer);
+    const scene::Light light = *scene.light->get<scene::Light>();
+    EXPECT_EQ(light.azimuth, 179.0);
+    EXPECT_EQ(light.altitude, 30.0);
+    EXPECT_EQ(viewer.light(), light);
+}
+
+} // namespace
+} // namespace reljef::app
