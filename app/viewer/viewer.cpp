@@ -327,6 +327,10 @@ void Viewer::advance(double seconds) {
 
 void Viewer::advance_path(double seconds) {
     path_time_ = std::fmod(path_time_ + seconds, std::max(desk_.path().duration(), min_duration));
+    show_path();
+}
+
+void Viewer::show_path() {
     const scene::Camera requested =
         scene::at_key(camera(), desk_.path().at(desk_.path().begin() + path_time_));
     flight_.set_camera(requested);

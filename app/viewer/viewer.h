@@ -154,6 +154,7 @@ private:
 
     bool receive_key(const KeyEvent& event);
     void advance_path(double seconds);
+    void show_path(); // at path_time_
     bool receive_mouse(const Event& event);
     void steer(const scene::Camera& camera);
     void report(const Result<void>& result);

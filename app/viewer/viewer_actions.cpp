@@ -142,8 +142,8 @@ void Viewer::seek(double seconds) {
     }
     navigation_.let_go();
     playing_ = false;
-    path_time_ = seconds;
-    advance_path(0.0);
+    path_time_ = std::isfinite(seconds) ? std::clamp(seconds, 0.0, desk_.path().duration()) : 0.0;
+    show_path();
 }
 
 void Viewer::toggle_recording() {
@@ -159,6 +159,7 @@ void Viewer::toggle_recording() {
 
 void Viewer::append_key() {
     report(desk_.append_key(flight_.camera()));
+    path_time_ = desk_.path().duration(); // there Delete removes it again
     output_ += fmt::format("keyframe {}\n", desk_.path().keys().size());
 }
 

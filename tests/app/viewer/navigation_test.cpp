@@ -10,6 +10,7 @@
 
 #include "app/viewer/viewer.h"
 #include "engine/scene/graph/ground_pick.h"
+#include "engine/session/ground.h"
 #include "tests/app/made_hill.h"
 #include "tests/support/temporary_folder.h"
 
@@ -255,6 +256,8 @@ TEST_F(NavigationTest, KeysRecordAndEditThePath) {
     EXPECT_EQ(viewer.path_desk().path().keys().size(), keys + 1);
     press(Key::erase);
     EXPECT_EQ(viewer.path_desk().path().keys().size(), keys);
+    viewer.seek(viewer.path_desk().path().duration());
+    EXPECT_LT(glm::distance(camera().eye, viewer.path_desk().path().keys().back().eye), 1e-6);
     viewer.seek(0.5);
     EXPECT_LT(glm::distance(camera().eye, viewer.path_desk().path().at(0.5).eye), 1e-6);
     press(Key::j);
