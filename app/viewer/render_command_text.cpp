@@ -140,7 +140,7 @@ Result<void> add_technique(CommandText& command, const session::TerrainScene& sc
         std::all_of(materials.begin(), materials.end(), [&](const scene::Material* material) {
             return material->technique == materials.front()->technique;
         });
-    if (shown.keeps_techniques) {
+    if (shown.keeps_techniques && !scene.models.empty()) {
         if (start.scene.mixed) {
             command.add("--technique", "mixed");
         } else if (start.scene.technique) {
