@@ -31,7 +31,7 @@ struct Sky {
     double air_height = 0.0; ///< metres to 1/e of the air's density; 0: the same everywhere
     double base = 0.0;       ///< z of the full density and of the plane, world metres
     /// Reflected light of an endless plane at `base`; absent: the horizon's haze.
-    std::optional<glm::vec3> plane;
+    std::optional<glm::vec3> plane = {};
 
     friend bool operator==(const Sky&, const Sky&) = default;
 };
