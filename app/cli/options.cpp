@@ -235,8 +235,10 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "metres to 2 % contrast at the lowest ground (10 widths of the terrain)", "M");
     add_parsed(command, "--base", choice.base,
                word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
+                                                     {"solid", session::BaseKind::solid},
                                                      {"none", session::BaseKind::none}}),
-               "plane: the terrain lies on an endless plane; none: it floats in the sky (plane)",
+               "plane: the terrain lies on an endless plane; solid: it is a block with walls below "
+               "its border, on pale ground; none: it floats in the sky (plane)",
                "KIND");
     add_parsed(command, "--occlusion", choice.hides_sky,
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),

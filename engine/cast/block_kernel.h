@@ -125,6 +125,16 @@ struct BlockJobs {
     bool has_walls = false;
 };
 
+/// A triangle of a wall below the terrain. Functions that are linear on the picture: the value at a
+/// place is xy · place + z; places are pixels from the block's middle.
+struct WallTriangle {
+    std::array<glm::vec3, 3> sides; ///< pixels inside of each side
+    glm::vec3 depth{0.0F};          ///< 1/metre: the inverse; on maps metres
+    glm::vec3 color{0.0F};          ///< linear, lit
+    glm::vec2 low{0.0F};            ///< it covers no places beside these
+    glm::vec2 high{0.0F};
+};
+
 /// What all of a block looks like.
 struct BlockPaint {
     BlockRays::Vectors view;    ///< world directions of the rays, metres per t
@@ -148,6 +158,7 @@ struct BlockPaint {
     glm::vec2 from_corner{0.0F};
     glm::vec3 sun{0.0F}; ///< 0 without a sun
     glm::vec3 to_sun{0.0F};
+    std::span<const WallTriangle> walls = {}; ///< in front of all ground
 };
 
 /// Colours of a block as bytes r, g, b, a, row after row.

@@ -376,10 +376,76 @@ struct Look {
     Floats t; // infinity: sky
 };
 
+// Beyond the sides of a triangle, pixels: less than a step of the places of samples, so that
+// neighbours join.
+constexpr float joined = 1.0F / 64.0F;
+
+// Whether a triangle may cover pixels between two places.
+HWY_INLINE bool may_cover(const WallTriangle& wall, glm::vec2 low, glm::vec2 high) {
+    return wall.low.x <= high.x + joined && wall.high.x >= low.x - joined &&
+           wall.low.y <= high.y + joined && wall.high.y >= low.y - joined;
+}
+
+HWY_INLINE Floats linear_at(glm::vec3 plane, const PixelOffsets& pixels) {
+    return hn::MulAdd(pixels.right, all(plane.x),
+                      hn::MulAdd(pixels.down, all(plane.y), all(plane.z)));
+}
+
+// Pixels inside of a triangle. Its bounds cut the tips that the joints have beyond narrow corners.
+HWY_INLINE Floats inside_of(const WallTriangle& wall, const PixelOffsets& pixels) {
+    const Floats sides =
+        hn::Min(hn::Min(linear_at(wall.sides[0], pixels), linear_at(wall.sides[1], pixels)),
+                linear_at(wall.sides[2], pixels));
+    const auto between = [](Floats place, float low, float high) HWY_ATTR {
+        return hn::Min(hn::Sub(place, all(low)), hn::Sub(all(high), place));
+    };
+    return hn::Min(sides, hn::Min(between(pixels.right, wall.low.x, wall.high.x),
+                                  between(pixels.down, wall.low.y, wall.high.y)));
+}
+
+struct WallLook {
+    Lanes found;
+    Look look;
+};
+
+// The walls below the terrain: in front of all ground.
+HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    WallLook walls{no_lanes(), {all(glm::vec3(0.0F)), never}};
+    const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
+                        hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
+    const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
+                         hn::GetLane(hn::MaxOfLanes(floats, pixels.down)));
+    for (const WallTriangle& wall : paint.walls) {
+        if (!may_cover(wall, low, high)) {
+            continue;
+        }
+        const Lanes found = hn::Ge(inside_of(wall, pixels), all(-joined));
+        const Floats linear = linear_at(wall.depth, pixels);
+        const Floats depth = paint.is_perspective ? hn::Div(all(1.0F), moving(linear)) : linear;
+        walls.look.color = chosen(found, all(wall.color), walls.look.color);
+        walls.look.t = hn::IfThenElse(found, hn::Sub(depth, all(paint.anchor)), walls.look.t);
+        walls.found = hn::Or(walls.found, found);
+    }
+    if (!hn::AllFalse(floats, walls.found)) {
+        const Floats depth = hn::Add(walls.look.t, all(paint.anchor));
+        const ViewRays view = view_rays(paint, pixels);
+        const Floats metres = hn::IfThenElseZero(walls.found, hn::Mul(depth, view.length));
+        if (paint.has_air) {
+            walls.look.color = through_air(paint, angles_of(paint, view), walls.look.color, metres);
+        }
+        // As if nearer: so their border to the ground, at the same depth, gets several samples.
+        constexpr float nearer = 0.75F;
+        walls.look.t = hn::IfThenElse(
+            walls.found, hn::Sub(hn::Mul(depth, all(nearer)), all(paint.anchor)), never);
+    }
+    return walls;
+}
+
 // `start_of(job)`: where the rays may begin.
 template <bool has_walls, class StartOf>
-HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
-                        const StartOf& start_of) {
+HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
+                               const PixelOffsets& pixels, const StartOf& start_of) {
     const Floats never = all(std::numeric_limits<float>::infinity());
     const ViewRays view = view_rays(paint, pixels);
     Look look{all(glm::vec3(0.0F)), never};
@@ -402,6 +468,21 @@ HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const Pi
     }
     look.color = chosen(met.found, look.color, sky_color(paint, pixels, view));
     return look;
+}
+
+template <bool has_walls, class StartOf>
+HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
+                        const StartOf& start_of) {
+    if (paint.walls.empty()) {
+        return ground_look_of<has_walls>(jobs, paint, pixels, start_of);
+    }
+    const WallLook walls = wall_look_of(paint, pixels);
+    if (hn::AllTrue(floats, walls.found)) {
+        return walls.look;
+    }
+    const Look ground = ground_look_of<has_walls>(jobs, paint, pixels, start_of);
+    return {chosen(walls.found, walls.look.color, ground.color),
+            hn::IfThenElse(walls.found, walls.look.t, ground.t)};
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

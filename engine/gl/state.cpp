@@ -26,7 +26,9 @@ void set_reversed_depth() {
 
 void set_depth_test(DepthTest test) {
     enable(GL_DEPTH_TEST, test != DepthTest::off);
-    glDepthFunc(test == DepthTest::greater_or_equal ? GL_GEQUAL : GL_GREATER);
+    glDepthFunc(test == DepthTest::always             ? GL_ALWAYS
+                : test == DepthTest::greater_or_equal ? GL_GEQUAL
+                                                      : GL_GREATER);
 }
 
 void set_depth_writing(bool on) {

@@ -3,7 +3,7 @@
 namespace reljef::gl {
 
 /// With reversed depth the nearer fragment has the greater depth.
-enum class DepthTest { off, greater, greater_or_equal };
+enum class DepthTest { off, greater, greater_or_equal, always };
 enum class Culling { none, back, front };
 enum class PolygonMode { fill, line };
 

@@ -19,7 +19,7 @@ constexpr int samples_of_triangles = 4;
 constexpr double max_sampled_pixels = 4096.0 * 4096.0;
 
 int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
-    const bool has_triangles = !list.tiles.empty() || !list.meshes.empty();
+    const bool has_triangles = !list.tiles.empty() || !list.meshes.empty() || !list.bases.empty();
     const double pixels = static_cast<double>(size.x) * size.y;
     const bool has_several = has_triangles && pixels <= max_sampled_pixels;
     return samples != view::automatic_samples ? samples : has_several ? samples_of_triangles : 1;
@@ -214,7 +214,7 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
                              .beams = beam_target_.framebuffer(),
                              .no_vertices = no_vertices_,
                              .state = state};
-    for (const auto pass : {draw_terrain_tiles, draw_reliefs, draw_meshes, draw_sky}) {
+    for (const auto pass : {draw_terrain_tiles, draw_reliefs, draw_bases, draw_meshes, draw_sky}) {
         if (auto drawn = pass(frame); !drawn) {
             return drawn;
         }

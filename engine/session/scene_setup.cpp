@@ -14,6 +14,7 @@
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/formats/ramp_file.h"
 #include "engine/scene/graph/daylight.h"
+#include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
@@ -264,6 +265,28 @@ glm::vec3 base_albedo(const scene::TerrainSurface& surface) {
                                             : glm::vec3(0.42F, 0.42F, 0.41F);
 }
 
+BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
+    if (view.base) {
+        return *view.base;
+    }
+    return description.base == "none"    ? BaseKind::none
+           : description.base == "solid" ? BaseKind::solid
+                                         : BaseKind::plane;
+}
+
+constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
+constexpr float table_albedo = 0.56F;                  // on which a block lies
+
+std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface) {
+    auto mesh = scene::terrain_base(surface);
+    if (!mesh) {
+        return nullptr;
+    }
+    scene::MeshNode node{std::make_shared<const scene::Mesh>(std::move(*mesh)), {}};
+    node.material.color = wall_albedo;
+    return std::make_shared<const scene::MeshNode>(std::move(node));
+}
+
 // Light, sky and air. Air gets thinner with the terrain's own heights, or with a part of its width.
 void add_daylight(TerrainScene& result, const io::SceneDescription& description,
                   const SceneOptions& view) {
@@ -287,12 +310,17 @@ void add_daylight(TerrainScene& result, const io::SceneDescription& description,
     constexpr double in_widths = 0.05;
     sky.air_height = std::max(in_heights * size.z, in_widths * width);
     sky.base = result.bounds.low.z;
-    const bool has_plane = view.base ? *view.base == BaseKind::plane : description.base != "none";
+    const BaseKind base = base_kind(description, view);
     constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
-    if (has_plane && width <= max_plane_width) {
+    auto& terrain = *result.terrain->get<scene::TerrainNode>();
+    if (base != BaseKind::none && width <= max_plane_width) {
         const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
-        sky.plane = base_albedo(*result.terrain->get<scene::TerrainNode>()->surface) *
-                    (level * sun.color + sun.ambient);
+        const glm::vec3 albedo =
+            base == BaseKind::solid ? glm::vec3(table_albedo) : base_albedo(*terrain.surface);
+        sky.plane = albedo * (level * sun.color + sun.ambient);
+    }
+    if (base == BaseKind::solid && !result.is_gallery) {
+        terrain.base = walls_below(*terrain.surface);
     }
     result.scene.set_sky(sky);
 }

@@ -84,7 +84,8 @@ struct DrawList {
     std::vector<TileDraw> tiles;       ///< of `terrains`, front to back
     std::vector<TerrainDraw> reliefs;  ///< by rays, front to back
     std::vector<MeshDraw> meshes;
-    FrameStats stats; ///< of the selection
+    std::vector<MeshDraw> bases; ///< walls below terrains (TerrainNode::base), in pictures only
+    FrameStats stats;            ///< of the selection
 
     [[nodiscard]] const glm::dmat4& world_from_local(const TileDraw& draw) const {
         return terrains[draw.node].world_from_local;

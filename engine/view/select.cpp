@@ -164,6 +164,10 @@ private:
     };
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
+        if (terrain.base != nullptr && scene::shows_heights(terrain.material.technique) &&
+            !terrain.material.wireframe) {
+            list_.bases.push_back({terrain.base.get(), world_from_local, false});
+        }
         if (scene::searches_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
         } else if (!has_streamed_tiles(terrain) ||

@@ -17,6 +17,7 @@
 #include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
+#include "engine/cast/frame/base_walls.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/streaming/tile_stream.h"
@@ -353,7 +354,7 @@ public:
     Painter(const view::DrawList& list, const PlacedTiles& placed, const DriverOptions& options,
             FirstSamples& first)
         : placed_(placed), kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)),
-          shared_(backdrop_of(list)), view_(view_of(list)), first_(first),
+          shared_(backdrop_of(list)), view_(view_of(list)), walls_(base_walls(list)), first_(first),
           jobs_(static_cast<std::size_t>(block_count(list.size))) {
         shared_.anchor =
             placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
@@ -368,7 +369,7 @@ public:
     void paint(const PixelBlock& block, std::size_t index) {
         std::vector<BlockJob> jobs = block_jobs(placed_, block, true);
         BlockPixels pixels;
-        kernel_.paint({jobs, placed_.has_walls}, paint_of(block), pixels);
+        kernel_.paint({jobs, placed_.has_walls}, paint_of(block, index), pixels);
         write_block(pixels, block, first_.picture);
         if (samples_.samples > 1) {
             write_nearness(pixels, block);
@@ -386,7 +387,7 @@ public:
             return;
         }
         BlockPixels pixels;
-        kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block), sampled, pixels);
+        kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block, index), sampled, pixels);
         for (int i = 0; i < sampled.count; ++i) {
             const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
             std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
@@ -398,8 +399,11 @@ public:
     [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
 
 private:
-    [[nodiscard]] BlockPaint paint_of(const PixelBlock& block) const {
+    [[nodiscard]] BlockPaint paint_of(const PixelBlock& block, std::size_t index) const {
         BlockPaint paint = shared_;
+        if (!walls_.empty()) {
+            paint.walls = walls_[index];
+        }
         const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
         paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
         paint.from_corner = glm::vec2(middle.x, first_.picture.rows() - middle.y);
@@ -418,6 +422,7 @@ private:
     BlockKernel kernel_;
     BlockPaint shared_;
     PictureRays::Vectors view_;
+    std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
     FirstSamples& first_;
     std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
     SampledPixels samples_;

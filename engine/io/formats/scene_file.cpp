@@ -29,7 +29,7 @@ constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_w
 constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange turbidities{1.0, 10.0, false};
-constexpr std::array<std::string_view, 2> bases{"plane", "none"};
+constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};

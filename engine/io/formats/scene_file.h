@@ -61,8 +61,8 @@ struct SceneDescription {
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility;
     std::optional<double> turbidity; ///< [1, 10]; absent: clear air
-    std::string base;                ///< below the terrain's edge: "plane" or "none"; empty: plane
-    bool hides_sky = true;           ///< whether terrain keeps the sky's light from itself
+    std::string base;      ///< below the terrain's edge: "plane", "solid" or "none"; empty: plane
+    bool hides_sky = true; ///< whether terrain keeps the sky's light from itself
 
     // [camera]: scene metres; absent: all of the terrain is seen
     std::optional<glm::dvec3> eye;

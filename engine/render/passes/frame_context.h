@@ -34,6 +34,10 @@ Result<void> draw_reliefs(const FrameContext& frame);
 
 Result<void> draw_meshes(const FrameContext& frame);
 
+/// Draws the walls below terrains over all ground: a wall that faces the eye is in front of it.
+/// Nothing for hits.
+Result<void> draw_bases(const FrameContext& frame);
+
 /// Draws the sky behind everything; nothing for hits.
 Result<void> draw_sky(const FrameContext& frame);
 

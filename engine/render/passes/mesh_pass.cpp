@@ -115,6 +115,21 @@ Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw) {
 
 } // namespace
 
+// The walls' depth is written: they hide meshes and the sky behind them.
+Result<void> draw_bases(const FrameContext& frame) {
+    if (frame.list.bases.empty() || frame.hits) {
+        return {};
+    }
+    gl::set_depth_test(gl::DepthTest::always);
+    Result<void> done;
+    for (const view::MeshDraw& base : frame.list.bases) {
+        done = done ? draw_mesh(frame, base) : done;
+    }
+    gl::set_depth_test(gl::DepthTest::greater);
+    frame.state.stats().state_changes += 2;
+    return done;
+}
+
 Result<void> draw_meshes(const FrameContext& frame) {
     for (const view::MeshDraw& draw : frame.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {

@@ -72,7 +72,9 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     for (const view::TerrainDraw& draw : list.reliefs) {
         done = done && draw.tiles.empty() ? prepare_relief(draw, stats) : done;
     }
-    return done ? meshes_.prepare(list.meshes, list.camera, stats) : done;
+    std::vector<view::MeshDraw> meshes = list.meshes;
+    meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
+    return done ? meshes_.prepare(meshes, list.camera, stats) : done;
 }
 
 Result<void> Residency::add_light(const view::PreparedLight& prepared) {

@@ -60,6 +60,13 @@ bool is_seen_from_behind(const Material& material) {
     return material.detail.set != nullptr && is_two_sided(material.technique);
 }
 
+bool shows_heights(const Technique& technique) {
+    const TechniqueId id = technique.id();
+    return (id == TechniqueId::polygons || searches_surface(id)) && !technique.options.fade &&
+           id != TechniqueId::parallax && id != TechniqueId::parallax_limited &&
+           id != TechniqueId::parallax_iterated;
+}
+
 bool draws_tiles(const Technique& technique) {
     const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
     return std::holds_alternative<Texture>(technique.parameters) ||

@@ -50,6 +50,8 @@ Result<void> check_terrain_detail_technique(const Technique& technique);
 
 class TileStream;
 
+struct MeshNode;
+
 struct TerrainNode {
     std::shared_ptr<const TerrainSurface> surface;
     Material material;
@@ -61,9 +63,14 @@ struct TerrainNode {
     /// Prepared maps of the surface; null: the renderer makes them on demand.
     std::shared_ptr<const terrain::Bisection> bisection = {};
     std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1
+    /// Walls below its border (terrain_base.h), of one colour. Hits do not show them. Null: none.
+    std::shared_ptr<const MeshNode> base = {};
 
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
+
+/// Whether the technique shows heights at their true places, so that walls may join the border.
+bool shows_heights(const Technique& technique);
 
 /// Whether the technique draws the tiles of a stream; others draw the overview.
 bool draws_tiles(const Technique& technique);

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "engine/scene/graph/daylight.h"
+#include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "engine/view/sample_count.h"
@@ -29,7 +32,7 @@ constexpr std::array seen_poses{scene::Pose::overview, scene::Pose::low, scene::
 struct LitStage : Stage {
     LitStage() : Stage(test::hills(301, 257, 12.0), {1.0, 1.0}) {
         light = &scene.add_light();
-        scene.set_sky({.visibility = 900.0});
+        scene.set_sky({.visibility = 900.0, .plane = {}});
         use(scene::Technique{scene::Exact{}});
     }
     scene::Node* light = nullptr;
@@ -123,6 +126,55 @@ TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
                 << scene::to_string(pose) << ' ' << altitude;
         }
     }
+}
+
+std::shared_ptr<const scene::MeshNode> base_below(const scene::TerrainSurface& surface) {
+    scene::MeshNode node;
+    node.mesh = std::make_shared<const scene::Mesh>(scene::terrain_base(surface).value());
+    node.material.color = glm::vec3(0.5F, 0.1F, 0.05F);
+    return std::make_shared<const scene::MeshNode>(node);
+}
+
+TEST_F(CastDriverGlTest, DrawsTheBaseAsTheShadersDo) {
+    LitStage stage;
+    const auto base = base_below(stage.surface());
+    const Box bounds = stage.surface().bounds();
+    const glm::dvec3 size = bounds.size();
+    for (const glm::dvec3 side :
+         {glm::dvec3(0.3, -1.0, 0.3), glm::dvec3(0.9, 0.8, 0.15), glm::dvec3(-0.7, 0.05, -0.02)}) {
+        scene::Camera camera;
+        camera.eye = bounds.center() + side * glm::dvec3(size.x, size.x, size.x);
+        camera.target = bounds.center();
+        for (const auto kind :
+             {scene::ProjectionKind::perspective, scene::ProjectionKind::orthographic}) {
+            camera.projection = kind;
+            camera.view_height = size.x;
+            stage.look(camera);
+            stage.terrain->get<scene::TerrainNode>()->base = nullptr;
+            const Image bare = drawn_by_rays(stage.scene);
+            stage.terrain->get<scene::TerrainNode>()->base = base;
+            const Image rays = drawn_by_rays(stage.scene);
+            EXPECT_GT(share_of_others(rays, bare, 2), 0.02) << side.x;
+            // Pixels at the borders of ground and walls belong to one or the other.
+            EXPECT_LE(share_of_others(rays, drawn_by_opengl(stage.scene), 2), 0.03) << side.x;
+        }
+    }
+}
+
+// Walls are seen from outside only, whatever is near the eye.
+TEST(CastDriver, ABaseIsHiddenFromWithinAndLeavesHitsAsTheyAre) {
+    LitStage stage;
+    stage.look_from(scene::Pose::low);
+    const Image bare = drawn_by_rays(stage.scene);
+    stage.look_from(scene::Pose::overview);
+    Driver driver = test::must(Driver::create({.size = small_picture}));
+    const auto hits = test::must(driver.draw_hits(view::select(stage.scene, small_picture))).hits;
+    stage.terrain->get<scene::TerrainNode>()->base = base_below(stage.surface());
+    const auto same = test::must(driver.draw_hits(view::select(stage.scene, small_picture))).hits;
+    EXPECT_EQ(std::memcmp(hits.samples().data(), same.samples().data(), hits.size() * sizeof(Hit)),
+              0);
+    stage.look_from(scene::Pose::low);
+    EXPECT_EQ(drawn_by_rays(stage.scene), bare);
 }
 
 TEST_F(CastDriverGlTest, DrawsSkyAndSunWithoutTerrain) {

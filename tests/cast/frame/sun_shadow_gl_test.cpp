@@ -185,7 +185,7 @@ class SunShadowGlTest : public test::GlTest {};
 
 TEST_F(SunShadowGlTest, IsThatOfTheShaders) {
     SunnyStage stage;
-    stage.scene.set_sky({.visibility = 900.0});
+    stage.scene.set_sky({.visibility = 900.0, .plane = {}});
     for (const scene::Pose pose : {scene::Pose::overview, scene::Pose::low}) {
         stage.look_from(pose);
         session::SceneRenderer made = test::must(test::make_renderer(shadow_picture));

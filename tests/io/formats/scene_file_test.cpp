@@ -60,6 +60,7 @@ look = [0, 0, 0]
     EXPECT_FALSE(scene->hides_sky);
     EXPECT_EQ(scene->turbidity, 3.0);
     EXPECT_EQ(scene->base, "none");
+    EXPECT_EQ(parse("[terrain]\ngenerator = \"urban\"\n[air]\nbase = \"solid\"")->base, "solid");
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));
     EXPECT_EQ(scene->target, glm::dvec3(0.0));
 }
