@@ -29,6 +29,7 @@ namespace {
 
 // A third of the contrast is gone after one width, at the height of the lowest ground.
 constexpr double visibility_in_widths = 10.0;
+constexpr double min_visibility = 30e3;       // metres: shadows of a city are not blue
 constexpr std::size_t part_for_triangles = 4; // of the memory
 
 // With little memory: a quarter of those of the tiles that are enough for any view.
@@ -305,7 +306,8 @@ void add_daylight(TerrainScene& result, const io::SceneDescription& description,
     const glm::dvec3 size = result.bounds.size();
     const double width = std::max(size.x, size.y);
     const auto visibility = view.visibility ? view.visibility : description.visibility;
-    sky.visibility = visibility.value_or(visibility_in_widths * std::max(width, size.z));
+    sky.visibility = visibility.value_or(
+        std::max(visibility_in_widths * std::max(width, size.z), min_visibility));
     constexpr double in_heights = 1.5;
     constexpr double in_widths = 0.05;
     sky.air_height = std::max(in_heights * size.z, in_widths * width);
