@@ -280,8 +280,8 @@ TEST_F(ShaderLibraryGlTest, ABlockOfAnotherSizeIsAnError) {
 TEST_F(ShaderLibraryGlTest, CompilesAVariantOnce) {
     ShaderLibrary shaders;
     gl::Program* const first = test::must(shaders.program({ShaderKind::sky, feature_lit}));
-    EXPECT_EQ(test::must(shaders.program({ShaderKind::sky, feature_lit | feature_fog})), first)
-        << "fog means nothing to the sky";
+    EXPECT_EQ(test::must(shaders.program({ShaderKind::sky, feature_lit | feature_fade})), first)
+        << "a fade means nothing to the sky";
     EXPECT_NE(test::must(shaders.program({ShaderKind::sky, 0})), first);
 }
 
