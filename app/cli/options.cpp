@@ -230,9 +230,10 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--turbidity", choice.turbidity,
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),
                "haze of the air, 1 (none) to 10: colours of sun, sky and distance (1.4)", "T");
-    add_parsed(command, "--visibility", choice.visibility,
-               number_in("--visibility", 0.0, 1e9, true),
-               "metres to 2 % contrast at the lowest ground (10 widths of the terrain, at least 30,000)", "M");
+    add_parsed(
+        command, "--visibility", choice.visibility, number_in("--visibility", 0.0, 1e9, true),
+        "metres to 2 % contrast at the lowest ground (10 widths of the terrain, at least 30,000)",
+        "M");
     add_parsed(command, "--base", choice.base,
                word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
                                                      {"solid", session::BaseKind::solid},

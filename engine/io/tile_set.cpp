@@ -194,9 +194,9 @@ void keep_each_once(std::vector<FileError>& errors) {
 }
 
 LayerReading TileSet::State::reading(std::atomic<std::size_t>& bytes_read,
-                                    const std::stop_token& stop) const {
+                                     const std::stop_token& stop) const {
     LayerReading reading{indexed, indexed_crs, folder,   {},        &bytes_read,
-                        &whole,  &pool,       &failing, &new_notes};
+                         &whole,  &pool,       &failing, &new_notes};
     reading.options.height_scale = options.height_scale;
     reading.options.height_offset = options.height_offset;
     reading.options.stop = stop;

@@ -38,7 +38,7 @@ struct TileSet::State {
 
     /// `bytes_read` counts the bytes of samples.
     [[nodiscard]] LayerReading reading(std::atomic<std::size_t>& bytes_read,
-                                      const std::stop_token& stop) const;
+                                       const std::stop_token& stop) const;
     /// Adds a note if the overviews are unusable.
     [[nodiscard]] Result<Dataset> open_raster_of_set(const std::filesystem::path& path,
                                                      const GdalMessages& messages) const;

@@ -10,8 +10,8 @@ namespace reljef::terrain {
 namespace {
 
 Heightfield land(float low, float high) {
-    return test::plane_heightfield(test::made_heights(
-        4, 4, [&](int col, int row) { return col + row == 0 ? low : high; }));
+    return test::plane_heightfield(
+        test::made_heights(4, 4, [&](int col, int row) { return col + row == 0 ? low : high; }));
 }
 
 Heightfield land_at(double latitude) {
@@ -30,8 +30,8 @@ TEST(ColorRamp, EveryNameIsARampWithStops) {
 }
 
 TEST(ColorRamp, IsLinearBetweenStopsAndConstantBeyond) {
-    const ColorRamp ramp{"two", {{100.0, glm::vec3(10.0F)}, {300.0, glm::vec3(50.0F)}},
-                         false, false, {}};
+    const ColorRamp ramp{
+        "two", {{100.0, glm::vec3(10.0F)}, {300.0, glm::vec3(50.0F)}}, false, false, {}};
     const RampColors colors(ramp, land(0.0F, 400.0F));
     EXPECT_EQ(colors.at(-9.0).r, 10.0F);
     EXPECT_FLOAT_EQ(colors.at(150.0).r, 20.0F);

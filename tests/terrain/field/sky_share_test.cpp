@@ -36,8 +36,8 @@ TEST(SkyShare, OfAPlaneIsHalfOfOnePlusTheCosine) {
     }
 }
 
-// A street between endless walls of height h at a distance d: along an azimuth a from the street, the
-// walls rise by s = h |sin a| / d, and the mean of 1 / (1 + s²) is 1 / sqrt(1 + (h / d)²).
+// A street between endless walls of height h at a distance d: along an azimuth a from the street,
+// the walls rise by s = h |sin a| / d, and the mean of 1 / (1 + s²) is 1 / sqrt(1 + (h / d)²).
 TEST(SkyShare, OfAStreetIsThatOfItsWalls) {
     const auto heights = test::made_heights(
         401, 401, [](int col, int) { return std::abs(col - 200) > 9 ? 10.0 : 0.0; });
@@ -70,7 +70,8 @@ TEST(SkyShare, IsThatOfEverySampleOnTheLines) {
             west = other < col ? std::max(west, -slope) : west;
             east = other > col ? std::max(east, slope) : east;
         }
-        // Those along the row stand for the azimuths up to half way to the next ones, 26.565 degrees off.
+        // Those along the row stand for the azimuths up to half way to the next ones, 26.565
+        // degrees off.
         const double weight = std::atan(0.5) / (2.0 * std::acos(-1.0));
         const double expected =
             1.0 - weight * (2.0 - 1.0 / (1.0 + west * west) - 1.0 / (1.0 + east * east));
