@@ -121,6 +121,12 @@ std::optional<Image> finished_frame(const RenderChoice& choice, int index) {
     return file ? finished_picture(*file, choice.view.size) : std::nullopt;
 }
 
+void print_stats(const RenderChoice& choice, const session::FrameMaker& maker, int drawn) {
+    if (choice.stats && drawn > 0) {
+        fmt::print("{}", maker.stats());
+    }
+}
+
 // Adds the files that are to be committed. Returns the frames whose cameras were lifted above the
 // ground.
 Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
@@ -171,9 +177,7 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
     if (auto finished = (*sink)->finish(outputs); !finished) {
         return finished.error();
     }
-    if (choice.stats && drawn > 0) {
-        fmt::print("{}", maker.stats());
-    }
+    print_stats(choice, maker, drawn);
     const auto prepared = sheet.prepare(choice.contact_sheet, outputs);
     return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
 }
@@ -419,6 +423,21 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                                   scene->failed_files + session::failed_files(scene->scene));
 }
 
+constexpr const char* examples =
+    "Examples:\n"
+    "  reljef render N45E006.hgt -o alps.png\n"
+    "  reljef render N45E006.hgt --camera 45.7,6.8,4000,20,-15 -o mont-blanc.png\n"
+    "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet "
+    "sheet.png\n"
+    "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
+    "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
+    "slurm --resume\n"
+    "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
+    "  reljef render dem.tif --technique texture --hit hit.exr\n"
+    "  reljef render urban --detail cobble:width=3 -o street.png\n"
+    "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
+    "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr";
+
 } // namespace
 
 cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
@@ -468,20 +487,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         }
         expect_outputs(*choice);
     });
-    arguments->footer(
-        "Examples:\n"
-        "  reljef render N45E006.hgt -o alps.png\n"
-        "  reljef render N45E006.hgt --camera 45.7,6.8,4000,20,-15 -o mont-blanc.png\n"
-        "  reljef render urban --path orbit --frames 48 -o 'frames/%04d.png' --contact-sheet "
-        "sheet.png\n"
-        "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
-        "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
-        "slurm --resume\n"
-        "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
-        "  reljef render dem.tif --technique texture --hit hit.exr\n"
-        "  reljef render urban --detail cobble:width=3 -o street.png\n"
-        "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
-        "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr");
+    arguments->footer(examples);
     return {arguments, [choice, &interrupt] {
                 return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
                                                 [&] { return render(*choice, interrupt); });

@@ -224,6 +224,14 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "perspective or orthographic; orthographic without a camera draws a map "
                "(perspective)",
                "KIND");
+    command
+        .add_option("--shader-dir", choice.shader_dir,
+                    "use shader files of this folder instead of the built-in ones")
+        ->type_name("FOLDER")
+        ->check(existing_folder());
+}
+
+void add_daylight_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "direction of the sun, degrees: clockwise from north, above the horizon (300,40)",
                "AZIMUTH,ALTITUDE");
@@ -244,11 +252,6 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--occlusion", choice.hides_sky,
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");
-    command
-        .add_option("--shader-dir", choice.shader_dir,
-                    "use shader files of this folder instead of the built-in ones")
-        ->type_name("FOLDER")
-        ->check(existing_folder());
 }
 
 void add_camera_options(CLI::App& command, ViewChoice& choice) {
@@ -430,6 +433,7 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
 
 void add_view_options(CLI::App& command, ViewChoice& choice) {
     add_picture_options(command, choice);
+    add_daylight_options(command, choice);
     add_camera_options(command, choice);
 }
 

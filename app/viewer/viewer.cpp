@@ -289,12 +289,7 @@ bool Viewer::is_moving() const {
            (map_ ? map_->is_steered() : flight_.is_steered() || navigation_.is_moving());
 }
 
-void Viewer::advance(double seconds) {
-    double step = std::isfinite(seconds) && seconds > 0.0 ? seconds : 0.0;
-    if (rested_) {
-        step = std::min(step, first_step);
-    }
-    rested_ = !is_moving();
+void Viewer::update_appearance() {
     redraw_ = switch_.update() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     if (exaggeration_.update(switch_.technique(), switch_.light())) {
@@ -304,8 +299,9 @@ void Viewer::advance(double seconds) {
             show_camera(flight_.camera());
         }
     }
-    before_ = camera();
-    last_step_ = step;
+}
+
+void Viewer::move(double step) {
     if (playing_) {
         advance_path(step);
     } else if (map_ && map_->advance(step)) {
@@ -318,6 +314,18 @@ void Viewer::advance(double seconds) {
             show_camera(flight_.camera());
         }
     }
+}
+
+void Viewer::advance(double seconds) {
+    double step = std::isfinite(seconds) && seconds > 0.0 ? seconds : 0.0;
+    if (rested_) {
+        step = std::min(step, first_step);
+    }
+    rested_ = !is_moving();
+    update_appearance();
+    before_ = camera();
+    last_step_ = step;
+    move(step);
     desk_.record(flight_.camera(), step);
     if (const auto viewshed = measuring_.update()) {
         report(*viewshed ? Result<void>() : viewshed->error());

@@ -153,6 +153,8 @@ private:
     static std::span<const Binding> bindings();
 
     bool receive_key(const KeyEvent& event);
+    void update_appearance();
+    void move(double step);
     void advance_path(double seconds);
     void show_path(); // at path_time_
     bool receive_mouse(const Event& event);

@@ -210,6 +210,7 @@ std::optional<ColorRamp> named_ramp(std::string_view name) {
 
 std::vector<std::string_view> ramp_names() {
     std::vector<std::string_view> names;
+    names.reserve(ramps.size());
     for (const auto& [name, make] : ramps) {
         names.push_back(name);
     }

@@ -6,7 +6,6 @@
 namespace reljef::app {
 
 PointerFocus::Receiver PointerFocus::receiver_of(const Event& event, const PanelsShown& shown) {
-    const auto is_over = [&] { return shown.opens_list || shown.is_over(pointer_); };
     if (const auto* key = std::get_if<KeyEvent>(&event)) {
         const bool is_typed = shown.types_text || (shown.opens_list && key->key == Key::escape);
         return is_typed && key->pressed ? Receiver::panels
@@ -15,12 +14,20 @@ PointerFocus::Receiver PointerFocus::receiver_of(const Event& event, const Panel
     if (std::holds_alternative<TextEvent>(event)) {
         return shown.types_text ? Receiver::panels : Receiver::view;
     }
+    if (const auto* focus = std::get_if<FocusEvent>(&event)) {
+        held_ = focus->focused ? held_ : 0;
+        return Receiver::both;
+    }
+    return receiver_of_pointer(event, shown);
+}
+
+PointerFocus::Receiver PointerFocus::receiver_of_pointer(const Event& event,
+                                                         const PanelsShown& shown) {
+    const auto is_over = [&] { return shown.opens_list || shown.is_over(pointer_); };
     if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
         pointer_ = move->position;
-        if (held_ == 0) {
-            return Receiver::both; // panels highlight what is below the pointer
-        }
-        return dragged_;
+        return held_ == 0 ? Receiver::both // panels highlight what is below the pointer
+                          : dragged_;
     }
     if (const auto* button = std::get_if<MouseButtonEvent>(&event)) {
         pointer_ = button->position;
@@ -28,9 +35,6 @@ PointerFocus::Receiver PointerFocus::receiver_of(const Event& event, const Panel
     }
     if (std::holds_alternative<ScrollEvent>(event)) {
         return is_over() ? Receiver::panels : Receiver::view;
-    }
-    if (const auto* focus = std::get_if<FocusEvent>(&event); focus != nullptr && !focus->focused) {
-        held_ = 0;
     }
     return Receiver::both;
 }

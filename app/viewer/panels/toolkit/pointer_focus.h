@@ -23,6 +23,7 @@ public:
     Receiver receiver_of(const Event& event, const PanelsShown& shown);
 
 private:
+    Receiver receiver_of_pointer(const Event& event, const PanelsShown& shown);
     Receiver receiver_of_button(const MouseButtonEvent& event, bool is_over);
 
     glm::dvec2 pointer_{-1.0};
