@@ -134,16 +134,18 @@ TEST(ViewCommand, MouseOfARealWindowPansZoomsAndMeasures) {
     }
     const test::TemporaryFolder folder;
     const auto result =
-        drive(folder, "export at='xdotool mousemove --window '$window\n"
-                      "titled 'texture - still'; pressed c; until_true test -e reljef-0001.png\n"
-                      "$at 160 180 mousedown 3; $at 180 170; $at 220 200; xdotool mouseup 3\n"
-                      "titled still; pressed c; until_true test -e reljef-0002.png\n"
-                      "$at 160 200 click 4 click 4; titled still\n"
-                      "pressed c; until_true test -e reljef-0003.png\n"
-                      "pressed x; $at 100 200 click 1; $at 220 210 click 1\n"
-                      "pressed i; until_true test -e reljef-profile-0001.csv\n"
-                      "pressed b; until_true test -e data/reljef/bookmarks.txt\n"
-                      "pressed Escape");
+        drive(folder,
+              "export at='xdotool mousemove --window '$window\n"
+              "titled 'texture - still'; pressed c; until_true test -e reljef-0001.png\n"
+              "$at 160 140 mousedown 3; $at 170 135; $at 190 150; xdotool mouseup 3\n"
+              "titled still; pressed c; until_true test -e reljef-0002.png\n"
+              "$at 160 140 click 4 click 4; titled still\n"
+              "pressed c; until_true test -e reljef-0003.png\n"
+              "pressed x; $at 140 140 click 1; $at 190 150 click 1\n"
+              "pressed i; until_true test -e reljef-profile-0001.csv\n"
+              "pressed b; until_true test -e data/reljef/bookmarks.txt\n"
+              "pressed Escape",
+              "--technique texture --no-panels");
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
     const auto first = io::read_image(folder.path() / "reljef-0001.png");
     const auto panned = io::read_image(folder.path() / "reljef-0002.png");
@@ -153,7 +155,7 @@ TEST(ViewCommand, MouseOfARealWindowPansZoomsAndMeasures) {
     EXPECT_NE(*panned, *zoomed);
     EXPECT_THAT(result.out, HasSubstr("\n2  x "));
     EXPECT_THAT(result.out, HasSubstr("over the ground"));
-    EXPECT_EQ(test::without_progress(result.err), "");
+    EXPECT_THAT(result.err, Not(HasSubstr("reljef: ")));
 }
 
 TEST(ViewCommand, PathOfARealWindowBecomesAVideoOrIsCancelled) {
@@ -180,8 +182,10 @@ TEST(ViewCommand, TheCopiedCommandRendersWhatTheWindowShows) {
     }
     const test::TemporaryFolder folder;
     const auto result = drive(folder,
+                              "is_lit() { ! has_title ' %)'; }\n"
                               "titled 'exact - still'; pressed l; pressed bracketright\n"
-                              "pressed w; titled still; pressed z; titled still\n"
+                              "pressed w; sleep 2; until_true is_lit; titled still\n"
+                              "pressed z; titled still\n"
                               "pressed c; until_true test -e reljef-0001.png\n"
                               "pressed Escape",
                               "--context cpu");
