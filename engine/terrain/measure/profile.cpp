@@ -44,8 +44,8 @@ Result<std::vector<geo::Geodetic>> geodesic_places(const geo::Geodetic& from,
         return Error{"profile: a place that is no latitude and longitude found"};
     }
     const geo::Geodesic way = geo::geodesic_between(from, to);
-    const double steps = std::max(1.0, std::ceil(way.distance / step));
-    if (!(step > 0.0) || !(steps < max_profile_points)) {
+    const double steps = step > 0.0 ? std::max(1.0, std::ceil(way.distance / step)) : 0.0;
+    if (!(steps >= 1.0) || !(steps < max_profile_points)) {
         return Error{fmt::format("profile: {} m between points found, a step with at most {} "
                                  "points on {:.0f} m was expected",
                                  step, max_profile_points, way.distance)};
