@@ -88,7 +88,7 @@ TEST(Readme, every_command_works) {
         if (line.rfind("reljef", 0) != 0 && line.rfind("gdal_translate", 0) != 0) {
             continue;
         }
-        const bool is_view = line.rfind("reljef view", 0) == 0;
+        const bool is_view = line.rfind("reljef view ", 0) == 0;
         if (is_view && !test::has_display()) {
             continue;
         }
