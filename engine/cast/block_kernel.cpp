@@ -7,7 +7,7 @@
 // compiler does not know (SVE) cannot be members.
 #define RELJEF_UNUSED_TARGETS                                                                      \
     (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
-#ifdef __SANITIZE_ADDRESS__ // two of them show the same errors, and compile in half the time
+#ifdef __SANITIZE_ADDRESS__ // two of them show the same errors
 #define HWY_DISABLED_TARGETS (RELJEF_UNUSED_TARGETS | HWY_SSE4 | HWY_AVX3)
 #else
 #define HWY_DISABLED_TARGETS RELJEF_UNUSED_TARGETS
