@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <bitset>
 #include <map>
 #include <optional>
 #include <regex>
@@ -28,21 +29,44 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-// Of a relief's many combinations those with at most one option, and those with as good as all:
-// whatever parts of a shader may have to do with each other is there.
-std::vector<ShaderVariant> covering_variants() {
-    constexpr std::uint32_t options =
-        feature_fog | feature_view_steps | feature_fade | feature_smooth_edges |
-        feature_write_depth | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
-    std::vector<ShaderVariant> variants = all_variants();
-    std::erase_if(variants, [](const ShaderVariant& variant) {
-        const int count = std::popcount(variant.features & options);
-        const bool searches =
-            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::relief_mesh ||
-            variant.kind == ShaderKind::relief_hull || variant.kind == ShaderKind::relief_terrain;
-        return searches && count > 1 && count < 5;
+constexpr std::size_t feature_count = 26;
+static_assert(1U << (feature_count - 1) == feature_curved, "the last feature");
+
+// Which two features there are together, one without the other, and neither.
+using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
+
+FeaturePairs pairs_of(std::uint32_t features) {
+    const std::bitset<feature_count> has(features);
+    FeaturePairs pairs;
+    for (std::size_t one = 0; one < feature_count; ++one) {
+        for (std::size_t other = 0; other < one; ++other) {
+            const std::size_t state = (has[one] ? 2U : 0U) + (has[other] ? 1U : 0U);
+            pairs.set((one * feature_count + other) * 4 + state);
+        }
+    }
+    return pairs;
+}
+
+// So few of all variants that every pair of features that a kind can have is in one of that kind.
+// Greedy: those that bring many new pairs first, and among them those with the most features.
+std::vector<ShaderVariant> pairwise_variants() {
+    std::vector<ShaderVariant> all = all_variants();
+    std::stable_sort(all.begin(), all.end(), [](const auto& one, const auto& other) {
+        return std::popcount(one.features) > std::popcount(other.features);
     });
-    return variants;
+    std::map<ShaderKind, FeaturePairs> known;
+    std::vector<ShaderVariant> taken;
+    for (const std::size_t enough : {20U, 5U, 1U}) {
+        for (const ShaderVariant& variant : all) {
+            FeaturePairs& of_kind = known[variant.kind];
+            const FeaturePairs pairs = pairs_of(variant.features);
+            if ((pairs & ~of_kind).count() >= enough) {
+                of_kind |= pairs;
+                taken.push_back(variant);
+            }
+        }
+    }
+    return taken;
 }
 
 // All uniforms of Uniforms. Its members are declarations only.
@@ -151,7 +175,7 @@ const std::vector<CompiledVariant>& compiled_variants() {
     static const std::vector<CompiledVariant> all = [] {
         ShaderLibrary shaders;
         std::vector<CompiledVariant> made;
-        for (const ShaderVariant& variant : covering_variants()) {
+        for (const ShaderVariant& variant : pairwise_variants()) {
             const auto program = shaders.program(variant);
             if (!program) {
                 ADD_FAILURE() << program.error().message;
