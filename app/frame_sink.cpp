@@ -173,4 +173,35 @@ Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,
     return Sink(new PictureSink(output));
 }
 
+namespace {
+
+constexpr int sheet_columns = 4;
+constexpr int sheet_picture_width = 320;
+constexpr int max_sheet_pictures = 24;
+
+} // namespace
+
+SheetPictures::SheetPictures(bool is_requested, int frames)
+    : step_(is_requested ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
+
+void SheetPictures::add(Image picture, int index) {
+    if (step_ > 0 && index % step_ == 0) {
+        pictures_.push_back(std::move(picture));
+    }
+}
+
+Result<void> SheetPictures::prepare(const std::filesystem::path& file,
+                                    std::vector<AtomicFile>& outputs) const {
+    if (pictures_.empty()) {
+        return {};
+    }
+    auto prepared =
+        io::prepare_image(file, io::contact_sheet(pictures_, sheet_columns, sheet_picture_width));
+    if (!prepared) {
+        return prepared.error();
+    }
+    outputs.push_back(std::move(*prepared));
+    return {};
+}
+
 } // namespace reljef::app

@@ -48,4 +48,19 @@ struct FrameSinkOptions {
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const std::filesystem::path& output,
                                                    const FrameSinkOptions& options);
 
+/// The evenly spread frames of a contact sheet, at most 24.
+class SheetPictures {
+public:
+    SheetPictures(bool is_requested, int frames);
+
+    void add(Image picture, int index);
+    /// Adds the sheet to the outputs if it is requested.
+    [[nodiscard]] Result<void> prepare(const std::filesystem::path& file,
+                                       std::vector<AtomicFile>& outputs) const;
+
+private:
+    int step_; // 0: not requested
+    std::vector<Image> pictures_;
+};
+
 } // namespace reljef::app

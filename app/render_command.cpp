@@ -15,6 +15,7 @@
 #include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
 #include "app/commands.h"
+#include "app/comparing/compare_option.h"
 #include "app/finished_frames.h"
 #include "app/frame_sink.h"
 #include "engine/io/image/image.h"
@@ -36,11 +37,8 @@ struct RenderChoice {
     int rays = 1;
     Shard shard;
     bool resume = false;
+    CompareChoice compare;
 };
-
-constexpr int sheet_columns = 4;
-constexpr int sheet_picture_width = 320;
-constexpr int max_sheet_pictures = 24;
 
 // Draws frames, by rays on the CPU where it says so.
 struct Maker {
@@ -75,33 +73,6 @@ Result<void> add_output(Result<AtomicFile> prepared, std::vector<AtomicFile>& ou
     outputs.push_back(std::move(*prepared));
     return {};
 }
-
-// The evenly spread frames of a contact sheet.
-class SheetPictures {
-public:
-    SheetPictures(bool is_requested, int frames)
-        : step_(is_requested ? (frames + max_sheet_pictures - 1) / max_sheet_pictures : 0) {}
-
-    void add(Image picture, int index) {
-        if (step_ > 0 && index % step_ == 0) {
-            pictures_.push_back(std::move(picture));
-        }
-    }
-    // Adds the sheet to the outputs if it is requested.
-    [[nodiscard]] Result<void> prepare(const std::filesystem::path& file,
-                                       std::vector<AtomicFile>& outputs) const {
-        if (pictures_.empty()) {
-            return {};
-        }
-        return add_output(io::prepare_image(file, io::contact_sheet(pictures_, sheet_columns,
-                                                                    sheet_picture_width)),
-                          outputs);
-    }
-
-private:
-    int step_;
-    std::vector<Image> pictures_;
-};
 
 ParallelOptions frame_options(const RenderChoice& choice, const cli::Interrupt& interrupt,
                               Progress progress = {}) {
@@ -161,11 +132,15 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
                                       line.update((static_cast<double>(i) + part) /
                                                   static_cast<double>(own.size()));
                                   }));
-        if (!picture) {
-            return picture.error();
+        if (picture && !interrupt.requested()) {
+            picture = compared_frame(choice.compare, scene, maker, std::move(*picture),
+                                     frame_options(choice, interrupt));
         }
         if (interrupt.requested()) { // while it was drawn
             return Error{"interrupted"};
+        }
+        if (!picture) {
+            return picture.error();
         }
         if (auto written = (*sink)->write(*picture, index); !written) {
             return written.error();
@@ -201,10 +176,10 @@ void expect_parts(const RenderChoice& choice) {
 }
 
 void expect_standard_output(const RenderChoice& choice) {
-    if (choice.stats) {
-        cli::fail_usage(
-            "-o: - found beside --stats, which writes to standard output, too; a file was "
-            "expected");
+    if (choice.stats || choice.compare.request) {
+        cli::fail_usage(fmt::format("-o: - found beside {}, which writes to standard output, too; "
+                                    "a file was expected",
+                                    choice.stats ? "--stats" : "--compare"));
     }
     if (::isatty(STDOUT_FILENO) == 1) {
         cli::fail_usage("-o: - found, and standard output is a terminal; a pipe or a file was "
@@ -217,12 +192,14 @@ void expect_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
         cli::fail_usage("render: no output found, -o FILE or --hit FILE was expected");
     }
-    if (choice.output.empty() && (choice.stats || !choice.contact_sheet.empty())) {
-        cli::fail_usage(
-            "render: --stats or --contact-sheet found without -o FILE, whose frames they need");
+    if (choice.output.empty() &&
+        (choice.stats || choice.compare.request || !choice.contact_sheet.empty())) {
+        cli::fail_usage("render: --stats, --compare or --contact-sheet found without -o FILE, "
+                        "whose frames they need");
     }
-    if (!choice.hits.empty() && choice.view.frames > 1) {
-        cli::fail_usage("render: --hit found with many frames, one frame was expected");
+    if ((!choice.hits.empty() || choice.compare.request) && choice.view.frames > 1) {
+        cli::fail_usage(fmt::format("render: {} found with many frames, one frame was expected",
+                                    choice.hits.empty() ? "--compare" : "--hit"));
     }
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         cli::fail_usage("render: --frames found without a --path to fly along");
@@ -393,9 +370,10 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     if (!description) {
         return description.error();
     }
-    if (choice.truth && description->generator == "gallery") {
-        return usage_error(fmt::format("--truth: {} found, which has no exact picture; a "
+    if ((choice.truth || choice.compare.request) && description->generator == "gallery") {
+        return usage_error(fmt::format("{}: {} found, which has no exact picture; a "
                                        "terrain was expected, or --technique exact",
+                                       choice.truth ? "--truth" : "--compare",
                                        choice.terrain.terrain));
     }
     const auto inputs = inputs_of(choice, *description);
@@ -436,6 +414,7 @@ constexpr const char* examples =
     "  reljef render dem.tif --technique texture --hit hit.exr\n"
     "  reljef render urban --detail cobble:width=3 -o street.png\n"
     "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
+    "  reljef render dem.tif --technique relief --compare errors -o errors.png\n"
     "  reljef render dem.tif --truth --rays 4 -o true.png --hit true.exr";
 
 } // namespace
@@ -465,8 +444,9 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "--truth", choice->truth,
         "draw the reference picture with exact rays on the CPU, of all samples, also "
         "of a terrain larger than --memory");
-    for (const char* option : {"--wireframe", "--context", "--simd", "--technique", "--shader-dir",
-                               "--detail", "--samples"}) {
+    add_compare_option(*arguments, choice->compare);
+    for (const char* option : {"--compare", "--wireframe", "--context", "--simd", "--technique",
+                               "--shader-dir", "--detail", "--samples"}) {
         truth->excludes(arguments->get_option(option));
     }
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),

@@ -79,8 +79,14 @@ Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
         }};
 }
 
-Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, OpenedScene& opened,
+struct Renderers {
+    session::SceneRenderer& shown;
+    ComparedFrames::MakeRenderer make; ///< another one
+};
+
+Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedScene& opened,
                  const ViewerChoice& choice, MessageHistory& log, const cli::Interrupt& interrupt) {
+    session::SceneRenderer& renderer = renderers.shown;
     session::TerrainScene& scene = opened.scene;
     auto path =
         session::open_path(scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
@@ -118,6 +124,7 @@ Result<void> fly(platform::Window& window, session::SceneRenderer& renderer, Ope
                             .samples = choice.view.samples,
                             .open_video = open_video,
                             .start = start_options(choice),
+                            .make_renderer = renderers.make,
                             .panels = panels ? &*panels : nullptr});
 }
 
@@ -173,7 +180,8 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     if (!opened) {
         return opened.error();
     }
-    return *opened ? fly(**window, *renderer, **opened, choice, log, interrupt) : Result<void>();
+    const Renderers renderers{*renderer, [&] { return make_renderer(choice, **window, rays); }};
+    return *opened ? fly(**window, renderers, **opened, choice, log, interrupt) : Result<void>();
 }
 
 } // namespace

@@ -203,6 +203,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     if (shown.samples) {
         command.add("--samples", fmt::format("{}", *shown.samples));
     }
+    if (!shown.compare.empty()) {
+        command.add("--compare", shown.compare).add("--wipe", fmt::format("{:.3f}", shown.wipe));
+    }
     command.add("--size", fmt::format("{}x{}", shown.size.x, shown.size.y));
     return command.add("-o", "view.png").text();
 }

@@ -1,12 +1,10 @@
 #include "app/viewer/viewer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "app/viewer/panels/panel_text.h"
 #include "engine/geo/place.h"
 #include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/motion/poses.h"
@@ -86,86 +84,6 @@ scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 s
 
 } // namespace
 
-struct Viewer::Binding {
-    Key key;
-    Key other; // alternative; unknown: none
-    void (Viewer::*action)();
-    const char* names;
-    const char* meaning;
-};
-
-std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 27> all{
-        {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
-         {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
-          "keep the height above the ground, or fly where you look"},
-         {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
-         {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
-          "next technique, or the technique of that number"},
-         {Key::right_bracket, Key::unknown, &Viewer::raise_parameter, "]",
-          "raise the technique's parameter that is highlighted"},
-         {Key::left_bracket, Key::unknown, &Viewer::lower_parameter, "[", "lower it"},
-         {Key::period, Key::unknown, &Viewer::next_parameter, ".", "highlight the next parameter"},
-         {Key::comma, Key::unknown, &Viewer::last_parameter, ",",
-          "highlight the parameter before it"},
-         {Key::l, Key::unknown, &Viewer::turn_light, "L", "turn the light by 15 degrees"},
-         {Key::f, Key::unknown, &Viewer::toggle_wireframe, "F",
-          "only the edges of triangles, or filled triangles"},
-         {Key::m, Key::unknown, &Viewer::toggle_mouse_look, "M",
-          "turn with every move of the mouse, or only with its button held"},
-         {Key::r, Key::home, &Viewer::go_to_start, "R, Home", "back to the first view"},
-         {Key::b, Key::unknown, &Viewer::bookmark_here, "B", "keep this view as a bookmark"},
-         {Key::n, Key::unknown, &Viewer::next_bookmark, "N", "fly to the next bookmark"},
-         {Key::v, Key::unknown, &Viewer::copy_camera, "V, Ctrl-C",
-          "copy the --camera of this view"},
-         {Key::x, Key::unknown, &Viewer::toggle_measuring, "X",
-          "measure: each click picks a point of the ground; X ends it"},
-         {Key::i, Key::unknown, &Viewer::keep_profile, "I",
-          "save the profile between the last two points"},
-         {Key::u, Key::unknown, &Viewer::keep_viewshed, "U",
-          "save what is seen from the last point, 2 m above it"},
-         {Key::k, Key::unknown, &Viewer::toggle_recording, "K",
-          "record the flight as the path, or end it and save the path"},
-         {Key::insert, Key::unknown, &Viewer::append_key, "Insert",
-          "append this view to the path, 3 s later"},
-         {Key::erase, Key::unknown, &Viewer::remove_key, "Delete",
-          "remove the keyframe where the flight along the path stands"},
-         {Key::j, Key::unknown, &Viewer::keep_path, "J", "save the path (TOML, and GPX on Earth)"},
-         {Key::y, Key::unknown, &Viewer::ask_for_video, "Y",
-          "render the path to a video; Esc cancels it"},
-         {Key::c, Key::f12, &Viewer::ask_for_screenshot, "C, F12",
-          "save the picture here as reljef-0001.png, reljef-0002.png, ..."},
-         {Key::z, Key::unknown, &Viewer::ask_for_command, "Z",
-          "copy the command that renders this view"},
-         {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show the keys, or hide them"},
-         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "release the mouse, or quit"}}};
-    return all;
-}
-
-std::vector<KeyContent> Viewer::key_list() {
-    std::vector<KeyContent> list{
-        {"wheel", "closer to the ground under the pointer, or farther"},
-        {"left drag", "orbit around the ground under the pointer"},
-        {"right drag", "pan; the map: every button (Q E: closer, farther)"},
-        {"middle drag", "turn in place; so does a left drag from the sky"},
-        {"double click", "fly there"},
-        {"W A S D, arrows", "move (shift: faster; Ctrl and wheel: speed)"},
-        {"Q E", "down, up; never under the ground"}};
-    for (const Binding& binding : bindings()) {
-        list.push_back({binding.names, binding.meaning});
-    }
-    list.push_back({"Tab", "hide the panels, or show them"});
-    return list;
-}
-
-std::string Viewer::keys() {
-    std::string text;
-    for (const KeyContent& key : key_list()) {
-        text += fmt::format("  {:<15}  {}\n", key.names, key.meaning);
-    }
-    return text;
-}
-
 Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 size,
                const ViewerOptions& options)
     : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
@@ -173,7 +91,8 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
       exaggeration_(scene, options.maps.threads, options.maps.largest_side),
       flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)),
-      measuring_(*scene.terrain->get<scene::TerrainNode>()), terrain_(options.terrain) {
+      measuring_(*scene.terrain->get<scene::TerrainNode>()), comparison_(scene, options.maps),
+      terrain_(options.terrain) {
     if (options.bookmarks) {
         bookmarks_.emplace(*options.bookmarks);
     }
@@ -205,6 +124,9 @@ void Viewer::receive(const Event& event) {
         redraw_ = true;
     }
     if (const auto* key = std::get_if<KeyEvent>(&event); key != nullptr && receive_key(*key)) {
+        return;
+    }
+    if (comparison_.receive(event, size_)) {
         return;
     }
     if (map_) {
@@ -243,29 +165,6 @@ void Viewer::steer(const scene::Camera& camera) {
     show_camera(flight_.camera());
 }
 
-bool Viewer::receive_key(const KeyEvent& event) {
-    const Modifiers& with = event.modifiers;
-    if (event.pressed && with.control && event.key == Key::c && !event.repeat) {
-        copy_camera();
-        return true;
-    }
-    if (!event.pressed || event.repeat || with.control || with.alt || with.super) {
-        return false;
-    }
-    if (event.key >= Key::digit1 && event.key <= Key::digit9) {
-        choose_technique(static_cast<std::size_t>(event.key) -
-                         static_cast<std::size_t>(Key::digit1));
-        return true;
-    }
-    for (const Binding& binding : bindings()) {
-        if (event.key != Key::unknown && (binding.key == event.key || binding.other == event.key)) {
-            (this->*binding.action)();
-            return true;
-        }
-    }
-    return false;
-}
-
 std::vector<scene::Camera> Viewer::upcoming() const {
     std::vector<scene::Camera> cameras;
     if (!is_moving()) {
@@ -291,6 +190,7 @@ bool Viewer::is_moving() const {
 
 void Viewer::update_appearance() {
     redraw_ = switch_.update() || redraw_;
+    redraw_ = comparison_.take_redraw() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     if (exaggeration_.update(switch_.technique(), switch_.light())) {
         show_camera(camera());
@@ -355,6 +255,7 @@ void Viewer::relay_to(session::Log& log) {
     notes_.relay_to(log);
     switch_.relay_to(log);
     exaggeration_.relay_to(log);
+    comparison_.relay_to(log);
     if (proofs_) {
         proofs_->relay_to(log);
     }

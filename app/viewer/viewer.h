@@ -15,11 +15,12 @@
 #include "app/viewer/appearance/proof_switch.h"
 #include "app/viewer/appearance/technique_editor.h"
 #include "app/viewer/bookmarks.h"
+#include "app/viewer/comparing/comparison.h"
 #include "app/viewer/measuring.h"
 #include "app/viewer/navigation.h"
 #include "app/viewer/panels/panel_action.h"
 #include "app/viewer/panels/panel_content.h"
-#include "app/viewer/path_desk.h"
+#include "app/viewer/paths/path_desk.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/camera_path.h"
@@ -88,6 +89,10 @@ public:
     Result<void> save_profile();
     Result<void> begin_viewshed();
 
+    /// What the right part of the window shows.
+    [[nodiscard]] Comparison& comparison() { return comparison_; }
+    [[nodiscard]] const Comparison& comparison() const { return comparison_; }
+
     /// The path, to edit and save it.
     [[nodiscard]] PathDesk& path_desk() { return desk_; }
     [[nodiscard]] const PathDesk& path_desk() const { return desk_; }
@@ -105,6 +110,8 @@ public:
     bool take_video_request() { return std::exchange(video_, false); }
     /// Fails if the technique cannot draw what it is chosen for.
     Result<void> request(const ChooseTechnique& choice);
+    /// Exchanges the technique and the one that it is compared with.
+    void swap_techniques();
     void set_sun(const SetSun& sun);
     /// See ExaggerationSwitch::request(). The eye stays unless the ground rises above it.
     void set_exaggeration(double factor) { exaggeration_.request(factor); }
@@ -162,6 +169,11 @@ private:
     void report(const Result<void>& result);
     void receive_click();
     void toggle_measuring();
+    void toggle_comparison() { report(comparison_.toggle()); }
+    void next_comparison() { report(comparison_.next()); }
+    void next_other_technique() { comparison_.choose_next(); }
+    void move_line_left() { comparison_.move_line(-1); }
+    void move_line_right() { comparison_.move_line(1); }
     void append_key();
     void remove_key();
     void keep_path() { report(save_path()); }
@@ -209,6 +221,7 @@ private:
     scene::FreeFlight flight_;
     Navigation navigation_;
     Measuring measuring_;
+    Comparison comparison_;
     std::string terrain_;
     std::optional<Bookmarks> bookmarks_;
     std::size_t next_bookmark_ = 0;

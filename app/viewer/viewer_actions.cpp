@@ -199,6 +199,12 @@ void Viewer::change_technique(const std::function<void()>& change) {
     redraw_ = redraw_ || (before != switch_.technique() && !switch_.is_preparing());
 }
 
+void Viewer::swap_techniques() {
+    const scene::Technique left = switch_.technique();
+    report(request(ChooseTechnique{comparison_.technique(), {}}));
+    report(comparison_.choose(left));
+}
+
 void Viewer::select_parameter(int steps) {
     techniques_.select_next_parameter(steps);
     redraw_ = true; // the panels show it

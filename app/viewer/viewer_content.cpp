@@ -71,6 +71,7 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.frame.window = window;
     content.technique = viewer.techniques().content();
     content.appearance = appearance_of(viewer);
+    content.compare = viewer.comparison().content(viewer.technique());
     content.eye = place_of(scene, viewer.is_map() ? camera.target : camera.eye);
     if (!viewer.is_map() && scene.models.empty()) {
         content.eye.above_ground = session::height_above_ground(terrain_of(scene), camera.eye);

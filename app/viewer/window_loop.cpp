@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "app/viewer/comparing/compared_frames.h"
+#include "app/viewer/filming.h"
 #include "app/viewer/message_history.h"
 #include "app/viewer/motion_quality.h"
 #include "app/viewer/viewer_content.h"
@@ -36,13 +38,15 @@ public:
                session::TerrainScene& scene, Viewer& viewer, MessageHistory& log,
                const WindowLoopOptions& options)
         : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), messages_(log),
-          options_(options), samples_(options.samples), panels_(options.panels) {}
+          options_(options), samples_(options.samples), panels_(options.panels),
+          compared_(scene, renderer, viewer.comparison(), options.make_renderer),
+          filming_(scene, viewer, log, options.open_video) {}
 
     Result<void> run(const std::stop_token& stop) {
         Stopwatch step;
         while (!is_over() && !stop.stop_requested()) {
             receive(window_.wait_events(pause()));
-            if (video_) {
+            if (filming_.is_on()) {
                 film();
                 step.restart();
                 continue;
@@ -58,7 +62,7 @@ public:
                     }
                     messages_.note(drawn.error().message);
                 }
-            } else if (auto shown = refresh_panels(); !shown) {
+            } else if (auto shown = refresh_window(); !shown) {
                 return shown;
             }
             session::log_stream_errors(scene_.scene, messages_);
@@ -82,7 +86,8 @@ private:
     }
 
     [[nodiscard]] std::chrono::milliseconds pause() const {
-        if (drawn_ == 0 || video_ || (panels_ != nullptr && panels_->is_stale())) {
+        if (drawn_ == 0 || filming_.is_on() || awaits_errors() ||
+            (panels_ != nullptr && panels_->is_stale())) {
             return no_wait;
         }
         if (viewer_.is_preparing() && !viewer_.is_moving()) {
@@ -95,8 +100,10 @@ private:
     }
 
     // Selects the view and requests its tiles and those of the next seconds without waiting.
-    void select() {
+    void select(int samples_of_frame) {
         std::vector<view::TileRequests> requests = renderer_.select(scene_.scene).requests;
+        auto of_the_right = compared_.select(samples_of_frame);
+        std::move(of_the_right.begin(), of_the_right.end(), std::back_inserter(requests));
         if (!requests.empty()) {
             for (const scene::Camera& camera : viewer_.upcoming()) {
                 auto ahead = view::tile_requests(scene_.scene, camera, renderer_.size());
@@ -108,8 +115,8 @@ private:
 
     void receive(const std::vector<Event>& events) {
         for (const Event& event : events) {
-            if (video_) {
-                receive_while_filming(event);
+            if (filming_.is_on()) {
+                filming_.receive(event);
                 continue;
             }
             if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
@@ -125,77 +132,25 @@ private:
         }
     }
 
-    // Only Esc and closing count; Esc cancels the video.
-    void receive_while_filming(const Event& event) {
-        const auto* key = std::get_if<KeyEvent>(&event);
-        if (key != nullptr && key->pressed && key->key == Key::escape) {
-            end_video("the video is cancelled, nothing is saved");
-        } else if (std::holds_alternative<CloseEvent>(event) ||
-                   std::holds_alternative<ResizeEvent>(event)) {
-            viewer_.receive(event);
-        }
-    }
-
-    void begin_video() {
-        const auto file = next_file(".", "reljef", ".mp4");
-        auto video = PathVideo::begin(viewer_.path_desk().path(), file, window_.framebuffer_size(),
-                                      options_.open_video);
-        if (!video) {
-            messages_.note(video.error().message);
-            return;
-        }
-        video_.emplace(std::move(*video));
-        before_video_ = *scene_.camera->get<scene::Camera>();
-        video_task_ = messages_.start("video " + file.filename().string());
-    }
-
-    void end_video(const std::string& note) {
-        video_task_.reset();
-        video_.reset();
-        *scene_.camera->get<scene::Camera>() = before_video_;
-        viewer_.fly_to(before_video_);
-        if (!note.empty()) {
-            messages_.note(note);
-        }
-    }
-
-    // One frame of the video, when its tiles are loaded.
+    // One frame of the video, which the window shows, too.
     void film() {
-        viewer_.seek(video_->time());
-        session::take_arrivals(scene_.scene);
-        auto filmed = film_frame();
-        if (filmed && video_->is_complete()) {
-            filmed = video_->finish();
-            if (filmed) {
-                fmt::print("saved {}\n", video_->file().filename().string());
-                std::fflush(stdout);
-                end_video({});
-                return;
+        const auto draw = [this](glm::ivec2 size) -> Result<bool> {
+            if (auto drawn = draw_at({}, size); !drawn) {
+                return drawn.error();
             }
-        }
-        if (!filmed) {
-            end_video(filmed.error().message);
-        }
-    }
-
-    Result<void> film_frame() {
-        if (auto drawn = draw_at({}, video_->size()); !drawn) {
-            return drawn;
-        }
-        if (const glm::ivec2 shown = window_.framebuffer_size(); shown.x > 0 && shown.y > 0) {
-            if (auto done = renderer_.show_in_window(shown); !done) {
-                return done;
+            if (const glm::ivec2 shown = window_.framebuffer_size(); shown.x > 0 && shown.y > 0) {
+                if (auto done = renderer_.show_in_window(shown); !done) {
+                    return done.error();
+                }
+                draw_panels(shown);
+                window_.swap_buffers();
             }
-            window_.swap_buffers();
-        }
-        if (session::awaits_tiles(scene_.scene)) {
-            return {}; // draws this frame again
-        }
-        video_task_->update(video_->progress());
+            return !session::awaits_tiles(scene_.scene);
+        };
+        filming_.film(draw, [this] { return renderer_.read_color(); });
         window_.set_title(
-            fmt::format("reljef - video {:.0f} % - Esc cancels", 100.0 * video_->progress()));
+            fmt::format("reljef - video {:.0f} % - Esc cancels", 100.0 * filming_.progress()));
         title_.clear();
-        return video_->write(renderer_.read_color());
     }
 
     // A captured mouse has no place on the window.
@@ -227,6 +182,10 @@ private:
         content.frame = {stats_,     timing_.last_ms,  timing_.frames_per_second,
                          recent_ms_, renderer_.size(), size};
         content.appearance.samples = samples_;
+        if (viewer_.comparison().with() == CompareWith::technique) {
+            content.compare.right_ms = compared_.right_ms();
+        }
+        content.compare.left_ms = left_ms_;
         content.cursor = place_under_pointer(size);
         content.legend = legend_;
         content.messages = messages_.messages();
@@ -240,23 +199,38 @@ private:
         }
     }
 
-    // Draws the panels again over the last picture if they changed.
-    Result<void> refresh_panels() {
+    // Whether the view is drawn as it stays, so that it can be compared with the truth.
+    [[nodiscard]] bool awaits_errors() const {
+        return drawn_ > 0 && viewer_.comparison().awaits_view() && !viewer_.is_moving() &&
+               !viewer_.is_preparing() && !is_to_sharpen() && !session::awaits_tiles(scene_.scene);
+    }
+
+    // Draws the window again over the last picture if its panels, or what it is compared with,
+    // changed.
+    Result<void> refresh_window() {
+        if (awaits_errors()) {
+            if (const auto begun = compared_.find_errors(); !begun) {
+                messages_.note(begun.error().message);
+            }
+        }
+        const bool is_compared_anew = viewer_.comparison().update();
         const bool is_busy =
             shows_panels() &&
-            (messages_.youngest() < message_seconds + 1.0 || !viewer_.progress().label.empty()) &&
+            (messages_.youngest() < message_seconds + 1.0 || !viewer_.progress().label.empty() ||
+             viewer_.comparison().is_busy()) &&
             since_panels_.seconds() > seconds_between_panels;
         const glm::ivec2 size = window_.framebuffer_size();
-        if (panels_ == nullptr || drawn_ == 0 || !(panels_->is_stale() || is_busy) || size.x == 0 ||
+        const bool is_stale = panels_ != nullptr && panels_->is_stale();
+        if (drawn_ == 0 || !(is_stale || is_busy || is_compared_anew) || size.x == 0 ||
             size.y == 0) {
             return {};
         }
-        if (auto shown = renderer_.show_in_window(size); !shown) {
+        if (auto shown = compared_.show(size); !shown) {
             return shown;
         }
         if (shows_panels()) {
             draw_panels(size);
-        } else {
+        } else if (panels_ != nullptr) {
             panels_->draw({}, size, 0.0); // nothing, once
         }
         window_.swap_buffers();
@@ -289,6 +263,18 @@ private:
         viewer_.receive(KeyEvent{.key = press.key, .pressed = false});
     }
     void act_on(const CopyCommand& /*action*/) { copy_command(); }
+    void act_on(const SetComparison& set) {
+        if (const auto done = viewer_.comparison().set(set.with); !done) {
+            messages_.note(done.error().message);
+        }
+    }
+    void act_on(const SetOtherTechnique& set) {
+        if (const auto done = viewer_.comparison().choose(set.technique); !done) {
+            messages_.note(done.error().message);
+        }
+    }
+    void act_on(const SetWipe& set) { viewer_.comparison().set_share(set.share); }
+    void act_on(const SwapTechniques& /*action*/) { viewer_.swap_techniques(); }
 
     void copy_command() {
         const auto command = render_command(options_.start, scene_,
@@ -297,7 +283,9 @@ private:
                                              .exaggeration = viewer_.exaggeration(),
                                              .size = window_.framebuffer_size(),
                                              .samples = samples_,
-                                             .keeps_techniques = viewer_.keeps_techniques()});
+                                             .keeps_techniques = viewer_.keeps_techniques(),
+                                             .compare = viewer_.comparison().option(),
+                                             .wipe = viewer_.comparison().share()});
         if (!command) {
             messages_.note(command.error().message);
             return;
@@ -321,8 +309,8 @@ private:
         if (viewer_.take_command_request()) {
             copy_command();
         }
-        if (viewer_.take_video_request() && options_.open_video) {
-            begin_video();
+        if (viewer_.take_video_request()) {
+            filming_.begin(window_.framebuffer_size());
         }
         if (viewer_.take_screenshot_request()) {
             save_picture();
@@ -351,7 +339,7 @@ private:
             }
         }
         const auto file = next_screenshot(".");
-        if (const auto written = io::write_image(file, renderer_.read_color()); !written) {
+        if (const auto written = io::write_image(file, compared_.picture()); !written) {
             messages_.note(written.error().message);
             return;
         }
@@ -371,7 +359,12 @@ private:
         if (auto drawn = draw_at(quality); !drawn) {
             return drawn;
         }
-        if (auto shown = renderer_.show_in_window(size); !shown) {
+        left_ms_ = watch.milliseconds();
+        if (auto drawn = compared_.draw(); !drawn) {
+            messages_.note(drawn.error().message);
+            static_cast<void>(viewer_.comparison().set(CompareWith::nothing));
+        }
+        if (auto shown = compared_.show(size); !shown) {
             return shown;
         }
         timing_.last_ms = watch.milliseconds();
@@ -399,9 +392,10 @@ private:
         renderer_.set_samples(samples_.value_or(quality.samples));
         resamples_ = false;
         while (auto light = viewer_.take_light()) {
+            compared_.add_light(light);
             renderer_.add_light(std::move(light));
         }
-        select();
+        select(samples_.value_or(quality.samples));
         const auto stats = renderer_.draw_selected(true);
         if (!stats) {
             return stats.error();
@@ -455,6 +449,7 @@ private:
     MotionQuality quality_;
     view::FrameStats stats_;
     FrameTiming timing_;
+    double left_ms_ = 0.0; // of the technique's last frame, without what it is compared with
     std::string title_;
     Stopwatch since_title_;
     int drawn_ = 0;
@@ -462,9 +457,8 @@ private:
     bool has_drawn_ = false; // in this iteration
     bool mouse_captured_ = false;
     bool raise_logged_ = false;
-    std::optional<PathVideo> video_;
-    std::unique_ptr<session::Task> video_task_;
-    scene::Camera before_video_;
+    ComparedFrames compared_;
+    Filming filming_;
 };
 
 } // namespace

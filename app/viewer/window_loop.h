@@ -3,9 +3,10 @@
 #include <optional>
 #include <stop_token>
 
+#include "app/viewer/comparing/compared_frames.h"
 #include "app/viewer/message_history.h"
 #include "app/viewer/panels/panels.h"
-#include "app/viewer/path_video.h"
+#include "app/viewer/paths/path_video.h"
 #include "app/viewer/render_command_text.h"
 #include "app/viewer/viewer.h"
 #include "engine/core/result.h"
@@ -20,6 +21,8 @@ struct WindowLoopOptions {
     std::optional<int> samples = {};
     OpenVideo open_video = {}; ///< for the path as a video; empty: there are none
     StartOptions start = {};   ///< for the command that renders a view
+    /// For a second technique beside the first; empty: there is none.
+    ComparedFrames::MakeRenderer make_renderer = {};
     /// Null: none. Outlives the loop.
     Panels* panels = nullptr;
 };

@@ -48,6 +48,10 @@ double median(std::span<const double> samples) {
     return quantile_of_sorted(sorted(samples), 0.5);
 }
 
+double quantile(std::span<const double> samples, double share) {
+    return quantile_of_sorted(sorted(samples), share);
+}
+
 Summary summarize(std::span<const double> samples) {
     const std::vector<double> in_order = sorted(samples);
     return {quantile_of_sorted(in_order, 0.5), quantile_of_sorted(in_order, 0.95),

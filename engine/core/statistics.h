@@ -9,8 +9,11 @@ namespace reljef {
 
 double median(std::span<const double> samples);
 
-/// Quantiles in the samples' unit, interpolated linearly between ranks (type 7 of Hyndman and Fan
+/// The quantile of a share in [0,1], interpolated linearly between ranks (type 7 of Hyndman and Fan
 /// 1996, "Sample Quantiles in Statistical Packages").
+double quantile(std::span<const double> samples, double share);
+
+/// The same of several shares.
 struct Summary {
     double median = 0.0;
     double p95 = 0.0;

@@ -71,6 +71,10 @@ public:
     /// Copies the last frame to the window's back buffer. Precondition: the window's context is
     /// current.
     Result<void> show_in_window(glm::ivec2 window_size);
+    /// Copies any picture there.
+    Result<void> show_in_window(const Image& picture, glm::ivec2 window_size) {
+        return window_picture_.show(picture, window_size);
+    }
     /// Takes the prepared light of a terrain, so that the next frame need not compute it.
     void add_light(std::shared_ptr<const view::PreparedLight> light);
     [[nodiscard]] int max_texture_side() const;

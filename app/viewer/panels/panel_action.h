@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "app/viewer/panels/panel_content.h"
 #include "engine/core/event.h"
 #include "engine/scene/technique/technique.h"
 
@@ -40,6 +41,23 @@ struct SetSamples {
     std::optional<int> samples; ///< absent: chosen for each frame
 };
 
+struct SetComparison {
+    CompareWith with = CompareWith::nothing;
+};
+
+/// Compares with a technique.
+struct SetOtherTechnique {
+    scene::Technique technique;
+};
+
+/// Moves the line between the compared pictures.
+struct SetWipe {
+    double share = 0.5; ///< of the width, [0, 1]
+};
+
+/// The technique on the right comes to the left, and the other way round.
+struct SwapTechniques {};
+
 /// Does what the key does.
 struct PressKey {
     Key key = Key::unknown;
@@ -48,8 +66,9 @@ struct PressKey {
 /// Copies the command that renders this view.
 struct CopyCommand {};
 
-using PanelAction = std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun,
-                                 SetExaggeration, SetSamples, PressKey, CopyCommand>;
+using PanelAction =
+    std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetExaggeration, SetSamples,
+                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

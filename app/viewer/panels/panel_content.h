@@ -58,6 +58,36 @@ struct AppearanceContent {
     bool follows_ground = false;
 };
 
+struct LegendStop {
+    double height = 0.0; ///< true metres
+    Rgba8 color;
+};
+
+/// What the right part of the window shows.
+enum class CompareWith { nothing, truth, errors, technique };
+
+/// A row of two figures; the right one is empty if there is none.
+struct FigureContent {
+    std::string name;
+    std::string left;
+    std::string right;
+};
+
+struct CompareContent {
+    CompareWith with = CompareWith::nothing;
+    std::string obstacle;       ///< why there is no truth; empty: there is one
+    scene::Technique technique; ///< on the right, if it is compared
+    double share = 0.5;         ///< of the window left of the line
+    std::string left_name;
+    std::string right_name;
+    std::optional<double> left_ms; ///< of the last frame, or of all rays of the truth
+    std::optional<double> right_ms;
+    std::vector<FigureContent> figures; ///< of the view; empty: not known yet
+    std::string state;                  ///< what is awaited; empty: nothing
+    double progress = 0.0;              ///< of that, [0, 1]
+    std::vector<LegendStop> colors;     ///< of errors: the heights are pixels, by their logarithm
+};
+
 struct CrsPlace {
     glm::dvec2 at{0.0};
     std::string name; ///< "WGS 84 / UTM zone 10N"
@@ -71,11 +101,6 @@ struct PlaceContent {
     std::optional<CrsPlace> in_crs;
     double height = 0.0;                ///< true metres above the DEM's zero
     std::optional<double> above_ground; ///< true metres; of the eye
-};
-
-struct LegendStop {
-    double height = 0.0; ///< true metres
-    Rgba8 color;
 };
 
 struct TaskContent {
@@ -102,6 +127,7 @@ struct PanelContent {
     FrameContent frame;
     TechniqueContent technique;
     AppearanceContent appearance;
+    CompareContent compare;
     PlaceContent eye;
     std::optional<PlaceContent> cursor;     ///< the ground under the pointer
     std::optional<double> heading;          ///< degrees clockwise from north

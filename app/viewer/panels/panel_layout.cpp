@@ -46,6 +46,7 @@ PanelLayout layout_for(glm::ivec2 window, double scale) {
         layout.legend = area({margin, above_compass - legend_height}, {left, above_compass});
     }
     layout.inspector = area({right, margin}, {size.x - margin, above_bar});
+    layout.view = area({left + gap, margin}, {std::max(right - gap, left + gap), above_bar});
     layout.messages = area({left + gap, std::max(above_bar - message_height, margin)},
                            {std::max(right - gap, left + gap), above_bar});
     const glm::dvec2 help = glm::min(help_size, size - 2.0 * margin);

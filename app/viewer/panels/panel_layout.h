@@ -16,6 +16,7 @@ struct PanelLayout {
     Area place;            ///< the bar at the lower edge
     Area messages;         ///< above the bar, between the columns
     Area help;             ///< in the middle
+    Area view;             ///< between the columns, above the bar
 };
 
 /// `scale`: pixels per unit of text.

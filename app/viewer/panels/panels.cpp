@@ -1,10 +1,12 @@
 #include "app/viewer/panels/panels.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <variant>
 
 #include "app/viewer/panels/appearance_panel.h"
+#include "app/viewer/panels/compare_panel.h"
 #include "app/viewer/panels/compass_panel.h"
 #include "app/viewer/panels/help_panel.h"
 #include "app/viewer/panels/legend_panel.h"
@@ -17,9 +19,13 @@
 namespace reljef::app {
 namespace {
 
-constexpr double tabs_height = 44.0; // units of text
+constexpr double tabs_height = 72.0; // units of text
 constexpr double footer_height = 34.0;
 constexpr double border_height = 14.0;
+
+enum class Tab : std::size_t { technique, view, compare, notes };
+constexpr std::array tab_names{"Technique", "View", "Compare", "Notes"};
+constexpr std::size_t tabs_in_a_row = 3;
 
 // The key without modifiers, when it goes down.
 bool presses(const Event& event, Key key) {
@@ -90,6 +96,8 @@ PanelActions Panels::draw(const PanelContent& content, glm::ivec2 window, double
     PanelActions actions;
     interface_.begin(window, seconds);
     if (layout.has_room) {
+        follow(content);
+        draw_wipe(content, layout.view, fonts);
         draw_status(content, layout.status, fonts);
         if (layout.legend.size() != glm::dvec2(0.0)) {
             draw_legend(content, layout.legend, fonts);
@@ -116,27 +124,41 @@ PanelActions Panels::draw_inspector(const PanelContent& content, const Area& are
     Area fitted = area;
     fitted.high.y = std::min(area.high.y, area.low.y + height);
     const Card card("inspector", fitted);
-    if (!ImGui::BeginTabBar("tabs")) {
-        return actions;
+    {
+        const FontScope small(fonts.small);
+        tab_ = tabs(tab_names, tab_, tabs_in_a_row);
     }
     const auto footer = static_cast<float>(scale * footer_height);
-    const auto draw_tab = [&](const char* name, const auto& draw_content) {
-        if (ImGui::BeginTabItem(name)) {
-            ImGui::BeginChild(name, {0.0F, -footer});
-            actions += draw_content();
-            inspector_content_ = ImGui::GetCursorPosY();
-            ImGui::EndChild();
-            ImGui::EndTabItem();
-        }
-    };
-    draw_tab("Technique", [&] { return draw_technique(content, fonts); });
-    draw_tab("View", [&] { return draw_appearance(content, fonts); });
-    draw_tab("Notes", [&] {
-        draw_log(content, fonts);
-        return PanelActions();
-    });
-    ImGui::EndTabBar();
+    ImGui::BeginChild(tab_names.at(tab_), {0.0F, -footer});
+    actions += draw_tab(content);
+    inspector_content_ = ImGui::GetCursorPosY();
+    ImGui::EndChild();
     return actions += draw_footer();
+}
+
+PanelActions Panels::draw_tab(const PanelContent& content) {
+    const Fonts& fonts = interface_.fonts();
+    switch (static_cast<Tab>(tab_)) {
+    case Tab::technique:
+        return draw_technique(content, fonts);
+    case Tab::view:
+        return draw_appearance(content, fonts);
+    case Tab::compare:
+        return draw_compare(content, fonts);
+    case Tab::notes:
+        draw_log(content, fonts);
+        return {};
+    }
+    return {};
+}
+
+// The tab of what has begun comes to the front.
+void Panels::follow(const PanelContent& content) {
+    const bool compares = content.compare.with != CompareWith::nothing;
+    if (compares && !std::exchange(compares_, compares)) {
+        tab_ = static_cast<std::size_t>(Tab::compare);
+    }
+    compares_ = compares;
 }
 
 } // namespace reljef::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -40,10 +41,14 @@ public:
 
 private:
     PanelActions draw_inspector(const PanelContent& content, const Area& area);
+    PanelActions draw_tab(const PanelContent& content);
+    void follow(const PanelContent& content);
 
     Interface interface_;
     PlacePanel place_;
     double inspector_content_ = 0.0; // height in the last frame, pixels
+    std::size_t tab_ = 0;            // that the inspector shows
+    bool compares_ = false;          // in the last frame
     bool is_visible_ = true;
     bool is_hiding_ = false; // since the last frame
     bool shows_help_ = false;

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer/path_desk.h"
-#include "app/viewer/path_video.h"
+#include "app/viewer/paths/path_desk.h"
+#include "app/viewer/paths/path_video.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/measuring/ground_measure.h"

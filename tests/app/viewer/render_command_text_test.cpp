@@ -65,12 +65,14 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     shown.exaggeration = 2.5;
     shown.samples = 8;
     shown.light.azimuth = 12.5;
+    shown.compare = "errors";
+    shown.wipe = 0.25;
     const auto command = render_command(start, scene, shown);
     ASSERT_TRUE(command) << command.error().message;
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--size 400x300", "-o view.png"}) {
+          "--placement plane", "--compare errors --wipe 0.250", "--size 400x300", "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }
 }

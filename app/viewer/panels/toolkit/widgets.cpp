@@ -108,6 +108,26 @@ bool wide_button(const char* label) {
     return ImGui::Button(label, {-1.0F, 0.0F});
 }
 
+std::size_t tabs(std::span<const char* const> names, std::size_t chosen, std::size_t in_a_row) {
+    constexpr float gap = 4.0F;
+    const float width =
+        (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(in_a_row - 1)) /
+        static_cast<float>(in_a_row);
+    std::size_t result = chosen;
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, gap});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i % in_a_row > 0) {
+            ImGui::SameLine();
+        }
+        ImGui::PushStyleColor(ImGuiCol_Button,
+                              in_imgui(i == chosen ? palette::accent_soft : palette::field));
+        result = ImGui::Button(names[i], {width, 0.0F}) ? i : result;
+        ImGui::PopStyleColor();
+    }
+    ImGui::PopStyleVar();
+    return result;
+}
+
 bool tick(const char* label, bool is_on) {
     bool state = is_on;
     return ImGui::Checkbox(label, &state);

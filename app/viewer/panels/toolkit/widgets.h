@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -44,6 +46,8 @@ void section(ImFont* font, std::string_view heading);
 void tip(std::string_view explanation);
 /// A button over the whole width.
 bool wide_button(const char* label);
+/// Rows of buttons of equal width, one of them chosen. Returns the chosen one.
+std::size_t tabs(std::span<const char* const> names, std::size_t chosen, std::size_t in_a_row);
 /// A box to tick, labelled as the command line has it.
 bool tick(const char* label, bool is_on);
 

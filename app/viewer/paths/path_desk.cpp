@@ -1,4 +1,4 @@
-#include "app/viewer/path_desk.h"
+#include "app/viewer/paths/path_desk.h"
 
 #include "engine/session/flight_keys.h"
 

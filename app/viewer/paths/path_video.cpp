@@ -1,4 +1,4 @@
-#include "app/viewer/path_video.h"
+#include "app/viewer/paths/path_video.h"
 
 #include <cmath>
 

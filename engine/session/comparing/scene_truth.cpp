@@ -1,0 +1,110 @@
+#include "engine/session/comparing/scene_truth.h"
+
+#include <utility>
+#include <vector>
+
+namespace reljef::session {
+namespace {
+
+struct PlacedNode {
+    scene::TerrainNode node;
+    glm::dmat4 world_from_local{1.0};
+
+    friend bool operator==(const PlacedNode&, const PlacedNode&) = default;
+};
+
+// Of the terrains, what the truth depends on.
+std::vector<PlacedNode> terrains_of(const scene::Scene& scene) {
+    std::vector<PlacedNode> terrains;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& to_world) {
+        if (const auto* terrain = node.get<scene::TerrainNode>()) {
+            scene::TerrainNode bare;
+            bare.surface = terrain->surface;
+            bare.stream = terrain->stream;
+            terrains.push_back({std::move(bare), to_world});
+        }
+    });
+    return terrains;
+}
+
+bool shows_meshes(const scene::Scene& scene) {
+    bool found = false;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
+        found = found || node.get<scene::MeshNode>() != nullptr;
+    });
+    return found;
+}
+
+} // namespace
+
+Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
+    if (shows_meshes(scene)) {
+        return Error{"the exact picture: models found, a terrain was expected"};
+    }
+    SceneTruth truth;
+    for (PlacedNode& terrain : terrains_of(scene)) {
+        truth.is_streamed_ = truth.is_streamed_ || terrain.node.stream != nullptr;
+        truth.scene_.root()
+            .add("terrain", std::move(terrain.node))
+            .set_parent_from_local(terrain.world_from_local);
+    }
+    truth.sun_ = scene.sun();
+    if (truth.sun_) {
+        truth.scene_.add_light(*truth.sun_);
+    }
+    if (scene.sky()) {
+        truth.scene_.set_sky(*scene.sky());
+    }
+    return truth;
+}
+
+bool SceneTruth::is_of(const scene::Scene& scene) const {
+    return sun_ == scene.sun() && scene_.sky() == scene.sky() &&
+           terrains_of(scene_) == terrains_of(scene) && !shows_meshes(scene);
+}
+
+Result<void> SceneTruth::prepare() {
+    if (is_streamed_ && !streamed_) {
+        auto streamed = truth::StreamedTruth::create(scene_);
+        if (!streamed) {
+            return streamed.error();
+        }
+        streamed_.emplace(std::move(*streamed));
+    }
+    if (!is_streamed_ && !shading_) {
+        auto caster = truth::SceneCaster::create(scene_);
+        if (!caster) {
+            return caster.error();
+        }
+        caster_.emplace(std::move(*caster));
+        shading_.emplace(scene_, *caster_);
+    }
+    return {};
+}
+
+Result<truth::Picture> SceneTruth::draw(const scene::Camera& camera, glm::ivec2 size,
+                                        const truth::DrawOptions& options) {
+    if (auto prepared = prepare(); !prepared) {
+        return prepared.error();
+    }
+    return streamed_ ? streamed_->draw(camera, size, options)
+                     : truth::draw(*caster_, *shading_, camera, size, options);
+}
+
+Result<truth::GeometricErrors> SceneTruth::errors(const scene::Camera& camera,
+                                                  const HitBuffer& shown, const HitBuffer& truth,
+                                                  const ParallelOptions& parallel) {
+    if (streamed_) {
+        return streamed_->errors(camera, shown, truth, parallel);
+    }
+    const auto terrains = terrains_of(scene_);
+    if (terrains.size() != 1) {
+        return Error{"the errors of a picture: one terrain was expected"};
+    }
+    const scene::TerrainSurface& surface = *terrains.front().node.surface;
+    const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                                  terrains.front().world_from_local, camera};
+    return truth::geometric_errors(view, shown, truth, parallel.threads);
+}
+
+} // namespace reljef::session
