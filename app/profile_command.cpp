@@ -90,6 +90,11 @@ cli::Command add_profile_command(CLI::App& program, cli::Interrupt& interrupt) {
                     "largest distance between points, metres (half of the finest spacing)", "M");
     arguments->add_option("-o,--output", choice->output, "CSV file; - for standard output (-)")
         ->type_name("FILE");
+    arguments->callback([choice] {
+        const cli::NamedFile output{"-o", choice->output == "-" ? "" : choice->output};
+        const cli::NamedFile input{"TERRAIN", choice->terrain.terrain};
+        cli::check_distinct({&output, 1}, {&input, 1});
+    });
     arguments->footer(
         "Prints the heading distance,latitude,longitude,height and a line for each point: metres "
         "along the\ngeodesic, degrees, metres above the DEM's zero (nan on voids and outside). "

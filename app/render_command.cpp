@@ -233,7 +233,10 @@ std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
         {"the gallery's textures", description.gallery_textures},
         {"--detail", choice.view.detail.value_or(session::DetailChoice{}).textures},
         {"the detail texture", description.detail.value_or(io::DetailDescription{}).textures},
-        {"--path", choice.view.path}};
+        {"--path", choice.view.path},
+        {"--ramp", choice.terrain.ramp.value_or("")},
+        {"the scene's ramp", description.ramp},
+        {"--geoid", choice.terrain.geoid}};
     for (const std::filesystem::path& image : description.imagery) {
         files.push_back({"the terrain's imagery", image});
     }
@@ -455,7 +458,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_shard_option(*arguments, choice->shard, "frames of --path");
     arguments->add_flag("--resume", choice->resume,
                         "keep the numbered pictures of an earlier run of the same command; draw "
-                        "those that are missing, damaged or of another size");
+                        "those that are missing, of another size, or cannot be read");
     arguments->add_flag(
         "--stats", choice->stats,
         "print counts and times of the last frame, and times and memory of all frames");

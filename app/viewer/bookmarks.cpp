@@ -69,6 +69,13 @@ std::string without_separators(std::string text) {
     return text;
 }
 
+// A file or folder by its whole path: others of its name have bookmarks of their own.
+std::string terrain_key(const std::string& terrain) {
+    std::error_code failed;
+    const fs::path whole = fs::canonical(terrain, failed);
+    return without_separators(failed ? terrain : whole.string());
+}
+
 std::optional<fs::path> absolute_path_in(const char* variable) {
     const char* const value = std::getenv(variable);
     return value != nullptr && fs::path(value).is_absolute() ? std::optional(fs::path(value))
@@ -82,6 +89,7 @@ Result<Bookmarks::List> Bookmarks::of(const std::string& terrain) const {
     if (!text) {
         return text.error();
     }
+    const std::string key = terrain_key(terrain);
     List list;
     int damaged = 0;
     int first_damaged = 0;
@@ -91,7 +99,7 @@ Result<Bookmarks::List> Bookmarks::of(const std::string& terrain) const {
         const auto bookmark = is_content(line) ? bookmark_of(line) : std::nullopt;
         if (is_content(line) && !bookmark) {
             first_damaged = damaged++ == 0 ? number : first_damaged;
-        } else if (bookmark && bookmark->terrain == terrain) {
+        } else if (bookmark && bookmark->terrain == key) {
             list.bookmarks.push_back(*bookmark);
         }
     }
@@ -119,7 +127,7 @@ Result<void> Bookmarks::add(Bookmark bookmark) const {
     } else if (text->back() != '\n') {
         *text += '\n';
     }
-    bookmark.terrain = without_separators(bookmark.terrain);
+    bookmark.terrain = terrain_key(bookmark.terrain);
     bookmark.name = without_separators(bookmark.name);
     return write_text_file(file_, *text + line_of(bookmark) + '\n');
 }

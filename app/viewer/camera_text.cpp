@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/core/geometry.h"
 #include "engine/scene/motion/camera_gestures.h"
 
 namespace reljef::app {
@@ -51,10 +52,18 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
+bool is_point(const std::vector<double>& numbers) {
+    return numbers.size() == 3 && std::all_of(numbers.begin(), numbers.end(), [](double number) {
+               return std::abs(number) <= max_world_coordinate;
+           });
+}
+
 std::optional<scene::Camera> on_earth(const scene::TerrainSurface& surface,
                                       const std::vector<double>& numbers,
                                       const scene::Camera& camera) {
-    const bool is_place = numbers.size() == 5 && std::abs(numbers[0]) <= 90.0;
+    const bool is_place = numbers.size() == 5 && std::abs(numbers[0]) <= 90.0 &&
+                          std::abs(numbers[2]) <= max_world_coordinate &&
+                          std::abs(numbers[4]) <= 90.0;
     const auto eye =
         is_place && surface.heightfield().georeference
             ? surface.placement().world_from_geodetic({numbers[0], numbers[1], numbers[2]})
@@ -95,7 +104,7 @@ std::optional<scene::Camera> camera_from_text(const scene::TerrainSurface& surfa
     }
     const auto eye = numbers_of(words[1]);
     const auto target = numbers_of(words[3]);
-    if (eye.size() != 3 || target.size() != 3 || eye == target) {
+    if (!is_point(eye) || !is_point(target) || eye == target) {
         return std::nullopt;
     }
     camera.eye = {eye[0], eye[1], eye[2]};

@@ -90,7 +90,7 @@ void add_surroundings(CommandText& command, const StartOptions& start) {
         command.add("--visibility", fmt::format("{}", *start.scene.visibility));
     }
     if (start.scene.base) {
-        command.add("--base", *start.scene.base == session::BaseKind::plane ? "plane" : "none");
+        command.add("--base", session::to_string(*start.scene.base));
     }
     if (start.scene.hides_sky) {
         command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");

@@ -193,6 +193,7 @@ void Viewer::update_appearance() {
     redraw_ = comparison_.take_redraw() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     if (exaggeration_.update(switch_.technique(), switch_.light())) {
+        measuring_.clear(); // its places are no longer on the ground
         show_camera(camera());
         if (!map_) { // the ground may have risen above it
             flight_.set_camera(camera());
@@ -341,15 +342,23 @@ void Viewer::leave() {
     }
 }
 
-std::filesystem::path next_file(const std::filesystem::path& folder, const std::string& stem,
-                                const std::string& extension) {
-    std::error_code ignored;
+std::filesystem::path next_stem(const std::filesystem::path& folder, const std::string& stem,
+                                std::initializer_list<std::string_view> extensions) {
     for (int number = 1;; ++number) {
-        auto file = folder / fmt::format("{}-{:04}{}", stem, number, extension);
-        if (!std::filesystem::exists(std::filesystem::symlink_status(file, ignored))) {
-            return file;
+        const std::string name = fmt::format("{}-{:04}", stem, number);
+        if (std::none_of(extensions.begin(), extensions.end(), [&](std::string_view extension) {
+                std::error_code ignored;
+                return std::filesystem::exists(std::filesystem::symlink_status(
+                    folder / (name + std::string(extension)), ignored));
+            })) {
+            return folder / name;
         }
     }
+}
+
+std::filesystem::path next_file(const std::filesystem::path& folder, const std::string& stem,
+                                const std::string& extension) {
+    return next_stem(folder, stem, {extension}).string() + extension;
 }
 
 } // namespace reljef::app

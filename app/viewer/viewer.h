@@ -244,6 +244,9 @@ private:
     bool close_ = false;
 };
 
+/// The first name STEM-0001, STEM-0002, … in `folder` that is free with each of the extensions.
+std::filesystem::path next_stem(const std::filesystem::path& folder, const std::string& stem,
+                                std::initializer_list<std::string_view> extensions);
 /// The first free name STEM-0001EXTENSION, STEM-0002EXTENSION, … in `folder`.
 std::filesystem::path next_file(const std::filesystem::path& folder, const std::string& stem,
                                 const std::string& extension);

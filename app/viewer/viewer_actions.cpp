@@ -170,8 +170,8 @@ void Viewer::remove_key() {
 }
 
 Result<void> Viewer::save_path() {
-    const auto file = next_file(".", "reljef-path", ".toml");
-    const auto saved = desk_.save(surface_of(scene_), file.parent_path() / file.stem());
+    const auto saved =
+        desk_.save(surface_of(scene_), next_stem(".", "reljef-path", {".toml", ".gpx"}));
     if (!saved) {
         return saved.error();
     }

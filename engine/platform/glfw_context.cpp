@@ -39,7 +39,7 @@ Result<std::shared_ptr<GlfwLibrary>> GlfwLibrary::acquire() {
     }
     if (glfwInit() == GLFW_FALSE) {
         return Error{
-            fmt::format("no display ({}); set DISPLAY or use --context osmesa", glfw_error())};
+            fmt::format("no display found ({}), one in DISPLAY was expected", glfw_error())};
     }
     std::shared_ptr<GlfwLibrary> library(new GlfwLibrary);
     shared = library;

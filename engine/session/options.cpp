@@ -36,6 +36,10 @@ std::string_view to_string(BackendKind kind) {
     return context ? platform::to_string(*context) : "cpu";
 }
 
+std::string_view to_string(BaseKind kind) {
+    return kind == BaseKind::plane ? "plane" : kind == BaseKind::solid ? "solid" : "none";
+}
+
 std::optional<BackendKind> backend_from_string(std::string_view text) {
     const auto* const found =
         std::find_if(all_backends.begin(), all_backends.end(),

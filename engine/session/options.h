@@ -79,6 +79,7 @@ struct DetailChoice {
 
 /// What lies beyond the terrain's edge.
 enum class BaseKind { plane, solid, none };
+std::string_view to_string(BaseKind kind);
 
 /// The default error bound if no technique is named either, pixels.
 inline constexpr double default_max_error = 1.0;

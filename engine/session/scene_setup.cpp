@@ -13,7 +13,6 @@
 #include "engine/cast/frame/driver.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/formats/ramp_file.h"
-#include "engine/scene/graph/daylight.h"
 #include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/flight_keys.h"
@@ -236,10 +235,6 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
     return models;
 }
 
-} // namespace
-
-namespace {
-
 // Whether most of the border is level with the sea.
 bool is_in_sea(const terrain::Heightfield& heightfield) {
     const Grid<float>& heights = heightfield.heights;
@@ -267,12 +262,9 @@ glm::vec3 base_albedo(const scene::TerrainSurface& surface) {
 }
 
 BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
-    if (view.base) {
-        return *view.base;
-    }
-    return description.base == "none"    ? BaseKind::none
-           : description.base == "solid" ? BaseKind::solid
-                                         : BaseKind::plane;
+    return view.base.value_or(description.base == "none"    ? BaseKind::none
+                              : description.base == "solid" ? BaseKind::solid
+                                                            : BaseKind::plane);
 }
 
 constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
@@ -288,46 +280,67 @@ std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& 
     return std::make_shared<const scene::MeshNode>(std::move(node));
 }
 
-// Light, sky and air. Air gets thinner with the terrain's own heights, or with a part of its width.
-void add_daylight(TerrainScene& result, const io::SceneDescription& description,
-                  const SceneOptions& view) {
+// Walls follow all samples of the border; a stream shows coarser ones, too.
+Surroundings surroundings_of(const TerrainScene& scene, const io::SceneDescription& description,
+                             const SceneOptions& view, Log& log) {
+    Surroundings found;
+    found.turbidity =
+        view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
+    found.visibility = view.visibility ? view.visibility : description.visibility;
+    found.base = base_kind(description, view);
+    if (found.base == BaseKind::solid && scene.terrain->get<scene::TerrainNode>()->stream) {
+        log.note("a terrain that is read tile by tile has no walls: it lies on a plane; a larger "
+                 "--memory shows --base solid");
+        found.base = BaseKind::plane;
+    }
+    return found;
+}
+
+scene::Light chosen_sun(const io::SceneDescription& description, const SceneOptions& view) {
     scene::Light sun;
     sun.azimuth = view.sun ? view.sun->x : description.sun_azimuth;
     sun.altitude = view.sun ? view.sun->y : description.sun_altitude;
     sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
-    const double turbidity =
-        view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
-    const scene::Daylight daylight = scene::daylight_at(sun.altitude, turbidity);
-    sun.color = daylight.sun;
-    sun.ambient = daylight.ambient;
-    result.light = &result.scene.add_light(sun);
+    return sun;
+}
 
-    scene::Sky sky = daylight.sky;
-    const glm::dvec3 size = result.bounds.size();
+// Air gets thinner with the terrain's own heights, or with a part of its width.
+scene::Sky sky_over(const TerrainScene& scene, scene::Sky sky) {
+    const glm::dvec3 size = scene.bounds.size();
     const double width = std::max(size.x, size.y);
-    const auto visibility = view.visibility ? view.visibility : description.visibility;
-    sky.visibility = visibility.value_or(
+    sky.visibility = scene.surroundings.visibility.value_or(
         std::max(visibility_in_widths * std::max(width, size.z), min_visibility));
     constexpr double in_heights = 1.5;
     constexpr double in_widths = 0.05;
     sky.air_height = std::max(in_heights * size.z, in_widths * width);
-    sky.base = result.bounds.low.z;
-    const BaseKind base = base_kind(description, view);
+    sky.base = scene.bounds.low.z;
+    return sky;
+}
+
+} // namespace
+
+void set_daylight(TerrainScene& scene, scene::Light sun) {
+    const scene::Daylight daylight = scene::daylight_at(sun.altitude, scene.surroundings.turbidity);
+    sun.color = daylight.sun;
+    sun.ambient = daylight.ambient;
+    *scene.light->get<scene::Light>() = sun;
+
+    scene::Sky sky = sky_over(scene, daylight.sky);
     constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
-    auto& terrain = *result.terrain->get<scene::TerrainNode>();
-    if (base != BaseKind::none && width <= max_plane_width) {
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const BaseKind base = scene.surroundings.base;
+    const glm::dvec3 size = scene.bounds.size();
+    if (base != BaseKind::none && std::max(size.x, size.y) <= max_plane_width) {
         const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
         const glm::vec3 albedo =
             base == BaseKind::solid ? glm::vec3(table_albedo) : base_albedo(*terrain.surface);
         sky.plane = albedo * (level * sun.color + sun.ambient);
     }
-    if (base == BaseKind::solid && !result.is_gallery) {
+    if (base == BaseKind::solid && !scene.is_gallery) {
         terrain.base = walls_below(*terrain.surface);
     }
-    result.scene.set_sky(sky);
+    scene.scene.set_sky(sky);
 }
-
-} // namespace
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
@@ -363,7 +376,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return done.error();
     }
 
-    add_daylight(result, source.description, view);
+    result.surroundings = surroundings_of(result, source.description, view, log);
+    result.light = &result.scene.add_light();
+    set_daylight(result, chosen_sun(source.description, view));
 
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {

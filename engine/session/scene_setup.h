@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scene/graph/daylight.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/motion/camera_path.h"
 #include "engine/session/log.h"
@@ -14,6 +15,13 @@
 
 namespace reljef::session {
 
+/// What surrounds a terrain, besides the sun.
+struct Surroundings {
+    double turbidity = scene::default_turbidity;
+    std::optional<double> visibility; ///< metres; absent: by the terrain's size
+    BaseKind base = BaseKind::plane;
+};
+
 struct TerrainScene {
     scene::Scene scene;
     scene::Node* terrain = nullptr;   ///< owned by the scene
@@ -21,6 +29,7 @@ struct TerrainScene {
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     Box bounds;                       ///< of the terrain, scene metres
+    Surroundings surroundings;
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
     RayUse rays = RayUse::none;
@@ -38,6 +47,10 @@ struct TerrainScene {
 
 /// The near plane of cameras over a terrain, metres: cuts nothing away that can be seen.
 double near_distance(const Box& bounds);
+
+/// Shines a sun: sets the light with the colours of its altitude, sky, air, and what lies below the
+/// terrain's edge. Precondition: `bounds` are those of the terrain as it is.
+void set_daylight(TerrainScene& scene, scene::Light sun);
 
 /// Builds the scene. Fails if the placement or the camera does not fit the terrain; wrong options
 /// are usage errors.

@@ -10,11 +10,14 @@
 #include "tests/render/earth_stage.h"
 #include "tests/render/made_stream.h"
 #include "tests/scene/streaming/streamed_samples.h"
+#include "tests/support/release_only.h"
 
 namespace reljef::cast {
 namespace {
 
 constexpr glm::ivec2 curved_size{320, 240};
+constexpr glm::ivec2 ground_size{test::rounds(320, 160), test::rounds(240, 120)};
+
 struct EarthStage : test::EarthStage {
     explicit EarthStage(const test::EarthPlace& place) : test::EarthStage(place) {
         scene::Polygons bounded;
@@ -68,7 +71,7 @@ TEST(CurvedRays, HitWhatTheTruthHitsInStreamedTiles) {
             stage.look({120.3, 201.7}, above, {140.0, 40.0});
             stage.stream();
             stage.expect_true(fmt::format("streamed, latitude {}, {} m above", latitude, above),
-                              0.01);
+                              0.01, ground_size);
         }
     }
 }

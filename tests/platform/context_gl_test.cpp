@@ -241,9 +241,9 @@ TEST(GpuContextGlTest, is_on_no_cpu_rasterizer) {
 }
 
 TEST(ContextErrorTest, no_display_says_what_to_do) {
-    EXPECT_THAT(message_elsewhere(ContextKind::glfw, "DISPLAY", std::nullopt),
-                AllOf(HasSubstr("context glfw: no display ("),
-                      HasSubstr("; set DISPLAY or use --context osmesa\n")));
+    EXPECT_THAT(
+        message_elsewhere(ContextKind::glfw, "DISPLAY", std::nullopt),
+        AllOf(HasSubstr("context glfw: no display ("), HasSubstr("one in DISPLAY was expected\n")));
     EXPECT_THAT(message_elsewhere(ContextKind::glfw, "DISPLAY", ":4711"),
                 AllOf(HasSubstr("context glfw: no display ("), HasSubstr(":4711")));
 }

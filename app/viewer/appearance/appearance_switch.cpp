@@ -119,7 +119,7 @@ void AppearanceSwitch::begin(const Appearance& appearance) {
 }
 
 void AppearanceSwitch::show(const Appearance& appearance) {
-    *scene_.light->get<scene::Light>() = appearance.light;
+    session::set_daylight(scene_, appearance.light);
     if (appearance.technique) {
         before_.clear();
         const std::vector<scene::Material*> materials = scene_.materials();

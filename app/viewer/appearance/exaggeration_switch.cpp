@@ -71,6 +71,7 @@ bool ExaggerationSwitch::show() {
     node.bisection = nullptr;
     session::apply_maps(scene_, made->maps);
     scene_.bounds = scene_.terrain->world_bounds();
+    session::set_daylight(scene_, *scene_.light->get<scene::Light>());
     light_ = made->maps.light;
     return true;
 }

@@ -39,7 +39,12 @@ PanelActions draw_sun(const AppearanceContent& appearance) {
     if (!(is_turned || is_raised)) {
         return {};
     }
-    return {SetSun{std::round(sun.azimuth), std::round(sun.altitude)}}; // as shown
+    if (is_turned) { // as shown
+        sun.azimuth = std::round(sun.azimuth);
+    } else {
+        sun.altitude = std::max(std::round(sun.altitude), min_altitude);
+    }
+    return {sun};
 }
 
 PanelActions draw_exaggeration(const AppearanceContent& appearance) {

@@ -50,10 +50,17 @@ Result<std::vector<std::filesystem::path>> PathDesk::save(const scene::TerrainSu
     if (surface.heightfield().georeference) {
         files.emplace_back(stem.string() + ".gpx");
     }
+    std::vector<AtomicFile> prepared;
+    prepared.reserve(files.size());
     for (const std::filesystem::path& file : files) {
-        if (auto written = io::write_flight(file, *flight); !written) {
-            return written.error();
+        auto one = io::prepare_flight(file, *flight);
+        if (!one) {
+            return one.error();
         }
+        prepared.push_back(std::move(*one));
+    }
+    if (auto written = commit_all(prepared); !written) {
+        return written.error();
     }
     return files;
 }

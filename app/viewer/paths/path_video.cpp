@@ -13,7 +13,8 @@ Result<PathVideo> PathVideo::begin(const scene::CameraPath& path, std::filesyste
         return Error{"video: a path with one keyframe found, at least two were expected; K records "
                      "a path, Insert appends a keyframe"};
     }
-    const double frames = std::floor(path.duration() * frames_per_second) + 1.0;
+    constexpr double rounding = 1e-6; // of a frame: a duration is a difference of times
+    const double frames = std::floor(path.duration() * frames_per_second + rounding) + 1.0;
     if (!(frames <= max_frames)) {
         return Error{fmt::format("video: {:.0f} frames found, at most {:.0f} were expected", frames,
                                  max_frames)};

@@ -41,9 +41,11 @@ struct Flight {
 /// - any other file: see read_track.
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second = 100.0);
 
-/// Writes a flight that read_flight() reads: TOML for .toml, a GPX track for .gpx, whole or not at
-/// all. A track has times since 1970 and no angles. Fails for other extensions, and for a track of
-/// keys that are not on Earth.
+/// A file that read_flight() reads, ready for commit(): TOML for .toml, a GPX track for .gpx. A
+/// track has times since 1970 and no angles. Fails for other extensions, and for a track of keys
+/// that are not on Earth.
+Result<AtomicFile> prepare_flight(const std::filesystem::path& path, const Flight& flight);
+/// Writes that file whole or not at all.
 Result<void> write_flight(const std::filesystem::path& path, const Flight& flight);
 
 /// Reads all segments of the first track, route or line of a file that GDAL opens (GPX, KML,

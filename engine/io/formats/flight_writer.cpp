@@ -74,18 +74,26 @@ std::string gpx_text(const std::vector<GeodeticKey>& keys) {
 
 } // namespace
 
-Result<void> write_flight(const std::filesystem::path& path, const Flight& flight) {
+Result<AtomicFile> prepare_flight(const std::filesystem::path& path, const Flight& flight) {
+    const auto prepare = [&](const std::string& text) {
+        return prepare_file(path, std::as_bytes(std::span(text)));
+    };
     if (path.extension() == ".toml") {
-        return write_text_file(path, toml_text(flight));
+        return prepare(toml_text(flight));
     }
     if (path.extension() != ".gpx") {
         return Error{fmt::format("{}: the name of a path ends in .toml or .gpx", path.string())};
     }
     const auto* const keys = std::get_if<std::vector<GeodeticKey>>(&flight.keys);
     return keys != nullptr
-               ? write_text_file(path, gpx_text(*keys))
+               ? prepare(gpx_text(*keys))
                : Error{fmt::format("{}: keys in scene metres found, places on Earth were expected",
                                    path.string())};
+}
+
+Result<void> write_flight(const std::filesystem::path& path, const Flight& flight) {
+    auto file = prepare_flight(path, flight);
+    return file ? file->commit() : Result<void>(file.error());
 }
 
 } // namespace reljef::io

@@ -4,12 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "engine/core/atomic_file.h"
 
 namespace reljef::io {
 namespace {
@@ -98,6 +99,10 @@ std::optional<terrain::RampStop> stop_of(std::string_view word, glm::vec3 color)
 
 Result<terrain::ColorRamp> parse_ramp(std::string_view text, const std::string& name) {
     terrain::ColorRamp ramp{name, {}, false, false, {}};
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) {
+        text.remove_prefix(byte_order_mark.size());
+    }
     int number = 0;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -134,19 +139,8 @@ Result<terrain::ColorRamp> parse_ramp(std::string_view text, const std::string& 
 }
 
 Result<terrain::ColorRamp> read_ramp_file(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string text(max_file_bytes + 1, '\0');
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (file.bad() || (!file.eof() && file.fail()) || !std::filesystem::is_regular_file(path)) {
-        return Error{fmt::format("{}: a colour file that can be read was expected", path.string())};
-    }
-    text.resize(static_cast<std::size_t>(file.gcount()));
-    if (text.size() > max_file_bytes) {
-        return Error{fmt::format("{}: more than 1 MiB found, a colour file with a line for each "
-                                 "height was expected",
-                                 path.string())};
-    }
-    return parse_ramp(text, path.string());
+    const auto text = read_text_file(path, max_file_bytes);
+    return text ? parse_ramp(*text, path.string()) : Result<terrain::ColorRamp>(text.error());
 }
 
 } // namespace reljef::io

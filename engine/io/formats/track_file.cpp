@@ -131,6 +131,11 @@ FoundTrack find_track(GDALDataset& dataset) {
 Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
     check(metres_a_second > 0.0, "read_track needs a speed");
     const std::string name = path.string();
+    std::error_code code;
+    if (std::filesystem::is_fifo(path, code) || std::filesystem::is_socket(path, code)) {
+        return Error{
+            fmt::format("{}: is no regular file, a path was expected", name)}; // may never open
+    }
     register_drivers();
     const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);

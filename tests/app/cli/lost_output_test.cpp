@@ -124,6 +124,11 @@ TEST_F(SameFile, OutputOverTheImagery) {
     expect_kept({"--imagery", "photo.png", "-o", "photo.png"}, {"photo.png", "--imagery"});
 }
 
+TEST_F(SameFile, OutputOverTheRampOrTheGeoid) {
+    expect_kept({"--ramp", "photo.png", "-o", "photo.png"}, {"photo.png", "--ramp"});
+    expect_kept({"--geoid", "photo.png", "-o", "./photo.png"}, {"photo.png", "--geoid"});
+}
+
 TEST_F(SameFile, OutputOverTheTerrainByAnotherName) {
     std::filesystem::create_symlink("photo.png", folder_.path() / "link.png");
     test::ProgramOptions options;

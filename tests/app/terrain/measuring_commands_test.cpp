@@ -73,6 +73,14 @@ TEST_F(MeasuringCommands, ProfileBesideTheTerrainAndInVoids) {
                          {"natural"});
 }
 
+TEST_F(MeasuringCommands, ProfileOverTheTerrainIsRefused) {
+    const std::string before = test::read_bytes(dem_);
+    test::expect_refusal(test::reljef({"profile", dem_, "--from", "0.032,0.010", "--to",
+                                       "0.032,0.054", "-o", path("./wall.asc")}),
+                         2, {"-o", "wall.asc", "TERRAIN"});
+    EXPECT_EQ(test::read_bytes(dem_), before);
+}
+
 TEST_F(MeasuringCommands, ViewshedBehindAWallIsHidden) {
     const auto result =
         test::reljef({"viewshed", dem_, "--from", "0.032,0.010,10", "-o", path("seen.tif")});

@@ -52,6 +52,17 @@ TEST(Bookmarks, TabsAndLineEndsInNamesHarmNothing) {
     EXPECT_EQ(marks.of("a b.tif")->bookmarks.front().name, "one two three");
 }
 
+TEST(Bookmarks, FilesOfOneNameAndNamesLikeCommentsHaveTheirOwn) {
+    const test::TemporaryFolder folder;
+    folder.write("one/#dem.tif", "");
+    folder.write("two/#dem.tif", "");
+    const Bookmarks marks(folder.path() / "bookmarks.txt");
+    const std::string first = folder.path() / "one/#dem.tif";
+    ASSERT_TRUE(marks.add({first, "ridge", ridge.camera}));
+    EXPECT_EQ(marks.of(folder.path() / "one/../one/#dem.tif")->bookmarks.size(), 1U);
+    EXPECT_TRUE(marks.of(folder.path() / "two/#dem.tif")->bookmarks.empty());
+}
+
 TEST(Bookmarks, DamagedLinesAreKeptAndNamed) {
     const test::TemporaryFolder folder;
     const std::string damaged = "# mine\n\nalps.tif\tRidge\t--camera 46,8,2000,10,-5\nhalf a li\n" +
@@ -88,6 +99,15 @@ TEST(CameraText, IsReadAsTheSameCamera) {
     EXPECT_LT(glm::distance(read->eye, camera.eye), 1e-4);
     EXPECT_LT(glm::distance(scene::view_axes(*read).forward, scene::view_axes(camera).forward),
               1e-5);
+}
+
+TEST(CameraText, PlacesBeyondTheWorldAreNoCameras) {
+    const auto scene = hill_scene();
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    for (const char* const text : {"--eye 1e300,0,0 --look 0,0,0", "--eye 0,0,0 --look 0,-1e300,0",
+                                   "--camera 0,0,1e300,0,0", "--camera 0,0,0,0,91"}) {
+        EXPECT_FALSE(camera_from_text(surface, text, {})) << text;
+    }
 }
 
 TEST(CameraText, OtherTextIsNoCamera) {

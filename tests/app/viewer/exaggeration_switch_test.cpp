@@ -1,5 +1,6 @@
 #include "app/viewer/appearance/exaggeration_switch.h"
 
+#include <algorithm>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -46,6 +47,36 @@ TEST_F(ExaggerationTest, RaisesTheGroundAndLeavesTheEye) {
     EXPECT_EQ(scene.bounds.high.z, scene.terrain->world_bounds().high.z);
     EXPECT_EQ(eye(), before);
     EXPECT_NE(viewer.take_light(), nullptr);
+}
+
+TEST_F(ExaggerationTest, RaisesWallsAndAirWithTheGround) {
+    session::SceneOptions view = above_the_hill();
+    view.base = session::BaseKind::solid;
+    session::TerrainScene block = hill_scene(view);
+    Viewer of_block{block, scene::orbit_path(block.bounds, 10.0), {400, 300}};
+    const auto top_of_walls = [&] {
+        const auto& positions = block.terrain->get<scene::TerrainNode>()->base->mesh->positions;
+        return std::max_element(positions.begin(), positions.end(),
+                                [](auto a, auto b) { return a.z < b.z; })
+            ->z;
+    };
+    EXPECT_NEAR(top_of_walls(), 10.0, 1e-3);
+    of_block.set_exaggeration(4.0);
+    wait_for_maps(of_block);
+    EXPECT_NEAR(top_of_walls(), 40.0, 1e-3);
+    EXPECT_EQ(block.scene.sky()->base, block.bounds.low.z);
+    EXPECT_EQ(block.scene.sky()->air_height, 1.5 * block.bounds.size().z);
+}
+
+TEST_F(ExaggerationTest, TheSkyFollowsTheSun) {
+    viewer.set_sun({90.0, 4.0});
+    wait_for_maps(viewer);
+    const auto& light = *scene.light->get<scene::Light>();
+    const scene::Daylight low = scene::daylight_at(4.0, scene::default_turbidity);
+    EXPECT_EQ(light.altitude, 4.0);
+    EXPECT_EQ(light.color, low.sun);
+    EXPECT_EQ(light.ambient, low.ambient);
+    EXPECT_EQ(scene.scene.sky()->zenith, low.sky.zenith);
 }
 
 TEST_F(ExaggerationTest, LiftsTheEyeAboveGroundThatRisesOverIt) {

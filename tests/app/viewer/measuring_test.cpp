@@ -180,6 +180,15 @@ TEST(PathVideo, HasAFrameEach25thOfASecond) {
     EXPECT_TRUE(is_finished);
 }
 
+TEST(PathVideo, HasTheLastViewThoughDurationsAreRounded) {
+    const auto open = [](const std::filesystem::path&, glm::ivec2, double) {
+        return Result<VideoFile>(VideoFile{});
+    };
+    const auto path = // 1.16 s, a little less in binary
+        scene::CameraPath::create({{7.0, {0, 0, 9}, {1, 0, 9}}, {8.16, {9, 0, 9}, {10, 0, 9}}});
+    EXPECT_EQ(PathVideo::begin(*path, "flight.mp4", {64, 48}, open)->frames(), 30);
+}
+
 TEST(PathVideo, OneKeyframeAndAFileThatCannotBeMadeAreErrors) {
     const auto open = [](const std::filesystem::path&, glm::ivec2, double) {
         return Result<VideoFile>(Error{"no ffmpeg"});

@@ -266,6 +266,10 @@ TEST_F(NavigationTest, KeysRecordAndEditThePath) {
     EXPECT_THAT(notes(), HasSubstr("X measures"));
     press(Key::y);
     EXPECT_TRUE(viewer.take_video_request());
+    press(Key::o);
+    press(Key::y);
+    EXPECT_TRUE(viewer.take_video_request());
+    EXPECT_EQ(camera().projection, scene::ProjectionKind::perspective) << "the map is no flight";
     std::filesystem::current_path(temporary);
 }
 

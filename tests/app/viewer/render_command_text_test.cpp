@@ -77,6 +77,18 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     }
 }
 
+TEST(RenderCommand, NamesEachBase) {
+    session::TerrainScene scene = hill_scene();
+    StartOptions start = start_of("natural");
+    for (const auto base :
+         {session::BaseKind::plane, session::BaseKind::solid, session::BaseKind::none}) {
+        start.scene.base = base;
+        const auto command = render_command(start, scene, shown_of(scene));
+        ASSERT_TRUE(command) << command.error().message;
+        EXPECT_THAT(*command, HasSubstr(fmt::format("--base {} ", session::to_string(base))));
+    }
+}
+
 // The options give the same camera to the last bit on a plane.
 TEST(RenderCommand, ItsCameraIsTheViewsOnAPlane) {
     session::SceneOptions view;

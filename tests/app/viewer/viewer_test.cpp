@@ -458,6 +458,9 @@ TEST(NextScreenshot, NeverTakesANameThatIsTaken) {
     folder.write("reljef-0003.png", "x");
     std::filesystem::create_symlink("nowhere", folder.path() / "reljef-0002.png");
     EXPECT_EQ(next_screenshot(folder.path()).filename(), "reljef-0004.png");
+    folder.write("path-0001.gpx", "");
+    EXPECT_EQ(next_stem(folder.path(), "path", {".toml", ".gpx"}).filename(), "path-0002")
+        << "neither file is replaced";
 }
 
 } // namespace

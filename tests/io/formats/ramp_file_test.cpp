@@ -1,6 +1,10 @@
 #include "engine/io/formats/ramp_file.h"
 
+#include <sys/stat.h>
+
 #include <gtest/gtest.h>
+
+#include "tests/support/temporary_folder.h"
 
 namespace reljef::io {
 namespace {
@@ -40,7 +44,17 @@ TEST(RampFile, NamesTheFileAndTheLineOfAMistake) {
     EXPECT_NE(ramp_error("nan 1 2 3").find("line 1"), std::string::npos);
     EXPECT_NE(ramp_error("# nothing\n").find("at least one was expected"), std::string::npos);
     EXPECT_FALSE(read_ramp_file("/nowhere/a.txt"));
+    const test::TemporaryFolder folder;
+    const auto pipe = folder.path() / "pipe";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_FALSE(read_ramp_file(pipe)) << "a pipe that nobody writes would never end";
     EXPECT_FALSE(read_ramp_file("/"));
+}
+
+TEST(RampFile, MayBeginWithAByteOrderMark) {
+    EXPECT_TRUE(parse_ramp("\xEF\xBB\xBF"
+                           "0 red\n",
+                           "a.txt"));
 }
 
 } // namespace
