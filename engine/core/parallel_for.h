@@ -32,7 +32,8 @@ struct ParallelOptions {
 };
 
 /// Calls `body(index)` for every index in [0, count) from several threads and waits for all.
-/// Returns false if it was stopped early. `body` must not throw.
+/// Returns false if it was stopped early. If `body` throws (std::bad_alloc), no new item starts,
+/// and the caller gets the first exception.
 bool parallel_for(int count, const std::function<void(int index)>& body,
                   const ParallelOptions& options = {});
 

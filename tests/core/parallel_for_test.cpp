@@ -5,6 +5,7 @@
 #include <chrono>
 #include <latch>
 #include <mutex>
+#include <new>
 #include <set>
 #include <thread>
 #include <vector>
@@ -126,6 +127,21 @@ TEST(WorkerPool, AfterAStopNoItemBegins) {
             options);
         EXPECT_FALSE(finished);
         EXPECT_LT(begun_after.load(), threads) << "those that had been let in already";
+    }
+}
+
+TEST(WorkerPool, WithoutMemoryTheCallerGetsTheExceptionAndNoItemBegins) {
+    for (const unsigned threads : {1U, 4U}) {
+        std::atomic<unsigned> begun{0};
+        EXPECT_THROW(parallel_for(
+                         1000000,
+                         [&](int) {
+                             ++begun;
+                             throw std::bad_alloc();
+                         },
+                         with_threads(threads)),
+                     std::bad_alloc);
+        EXPECT_LE(begun.load(), threads);
     }
 }
 
