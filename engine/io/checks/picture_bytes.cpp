@@ -14,6 +14,8 @@
 namespace reljef::io {
 namespace {
 
+using namespace std::string_view_literals;
+
 constexpr double max_inflation = 1032.0; // deflate (RFC 1951): 258 bytes for two bits
 constexpr double max_chunk_bytes = 8e6;  // libpng's limit of each, PNG_USER_CHUNK_MALLOC_MAX
 constexpr double max_text_bytes = 8 * max_chunk_bytes; // programs write one to four
@@ -30,12 +32,40 @@ template <std::size_t count> bool read_head(const File& file, Bytes<count>& head
     return file != nullptr && VSIFReadL(head.data(), 1, count, file.get()) == count;
 }
 
-/// What libpng keeps of a chunk, bytes.
-double kept_bytes(std::string_view type, double length) {
-    const bool is_compressed = type == "zTXt" || type == "iTXt" || type == "iCCP";
-    const bool is_kept = is_compressed || type == "tEXt" || type == "sPLT" || type == "eXIf";
-    return is_kept ? std::min(max_chunk_bytes, length * (is_compressed ? max_inflation : 1.0))
-                   : 0.0;
+struct ChunkHead {
+    std::string type;
+    vsi_l_offset length; // bytes
+};
+
+ChunkHead chunk_head(const Bytes<8>& bytes) {
+    ChunkHead head{std::string(bytes.begin() + 4, bytes.end()), 0};
+    std::for_each(bytes.begin(), bytes.begin() + 4,
+                  [&](unsigned char byte) { head.length = head.length * 256 + byte; });
+    return head;
+}
+
+/// What libpng allocates for a chunk, bytes: its length before it is read, then what it inflates
+/// to.
+double allocated_bytes(const ChunkHead& chunk) {
+    constexpr std::array compressed{"zTXt"sv, "iTXt"sv, "iCCP"sv};
+    constexpr std::array plain{"tEXt"sv, "sPLT"sv, "eXIf"sv, "pCAL"sv, "sCAL"sv};
+    const auto length = static_cast<double>(chunk.length);
+    if (std::find(compressed.begin(), compressed.end(), chunk.type) != compressed.end()) {
+        return std::max(length, std::min(max_chunk_bytes, length * max_inflation));
+    }
+    return std::find(plain.begin(), plain.end(), chunk.type) != plain.end() ? length : 0.0;
+}
+
+/// Goes behind a chunk whose head was read. False if the file ends in it.
+bool pass_chunk(const File& file, const ChunkHead& chunk) {
+    Bytes<4> checksum{};
+    return VSIFSeekL(file.get(), chunk.length, SEEK_CUR) == 0 && read_head(file, checksum);
+}
+
+Error png_without_end(const std::string& name) {
+    return Error{fmt::format("{}: cannot be read (it is a PNG without its end), a whole "
+                             "picture was expected",
+                             name)};
 }
 
 } // namespace
@@ -43,23 +73,19 @@ double kept_bytes(std::string_view type, double length) {
 // PNG specification, 5.2 and 5.3.
 Result<void> check_png(const std::string& name, PngPart part) {
     constexpr Bytes<8> signature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
-    constexpr vsi_l_offset checksum_bytes = 4;
     const File file = opened_file(name);
     Bytes<8> head{};
     if (!read_head(file, head) || head != signature) {
         return {};
     }
-    double kept = 0.0;
+    double allocated = 0.0;
     while (read_head(file, head)) {
-        const std::string type(head.begin() + 4, head.end());
-        if (type == "IEND" || (type == "IDAT" && part == PngPart::until_pixels)) {
+        const ChunkHead chunk = chunk_head(head);
+        if (chunk.type == "IEND" || (chunk.type == "IDAT" && part == PngPart::until_pixels)) {
             return {};
         }
-        vsi_l_offset length = 0;
-        std::for_each(head.begin(), head.begin() + 4,
-                      [&](unsigned char byte) { length = length * 256 + byte; });
-        kept += kept_bytes(type, static_cast<double>(length));
-        if (kept > max_text_bytes) {
+        allocated += allocated_bytes(chunk);
+        if (allocated > max_text_bytes) {
             return Error{
                 fmt::format("{}: holds texts and colour profiles that may take over {:.0f} "
                             "MB, a PNG with less beside its pixels was expected",
@@ -68,13 +94,11 @@ Result<void> check_png(const std::string& name, PngPart part) {
         if (ReadScope::stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", name)};
         }
-        VSIFSeekL(file.get(), length + checksum_bytes, SEEK_CUR);
+        if (!pass_chunk(file, chunk)) {
+            return png_without_end(name);
+        }
     }
-    return part == PngPart::until_pixels
-               ? Result<void>()
-               : Error{fmt::format("{}: cannot be read (it is a PNG without its end), a whole "
-                                   "picture was expected",
-                                   name)};
+    return png_without_end(name);
 }
 
 // Truevision's specification 2.0. Run-length packets hold a pixel for up to 128.

@@ -11,9 +11,9 @@ namespace reljef::io {
 /// How far a PNG is looked through. GDAL reads nothing behind the first pixels.
 enum class PngPart { until_pixels, whole };
 
-/// To call before a PNG is opened. Fails if libpng would hold over 64 MB of texts and colour
-/// profiles of it, and, if it is looked through as a whole, if its end is missing. Other files are
-/// no errors. Reads the heads of chunks alone.
+/// To call before a PNG is opened. Fails if libpng would allocate over 64 MB for texts and colour
+/// profiles, and if the file ends before the pixels, or before its end if it is looked through as a
+/// whole. Other files are no errors. Reads the heads and ends of chunks alone.
 Result<void> check_png(const std::string& name, PngPart part);
 
 /// Fails if a TGA file of `cols`×`rows` pixels is too short for them. GDAL takes missing ones for

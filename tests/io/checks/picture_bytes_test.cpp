@@ -19,12 +19,16 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-std::string chunk(const std::string& type, std::size_t length) {
+std::string chunk_head(const std::string& type, std::size_t length) {
     std::string bytes;
     for (unsigned shift : {24U, 16U, 8U, 0U}) {
         bytes += static_cast<char>((length >> shift) & 0xFFU);
     }
-    return bytes + type + std::string(length + 4, 'x'); // the checksum comes last
+    return bytes + type;
+}
+
+std::string chunk(const std::string& type, std::size_t length) {
+    return chunk_head(type, length) + std::string(length + 4, 'x'); // the checksum comes last
 }
 
 class PictureBytes : public ::testing::Test {
@@ -79,6 +83,18 @@ TEST_F(PictureBytes, ManyTextsOfAPngInAnArchiveAskForNoMemory) {
     ASSERT_TRUE(test::add_to_zip(archive, "a.png",
                                  test::read_bytes(png_with(repeated(chunk("zTXt", 7752), 9)))));
     EXPECT_THAT(error_of(archive), HasSubstr("texts and colour profiles"));
+}
+
+TEST_F(PictureBytes, ATextOfAPngThatIsLongerThanTheFileAsksForNoMemory) {
+    for (const char* const type :
+         {"tEXt", "zTXt", "iTXt", "iCCP", "sPLT", "eXIf", "pCAL", "sCAL"}) {
+        const fs::path huge = png_with(chunk_head(type, 0x65000055));
+        EXPECT_THAT(error_of(huge), HasSubstr("texts and colour profiles")) << type;
+        EXPECT_FALSE(read_image(huge)) << type;
+        const fs::path large = png_with(chunk_head(type, 40'000'000));
+        EXPECT_THAT(error_of(large), HasSubstr("a PNG without its end")) << type;
+        EXPECT_FALSE(read_image(large)) << type;
+    }
 }
 
 TEST_F(PictureBytes, SomeTextsAndAProfileAreNoError) {
