@@ -179,7 +179,7 @@ private:
     void keep_path() { report(save_path()); }
     void keep_profile() { report(save_profile()); }
     void keep_viewshed() { report(begin_viewshed()); }
-    void ask_for_video() { video_ = true; }
+    void ask_for_video();
     void bookmark_here() { report(save_bookmark({})); }
     void next_bookmark();
     void copy_camera();

@@ -169,6 +169,13 @@ void Viewer::remove_key() {
     output_ += removed ? fmt::format("{} keyframes\n", desk_.path().keys().size()) : std::string();
 }
 
+void Viewer::ask_for_video() {
+    if (map_) {
+        toggle_map();
+    }
+    video_ = true;
+}
+
 Result<void> Viewer::save_path() {
     const auto saved =
         desk_.save(surface_of(scene_), next_stem(".", "reljef-path", {".toml", ".gpx"}));

@@ -10,7 +10,7 @@ namespace fs = std::filesystem;
 void expect(bool property, const char* what) {
     if (!property) {
         std::fprintf(stderr, "found: a property that does not hold: %s\n", what);
-        std::abort();
+        throw Finding(what);
     }
 }
 

@@ -1,21 +1,20 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace reljef::fuzz {
 
-/// The bytes of an input as text.
-inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
-    return {reinterpret_cast<const char*>(data), size};
-}
+/// A property of a result that does not hold. No target catches it.
+class Finding : public std::logic_error {
+    using std::logic_error::logic_error;
+};
 
-/// Aborts, which is a finding, if a property of a result does not hold.
+/// Throws a Finding if a property of a result does not hold.
 void expect(bool property, const char* what);
 
 /// The parts of an input between lines of four dashes.

@@ -3,7 +3,9 @@
 
 #include "engine/io/image/texture_files.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_targets.h"
 
+namespace reljef::fuzz {
 namespace {
 
 // The next line, as the name of a file in a folder.
@@ -19,10 +21,9 @@ std::string next_name(std::string_view& lines) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace reljef;
-    const fuzz::InputFolder folder;
-    const auto parts = fuzz::parts_of(fuzz::text_of(data, size));
+void texture_target(std::string_view input) {
+    const InputFolder folder;
+    const auto parts = parts_of(input);
     std::string_view names = parts.front();
     for (std::size_t i = 1; i < parts.size(); ++i) {
         if (const std::string name = next_name(names); !name.empty()) {
@@ -32,5 +33,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (const auto files = io::find_texture_files(folder.path())) {
         static_cast<void>(io::read_texture_set(*files));
     }
-    return 0;
 }
+
+} // namespace reljef::fuzz

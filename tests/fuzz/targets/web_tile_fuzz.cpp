@@ -2,14 +2,16 @@
 #include "engine/io/raster/web_tiles.h"
 #include "engine/io/tile_set.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_targets.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    using namespace reljef;
-    static const fuzz::InputFolder folder;
+namespace reljef::fuzz {
+
+void web_tile_target(std::string_view input) {
+    static const InputFolder folder;
     static const bool made =
         std::filesystem::create_directories(folder.path() / "tiles" / "0" / "0");
-    fuzz::expect(made, "a new folder");
-    const auto parts = fuzz::parts_of(fuzz::text_of(data, size));
+    expect(made, "a new folder");
+    const auto parts = parts_of(input);
     const std::string name(parts.front());
     if (io::is_web_tiles(name) && name.find("://") == std::string::npos) {
         static_cast<void>(io::web_tile_source(name));
@@ -27,5 +29,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.threads = 1;
         static_cast<void>(tiles->terrain(options));
     }
-    return 0;
 }
+
+} // namespace reljef::fuzz

@@ -3,10 +3,10 @@
 
 #include "app/place_file.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_targets.h"
 
+namespace reljef::fuzz {
 namespace {
-
-using namespace reljef;
 
 // Absent if the file is refused.
 std::optional<std::vector<glm::dvec2>> places_in(const std::string& name, std::size_t piece_bytes) {
@@ -17,9 +17,9 @@ std::optional<std::vector<glm::dvec2>> places_in(const std::string& name, std::s
         if (!piece) {
             return std::nullopt;
         }
-        fuzz::expect(piece->places.size() == piece->texts.size(), "a text for each place");
+        expect(piece->places.size() == piece->texts.size(), "a text for each place");
         for (const glm::dvec2 place : piece->places) {
-            fuzz::expect(app::is_place(place), "places on the Earth");
+            expect(app::is_place(place), "places on the Earth");
         }
         places.insert(places.end(), piece->places.begin(), piece->places.end());
     }
@@ -28,12 +28,13 @@ std::optional<std::vector<glm::dvec2>> places_in(const std::string& name, std::s
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const fuzz::InputFolder folder;
-    const std::string name = folder.write("places.txt", fuzz::text_of(data, size)).string();
+void place_target(std::string_view input) {
+    static const InputFolder folder;
+    const std::string name = folder.write("places.txt", input).string();
     const auto small = places_in(name, 64);
-    const auto whole = places_in(name, size + 2);
+    const auto whole = places_in(name, input.size() + 2);
     // A line may be too long for small pieces only.
-    fuzz::expect(!small || (whole && *small == *whole), "the same places in pieces");
-    return 0;
+    expect(!small || (whole && *small == *whole), "the same places in pieces");
 }
+
+} // namespace reljef::fuzz

@@ -7,18 +7,18 @@
 
 #include "engine/io/cache/disk_cache.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_targets.h"
 #include "tests/io/cache/resealed.h"
 
+namespace reljef::fuzz {
 namespace {
 
-using namespace reljef;
+constexpr int cached_side = 9;
 
-constexpr int side = 9;
-
-struct Stage {
-    fuzz::InputFolder folder;
+struct CacheStage {
+    InputFolder folder;
     terrain::Heightfield field;
-    Grid<float> unit{side, side};
+    Grid<float> unit{cached_side, cached_side};
     terrain::Placement placement;
     io::CacheOptions options;
     std::filesystem::path bisection;
@@ -26,7 +26,7 @@ struct Stage {
     std::string good_bisection;
     std::string good_cones;
 
-    Stage() : field(made_field()), unit(field.heights), placement(placed(field)) {
+    CacheStage() : field(made_field()), unit(field.heights), placement(placed(field)) {
         options = {.folder = folder.path(), .min_seconds = 0.0, .parallel = {.threads = 1}};
         bisection = io::bisection_file(folder.path(), field, placement);
         cones = io::cone_file(folder.path(), unit.view());
@@ -38,9 +38,9 @@ struct Stage {
 
     static terrain::Heightfield made_field() {
         terrain::Heightfield made;
-        made.heights = Grid<float>(side, side);
-        for (int row = 0; row < side; ++row) {
-            for (int col = 0; col < side; ++col) {
+        made.heights = Grid<float>(cached_side, cached_side);
+        for (int row = 0; row < cached_side; ++row) {
+            for (int col = 0; col < cached_side; ++col) {
                 made.heights(col, row) = 0.5F + 0.4F * std::sin(0.7F * static_cast<float>(col)) *
                                                     std::cos(0.5F * static_cast<float>(row));
             }
@@ -49,13 +49,13 @@ struct Stage {
     }
     static terrain::Placement placed(const terrain::Heightfield& field) {
         auto made = terrain::Placement::create(field, terrain::PlacementKind::plane, 1.0);
-        fuzz::expect(static_cast<bool>(made), "a placement");
+        expect(static_cast<bool>(made), "a placement");
         return std::move(*made);
     }
 
     static std::string bytes_of(const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);
-        fuzz::expect(file.good(), "a cache file");
+        expect(file.good(), "a cache file");
         return (std::ostringstream() << file.rdbuf()).str();
     }
 };
@@ -72,9 +72,8 @@ void write(const std::filesystem::path& path, std::string_view bytes) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const Stage stage;
-    std::string_view input = fuzz::text_of(data, size);
+void cache_target(std::string_view input) {
+    static const CacheStage stage;
     const char kind = input.empty() ? 'r' : input.front();
     input.remove_prefix(input.empty() ? 0 : 1);
     if (kind == 'c') {
@@ -84,14 +83,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
               kind == 'b' ? with_numbers(stage.good_bisection, input) : std::string(input));
     }
     const auto cones = io::cached_cones(stage.unit.view(), stage.options);
-    fuzz::expect(cones && cones->value, "cones");
-    fuzz::expect(std::ranges::all_of(cones->value->plain.samples(),
-                                     [](float ratio) { return std::isfinite(ratio); }),
-                 "finite cones");
+    expect(cones && cones->value, "cones");
+    expect(std::ranges::all_of(cones->value->plain.samples(),
+                               [](float ratio) { return std::isfinite(ratio); }),
+           "finite cones");
     const auto bisection = io::cached_bisection(stage.field, stage.placement, stage.options);
-    fuzz::expect(bisection && bisection->value, "a bisection");
-    fuzz::expect(bisection->value->bounds().size() ==
-                     terrain::Bisection::bounds_count({side, side}),
-                 "all bounds");
-    return 0;
+    expect(bisection && bisection->value, "a bisection");
+    expect(bisection->value->bounds().size() ==
+               terrain::Bisection::bounds_count({cached_side, cached_side}),
+           "all bounds");
 }
+
+} // namespace reljef::fuzz

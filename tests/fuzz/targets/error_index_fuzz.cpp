@@ -6,40 +6,40 @@
 
 #include "engine/io/index/index_pass.h"
 #include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/made_dem.h"
 
+namespace reljef::fuzz {
 namespace {
 
-using namespace reljef;
+constexpr int indexed_side = 150; // three levels, the last one stored
 
-constexpr int side = 150; // three levels, the last one stored
-
-struct Stage {
-    fuzz::InputFolder folder;
+struct IndexStage {
+    InputFolder folder;
     io::IndexSource source;
     std::string good;       // bytes of the index
     terrain::TileProof top; // of the whole terrain
 
-    Stage() : source(make_source()) {
+    IndexStage() : source(make_source()) {
         const auto report = io::make_index(source, {.threads = 1});
-        fuzz::expect(report && report->errors.empty(), "an index");
+        expect(report && report->errors.empty(), "an index");
         std::ifstream file(source.file, std::ios::binary);
         good = (std::ostringstream() << file.rdbuf()).str();
         const auto index = io::ErrorIndex::open(source);
         const auto found = index && *index ? (*index)->find(source.tree.root()) : std::nullopt;
-        fuzz::expect(found.has_value(), "a proof of the root");
+        expect(found.has_value(), "a proof of the root");
         top = *found;
     }
 
 private:
     io::IndexSource make_source() {
-        const auto dem = folder.write("dem.asc", fuzz::made_dem(side));
+        const auto dem = folder.write("dem.asc", made_dem(indexed_side));
         auto tiles = io::TileSet::open(dem, {.threads = 1});
-        fuzz::expect(static_cast<bool>(tiles), "a terrain");
+        expect(static_cast<bool>(tiles), "a terrain");
         const io::TileGrid grid = tiles->grid();
         auto made =
             io::index_source(std::move(*tiles), grid, io::Gaps::holes, folder.path() / "cache");
-        fuzz::expect(static_cast<bool>(made), "a source");
+        expect(static_cast<bool>(made), "a source");
         return std::move(*made);
     }
 };
@@ -67,24 +67,25 @@ std::string changed(std::string bytes, std::string_view changes) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const Stage stage;
-    const std::string bytes = changed(stage.good, fuzz::text_of(data, size));
+void error_index_target(std::string_view input) {
+    static const IndexStage stage;
+    const std::string bytes = changed(stage.good, input);
     std::ofstream(stage.source.file, std::ios::binary | std::ios::trunc) << bytes;
     const auto index = io::ErrorIndex::open(stage.source);
     if (!index || !*index) {
-        return 0;
+        return;
     }
-    fuzz::expect(!(*index)->is_complete() ||
-                     (*index)->levels().size() ==
-                         1 + static_cast<std::size_t>(stage.source.tree.root().level),
-                 "all levels");
+    expect(!(*index)->is_complete() ||
+               (*index)->levels().size() ==
+                   1 + static_cast<std::size_t>(stage.source.tree.root().level),
+           "all levels");
     const auto found = (*index)->find(stage.source.tree.root());
-    fuzz::expect(!found || (found->low == stage.top.low && found->high == stage.top.high &&
-                            found->error == stage.top.error),
-                 "the proof that was written, or none");
+    expect(!found || (found->low == stage.top.low && found->high == stage.top.high &&
+                      found->error == stage.top.error),
+           "the proof that was written, or none");
     for (int level = 0; level <= stage.source.tree.root().level; ++level) {
         static_cast<void>(io::read_indexed_tile(stage.source, **index, {level, 0, 0}));
     }
-    return 0;
 }
+
+} // namespace reljef::fuzz
