@@ -1,5 +1,7 @@
 #include "app/commands.h"
 
+#include "app/choice/calibrate_command.h"
+
 namespace reljef::app {
 
 cli::Program reljef_program() {
@@ -19,7 +21,7 @@ cli::Program reljef_program() {
                       "'reljef VERB --help' says more.",
             .commands = {add_view_command, add_render_command, add_info_command, add_height_command,
                          add_profile_command, add_viewshed_command, add_index_command,
-                         add_maps_command, add_techniques_command}};
+                         add_maps_command, add_calibrate_command, add_techniques_command}};
 }
 
 } // namespace reljef::app

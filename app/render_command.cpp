@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/choice/calibration.h"
+#include "app/choice/show_option.h"
 #include "app/cli/console_log.h"
 #include "app/cli/lifted_frames.h"
 #include "app/cli/options.h"
@@ -33,6 +35,7 @@ struct RenderChoice {
     std::filesystem::path hits;
     std::filesystem::path contact_sheet;
     bool stats = false;
+    bool shows_choice = false;
     bool truth = false;
     int rays = 1;
     Shard shard;
@@ -61,8 +64,12 @@ Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
     if (!device) {
         return device.error();
     }
+    if (auto used = use_calibration(choice.view, device->info(), device->renderer()); !used) {
+        return used.error();
+    }
     const session::RayUse rays = device->rays();
-    const session::DeviceFramesOptions options{choice.stats, choice.terrain.memory_megabytes};
+    const session::DeviceFramesOptions options{choice.stats, choice.terrain.memory_megabytes, true,
+                                               choice.shows_choice};
     return Maker{std::make_unique<session::DeviceFrames>(std::move(*device), log, options), rays};
 }
 
@@ -304,21 +311,6 @@ Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& sc
     return path ? Result<Path>(Path(std::move(*path))) : path.error();
 }
 
-// A camera below the ground is an error if a scene file placed it, else a note.
-Result<void> report_lift(const session::Lift& lift, const RenderChoice& choice, bool is_of_file,
-                         session::Log& log) {
-    if (!lift) {
-        return {};
-    }
-    const std::string text =
-        session::lift_note(lift, cli::camera_source(choice.view, choice.terrain));
-    if (is_of_file) {
-        return Error{text};
-    }
-    log.note(text);
-    return {};
-}
-
 Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
                           bool has_camera_of_file, session::FrameMaker& maker, session::Log& log,
                           const cli::Interrupt& interrupt) {
@@ -357,7 +349,8 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         log.note(note);
     }
     return *path ? lifted.report(log, choice.view.path)
-                 : report_lift(lift, choice, has_camera_of_file, log);
+                 : cli::report_lift(lift, cli::camera_source(choice.view, choice.terrain),
+                                    has_camera_of_file, log);
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
@@ -459,11 +452,13 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->add_flag("--resume", choice->resume,
                         "keep the numbered pictures of an earlier run of the same command; draw "
                         "those that are missing, of another size, or cannot be read");
+    add_show_option(*arguments, choice->shows_choice);
     arguments->add_flag(
         "--stats", choice->stats,
         "print counts and times of the last frame, and times and memory of all frames");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
+        expect_choice(choice->shows_choice, choice->view, choice->truth);
         if (choice->truth && choice->view.max_error.value_or(0.0) > 0.0) {
             throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
                                        "of them was expected");

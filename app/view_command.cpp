@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "app/choice/calibration.h"
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
 #include "app/cli/standard_input.h"
@@ -170,6 +171,11 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     auto renderer = make_renderer(choice, **window, rays);
     if (!renderer) {
         return renderer.error();
+    }
+    if (auto used =
+            use_calibration(choice.view, platform::info_of((*window)->context()), *renderer);
+        !used) {
+        return used;
     }
     cli::ConsoleLog console(choice.terrain.quiet);
     MessageHistory log(console);

@@ -25,6 +25,7 @@ struct LodChoice {
     OutputChoice outputs;
     std::optional<int> poses;
     double error = 1.0;
+    bool automatic = false; ///< poses with auto
     bool scaling = false;
     bool selection = false;
     int memory_megabytes = 512;
@@ -40,6 +41,7 @@ Result<void> check_error_bound(const LodChoice& choice, const std::stop_token& s
     options.terrains = terrains_of(choice);
     options.poses = *choice.poses;
     options.error = choice.error;
+    options.automatic = choice.automatic;
     options.flight_errors = {0.25, 0.5, 1.0, 2.0, 4.0};
     const ErrorBoundResults results = run_error_bound(options, stop);
     auto reported = report(figure_table(results), choice.outputs.json);
@@ -114,6 +116,7 @@ void add_lod_options(CLI::App& command, LodChoice& choice) {
                      "side, written to temporary files and viewed within --memory");
     command.add_flag("--selection", choice.selection,
                      "instead of the tables: time to select the visible ones of 10,000 tiles");
+    command.add_flag("--auto", choice.automatic, "--poses of the technique auto, not of polygons");
     cli::add_parsed(command, "--memory", choice.memory_megabytes,
                     cli::number_in<int>("--memory", 1, 1'000'000),
                     "memory budget of --growth, MB (512)", "MB");
@@ -153,6 +156,9 @@ void check_lod_options(const LodChoice& choice, const CLI::App& command) {
     }
     if (!choice.poses && !choice.scaling && command.count("--max-error") > 0) {
         cli::fail_usage("--max-error: no --poses and no --growth found, one was expected with it");
+    }
+    if (!choice.poses && choice.automatic) {
+        cli::fail_usage("--auto: no --poses found, one was expected with it");
     }
     if (!choice.scaling && command.count("--memory") > 0) {
         cli::fail_usage("--memory: no --growth found, one was expected with it");

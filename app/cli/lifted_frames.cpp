@@ -30,4 +30,17 @@ Result<void> LiftedFrames::report(session::Log& log, const std::string& path) co
     return {};
 }
 
+Result<void> report_lift(const session::Lift& lift, const std::string& source, bool is_of_file,
+                         session::Log& log) {
+    if (!lift) {
+        return {};
+    }
+    const std::string text = session::lift_note(lift, source);
+    if (is_of_file) {
+        return Error{text};
+    }
+    log.note(text);
+    return {};
+}
+
 } // namespace reljef::cli

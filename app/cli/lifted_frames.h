@@ -24,4 +24,8 @@ private:
     double max_metres_ = 0.0;
 };
 
+/// A camera that `source` placed below the ground: an error if that is a scene file, else a note.
+Result<void> report_lift(const session::Lift& lift, const std::string& source, bool is_of_file,
+                         session::Log& log);
+
 } // namespace reljef::cli

@@ -225,6 +225,11 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "(perspective)",
                "KIND");
     command
+        .add_option("--calibration", choice.calibration,
+                    "auto: costs of triangles and rays by 'reljef calibrate' on this machine "
+                    "(those of a software renderer)")
+        ->type_name("FILE");
+    command
         .add_option("--shader-dir", choice.shader_dir,
                     "use shader files of this folder instead of the built-in ones")
         ->type_name("FOLDER")

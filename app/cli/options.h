@@ -30,6 +30,7 @@ struct ViewChoice : session::SceneOptions {
     bool allow_underground = false; ///< keeps cameras that are below the ground
     double frames_per_second = 25.0;
     std::filesystem::path shader_dir;
+    std::filesystem::path calibration; ///< a file of 'reljef calibrate'; empty: built-in costs
 };
 
 /// A pose by its name; the error names the option --pose.

@@ -49,6 +49,16 @@ static void describe(Fields& fields,
 }
 
 template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<view::Choice>& choice) {
+    fields.field("tiles_as_triangles", choice.tiles_as_triangles);
+    fields.field("tiles_by_rays", choice.tiles_by_rays);
+    fields.field("ray_pixels", choice.ray_pixels, share);
+    fields.field("estimated_ms", choice.estimated_ms);
+    fields.field("triangles_ms", choice.triangles_ms);
+    fields.field("rays_ms", choice.rays_ms);
+}
+
+template <class Fields>
 static void describe(Fields& fields, typename Fields::template Of<Timing>& timing) {
     fields.field("frames", timing.frames, std::size_t{1});
     fields.object("ms", [&](auto& ms) {
@@ -68,6 +78,7 @@ static void describe(Fields& fields, typename Fields::template Of<Timing>& timin
     fields.field("uploads", timing.stats.uploads);
     fields.later_field("kept_error_px", timing.stats.kept_error);
     fields.later_field("tiles_unproven", timing.stats.tiles_unproven);
+    fields.object("choice", timing.stats.choice);
 }
 
 template <class Fields>

@@ -37,7 +37,7 @@ scene::Technique bounded(double error) {
     return scene::Technique{scene::Polygons{.error = error}};
 }
 
-void add_rows(StressRun& run, const ErrorBoundRow& row) {
+void add_rows(StressRun& run, const ErrorBoundRow& row, const scene::Technique& technique) {
     const std::string at =
         row.worst ? fmt::format("{} frames, worst from {:.2f},{:.2f},{:.2f}", row.frames,
                                 row.worst->eye.x, row.worst->eye.y, row.worst->eye.z)
@@ -45,7 +45,7 @@ void add_rows(StressRun& run, const ErrorBoundRow& row) {
     StressRow figure{
         .stress = fmt::format("error bound, {}, {}", row.views, placement_name(row.placement)),
         .terrain = row.scene,
-        .technique = to_string(bounded(row.error)),
+        .technique = to_string(technique),
         .figure = "pixels farther off than stated",
         .value = static_cast<double>(row.violations),
         .limit = 0.0,
@@ -317,11 +317,20 @@ Result<void> stress_error_bound(StressRun& run) {
     options.flight_errors = {};
     options.seed = run.options().seed;
     options.skip = run.options().skip;
-    const ErrorBoundResults results = run_error_bound(options, run.stop());
-    for (const ErrorBoundRow& row : results.rows) {
-        add_rows(run, row);
+    for (const bool automatic : {false, true}) {
+        options.automatic = automatic;
+        const scene::Technique technique =
+            automatic ? scene::Technique{scene::Automatic{.error = stressed_bound}}
+                      : bounded(stressed_bound);
+        const ErrorBoundResults results = run_error_bound(options, run.stop());
+        for (const ErrorBoundRow& row : results.rows) {
+            add_rows(run, row, technique);
+        }
+        if (results.end.failed) {
+            return *results.end.stopped;
+        }
     }
-    return results.end.failed ? Result<void>(*results.end.stopped) : Result<void>();
+    return {};
 }
 
 Result<void> stress_streamed_repeats(StressRun& run) {

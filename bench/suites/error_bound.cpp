@@ -258,8 +258,9 @@ private:
         return {};
     }
 
-    static void set_error(BenchmarkScene& scene, double error) {
-        scene.set_technique(scene::Technique{scene::Polygons{.error = error}});
+    void set_error(BenchmarkScene& scene, double error) const {
+        scene.set_technique(options_.automatic ? scene::Technique{scene::Automatic{.error = error}}
+                                               : scene::Technique{scene::Polygons{.error = error}});
     }
 
     [[nodiscard]] SceneChoice choice_of(const std::string& terrain) const {

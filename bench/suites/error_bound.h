@@ -21,6 +21,7 @@ struct ErrorBoundOptions {
     int poses = 10'000;                     ///< see random_view(), shared evenly among the terrains
     int near_poses = 0;                     ///< likewise, see view_near_the_ground()
     double error = 1.0;                     ///< as --max-error, pixels
+    bool automatic = false;                 ///< the technique auto instead of polygons
     std::vector<double> flight_errors{1.0}; ///< bounds of the flights, pixels
     std::uint32_t seed = 1;                 ///< of the random poses
     std::int64_t skip = 0;                  ///< random poses left out at the beginning

@@ -14,7 +14,6 @@
 namespace reljef::render {
 namespace {
 
-constexpr int samples_of_triangles = 4;
 // 512 MB of colour and depth at 4 samples. Users usually reduce larger pictures.
 constexpr double max_sampled_pixels = 4096.0 * 4096.0;
 
@@ -22,7 +21,9 @@ int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
     const bool has_triangles = !list.tiles.empty() || !list.meshes.empty() || !list.bases.empty();
     const double pixels = static_cast<double>(size.x) * size.y;
     const bool has_several = has_triangles && pixels <= max_sampled_pixels;
-    return samples != view::automatic_samples ? samples : has_several ? samples_of_triangles : 1;
+    return samples != view::automatic_samples ? samples
+           : has_several                      ? view::samples_of_triangles
+                                              : 1;
 }
 
 // Later passes draw the same content again: only their work counts.

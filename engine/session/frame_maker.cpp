@@ -10,6 +10,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/core/stopwatch.h"
+#include "engine/view/choice/choice_picture.h"
 
 namespace reljef::session {
 namespace {
@@ -75,6 +76,23 @@ std::string memory_text(std::size_t before) {
                        static_cast<double>(before) / megabyte);
 }
 
+// Of `auto`; empty for other techniques.
+std::string choice_text(const std::optional<view::Choice>& choice) {
+    if (!choice) {
+        return {};
+    }
+    std::string text =
+        fmt::format("choice: {} tiles as triangles, {} by rays, {:.0f} % of the "
+                    "pixels by rays",
+                    choice->tiles_as_triangles, choice->tiles_by_rays, 100.0 * choice->ray_pixels);
+    if (choice->rays_ms) {
+        text += fmt::format("; estimated {:.1f} ms, {:.1f} ms as triangles alone, {:.1f} ms by "
+                            "rays alone",
+                            choice->estimated_ms, choice->triangles_ms, *choice->rays_ms);
+    }
+    return text + "\n";
+}
+
 // Of tiles whose errors are estimates nothing is kept.
 std::string kept_error_text(const view::FrameStats& stats) {
     if (!stats.kept_error) {
@@ -126,7 +144,18 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
     stats_ = *stats;
     frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
     note_kept_error(scene);
-    return device_.renderer().read_color();
+    Image picture = device_.renderer().read_color();
+    return options_.shows_choice ? tinted(std::move(picture)) : Result<Image>(std::move(picture));
+}
+
+Result<Image> DeviceFrames::tinted(Image picture) {
+    SceneRenderer& renderer = device_.renderer();
+    const auto drawn = renderer.draw_selected_hits();
+    if (!drawn) {
+        return drawn.error();
+    }
+    view::tint_choice(picture, drawn->hits, renderer.selector().selected().list);
+    return picture;
 }
 
 Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
@@ -202,6 +231,7 @@ std::vector<std::string> DeviceFrames::error_notes() const {
 
 std::string DeviceFrames::stats() const {
     return streams_text(stream_stats_) + times_text(times_) + memory_text(times_.memory_before) +
+           choice_text(stats_.choice) +
            fmt::format(
                "renderer: {}\n"
                "nodes: {}, tiles: {}, triangles: {}, rays: {}, draws: {}, state changes: {}\n"

@@ -47,6 +47,8 @@ struct DeviceFramesOptions {
     int memory_megabytes = 0; ///< SourceOptions::memory_megabytes of the scene
     /// False: tiles are requested, and frames show what is there.
     bool waits_for_tiles = true;
+    /// Tints what draws each tile (view/choice/choice_picture.h).
+    bool shows_choice = false;
 };
 
 class DeviceFrames : public FrameMaker {
@@ -75,6 +77,7 @@ private:
         bool lacks_triangles = false;
     };
     void note_kept_error(const scene::Scene& scene);
+    Result<Image> tinted(Image picture);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.
     [[nodiscard]] std::string remedy() const;
 

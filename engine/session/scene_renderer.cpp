@@ -23,11 +23,27 @@ bool rays_draw(const scene::Technique& technique) {
     return cast::draws_technique(technique);
 }
 
+namespace {
+
+view::SelectOptions with_chooser(view::SelectOptions options,
+                                 std::shared_ptr<view::TechniqueChooser> chooser) {
+    options.refine = [chooser = std::move(chooser)](view::DrawList& list) {
+        chooser->choose(list);
+    };
+    return options;
+}
+
+} // namespace
+
 SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
     : opengl_options_(options.opengl), make_context_(options.make_context),
       size_(options.rays ? options.rays->size : options.opengl->size),
       shows_rays_(options.rays.has_value()), expects_rays_(options.expects_rays),
-      selector_(options.select, options.selects_always) {}
+      chooser_(std::make_shared<view::TechniqueChooser>(
+          view::ChoiceOptions{options.costs, options.rays.has_value()})),
+      selector_(with_chooser(options.select, chooser_), options.selects_always) {
+    chooser_->set_samples(options.opengl ? options.opengl->samples : 1);
+}
 
 Result<SceneRenderer> SceneRenderer::create(const SceneRendererOptions& options) {
     reljef::check(options.opengl || options.rays, "a driver was expected");
@@ -59,6 +75,7 @@ Result<void> SceneRenderer::prepare_opengl() {
         return driver.error();
     }
     opengl_ = std::move(*driver);
+    chooser_->set_max_map_side(opengl_->max_texture_side());
     return {};
 }
 
@@ -150,6 +167,7 @@ Result<void> SceneRenderer::resize(glm::ivec2 size) {
 }
 
 void SceneRenderer::set_samples(int samples) {
+    chooser_->set_samples(samples);
     if (opengl_options_) {
         opengl_options_->samples = samples;
     }
@@ -159,6 +177,11 @@ void SceneRenderer::set_samples(int samples) {
     if (rays_) {
         rays_->set_samples(samples);
     }
+}
+
+void SceneRenderer::set_costs(const Costs& costs) {
+    chooser_->set_costs(costs);
+    selector_.forget();
 }
 
 Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
@@ -222,6 +245,7 @@ Result<Device> Device::create_with_rays(const DeviceOptions& options, RayUse use
                                     .threads = static_cast<unsigned>(options.threads),
                                     .samples = options.samples,
                                     .target = *target},
+        .costs = options.costs,
         .selects_always = options.selects_always};
     if (use == RayUse::preferred) {
         device.context_ = std::make_shared<Context>();
@@ -246,6 +270,7 @@ Result<Device> Device::create_with_rays(const DeviceOptions& options, RayUse use
 Result<Device> Device::create_with_context(const DeviceOptions& options, Context context) {
     auto renderer =
         SceneRenderer::create({.opengl = opengl_options(options, context->is_software()),
+                               .costs = options.costs,
                                .selects_always = options.selects_always});
     if (!renderer) {
         return renderer.error();

@@ -19,9 +19,13 @@
 #include "engine/render/window_picture.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/session/options.h"
+#include "engine/view/choice/technique_choice.h"
 #include "engine/view/select.h"
 
 namespace reljef::session {
+
+/// What triangles and rays cost: by these `auto` chooses.
+using Costs = view::TechniqueCosts;
 
 /// The instruction set of rays by its name; an empty name: the fastest. Fails as
 /// cast::simd_target().
@@ -38,7 +42,8 @@ struct SceneRendererOptions {
     /// With both: makes the context before OpenGL's first frame; empty: there is one.
     std::function<Result<void>()> make_context = {};
     view::SelectOptions select = {};
-    bool selects_always = false; ///< see view::FrameSelector
+    view::TechniqueCosts costs = {}; ///< by which `auto` chooses
+    bool selects_always = false;     ///< see view::FrameSelector
 };
 
 /// Draws the frames of a scene with OpenGL or by rays on the CPU, and selects each view once (see
@@ -81,6 +86,8 @@ public:
     Result<void> resize(glm::ivec2 size);
     /// For later frames, see render::DriverOptions::samples and cast::DriverOptions::samples.
     void set_samples(int samples);
+    /// For later frames. Forgets the last view.
+    void set_costs(const Costs& costs);
     [[nodiscard]] glm::ivec2 size() const { return size_; }
 
     /// Whether rays drew the last frame; before the first, whether they draw at all.
@@ -107,6 +114,7 @@ private:
     bool shows_rays_;
     bool expects_rays_;
     std::string note_;
+    std::shared_ptr<view::TechniqueChooser> chooser_; // of the selector
     view::FrameSelector selector_;
     int drawn_ = 0; // the selection that was drawn last, counted from 1
 };
@@ -122,6 +130,7 @@ struct DeviceOptions {
     int threads = 0;                       ///< of a software renderer; 0: its own choice
     std::string simd = {};                 ///< of rays on the CPU (cast/simd_target.h); empty: best
     bool selects_always = false;           ///< see SceneRendererOptions
+    view::TechniqueCosts costs = {};       ///< by which `auto` chooses
 };
 
 /// Sets the threads of software contexts (llvmpipe) created later; 0 changes nothing.

@@ -66,6 +66,12 @@ struct TerrainDraw {
     /// ground beside the picture, too. Empty: the samples of the terrain's surface.
     std::vector<std::shared_ptr<const scene::TerrainTile>> tiles = {};
     std::optional<RayCourse> course = {}; ///< of rays on the ellipsoid
+    /// What draws it instead of the terrain's own technique.
+    std::optional<scene::Technique> chosen = {};
+
+    [[nodiscard]] const scene::Technique& technique() const {
+        return chosen ? *chosen : terrain->material.technique;
+    }
 };
 
 struct MeshDraw {

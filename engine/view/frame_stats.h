@@ -7,6 +7,19 @@
 
 namespace reljef::view {
 
+/// What `auto` chose in a view.
+struct Choice {
+    int tiles_as_triangles = 0;
+    int tiles_by_rays = 0;   ///< in the view, not counted among the drawn tiles
+    double ray_pixels = 0.0; ///< estimated share of the picture, 0 to 1
+    double estimated_ms = 0.0;
+    double triangles_ms = 0.0; ///< estimated for triangles alone
+    std::optional<double> rays_ms =
+        {}; ///< estimated for rays alone; absent: no proof of their error
+
+    friend bool operator==(const Choice&, const Choice&) = default;
+};
+
 /// Counts and times of one frame.
 struct FrameStats {
     int nodes = 0; ///< in the scene, visible or not
@@ -21,6 +34,7 @@ struct FrameStats {
     std::optional<double> kept_error;
     /// Whether triangles had larger errors than the bound leaves them, to fit their number.
     bool lacks_triangles = false;
+    std::optional<Choice> choice; ///< of `auto`
     int reliefs_as_triangles = 0; ///< on the ellipsoid, where a view bends rays too much to search
     std::size_t rays = 0;         ///< cast on the CPU
     int draws = 0;                ///< draw calls, the sky's included

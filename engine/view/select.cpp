@@ -35,20 +35,21 @@ constexpr int overview_levels = terrain::max_patch_levels + 1;
 // Empty if every sample is a vertex. `stands_in`: the terrain is drawn until tiles are loaded.
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain, const DrawList& list,
                                         const glm::dmat4& world_from_local, bool stands_in) {
-    const auto* const polygons =
-        std::get_if<scene::Polygons>(&terrain.material.technique.parameters);
-    if (polygons == nullptr) {
+    const scene::Technique& technique = terrain.material.technique;
+    if (!scene::draws_triangles(technique.id())) {
         return std::nullopt;
     }
+    const auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
+    const double error = scene::error_bound(technique);
     const scene::TerrainSurface& surface = *terrain.surface;
-    if (polygons->error > 0.0 && !stands_in) {
+    if (error > 0.0 && !stands_in) {
         terrain::ErrorView view =
             error_view(list.camera, list.size, world_from_local, surface.placement().kind(),
-                       std::max(polygons->error, min_error));
-        view.morph_from = polygons->morph ? morph_from : 1.0;
+                       std::max(error, min_error));
+        view.morph_from = polygons != nullptr && polygons->morph ? morph_from : 1.0;
         return view;
     }
-    const int levels = polygons->error > 0.0 ? overview_levels : polygons->max_levels;
+    const int levels = error > 0.0 ? overview_levels : polygons->max_levels;
     if (levels == 1) {
         return std::nullopt;
     }
@@ -418,6 +419,9 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
     list.stats.skipped.sky = list.sky ? 0 : 1;
     if (options.occlusion) {
         drop_occluded(list);
+    }
+    if (options.refine) {
+        options.refine(list);
     }
     return frame;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,6 +32,9 @@ struct SelectOptions {
     /// Drops tiles behind nearer ground. Without it they are requested and listed, too
     /// (TileDraw::is_hidden): to measure the effect on the picture.
     bool occlusion = true;
+    /// Called with each list that was selected; the same list must give the same result. Empty:
+    /// not called.
+    std::function<void(DrawList&)> refine = {};
 };
 
 /// Drops what is hidden or outside the frustum and orders the rest front to back. Fits the depth

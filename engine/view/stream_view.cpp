@@ -103,8 +103,8 @@ StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& c
     pixels_per_metre_ = is_perspective_
                             ? 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov))
                             : size.y / camera.view_height;
-    const bool is_solid = terrain.material.technique.id() == scene::TechniqueId::polygons &&
-                          !terrain.material.wireframe;
+    const bool is_solid =
+        scene::draws_triangles(terrain.material.technique.id()) && !terrain.material.wireframe;
     if (is_solid) {
         find_horizon(size);
     }

@@ -88,4 +88,14 @@ std::string error_summary(const view::FrameStats& stats, const scene::Technique&
     return "no bound";
 }
 
+std::string choice_summary(const view::Choice& choice) {
+    if (choice.tiles_by_rays == 0) {
+        return "triangles";
+    }
+    return choice.tiles_as_triangles == 0
+               ? std::string("rays")
+               : fmt::format("{} tiles, rays for {:.0f} %", choice.tiles_as_triangles,
+                             100.0 * choice.ray_pixels);
+}
+
 } // namespace reljef::app

@@ -26,4 +26,7 @@ std::string place_text(const PlaceContent& place, PlaceFormat format);
 /// "never more than 1.0 px off", or what else is known of the frame's error.
 std::string error_summary(const view::FrameStats& stats, const scene::Technique& technique);
 
+/// "9 tiles, rays for 40 %", "triangles" or "rays".
+std::string choice_summary(const view::Choice& choice);
+
 } // namespace reljef::app

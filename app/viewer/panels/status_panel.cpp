@@ -77,6 +77,10 @@ void draw_status(const PanelContent& content, const Area& area, const Fonts& fon
         row("Triangles", count_text(frame.stats.triangles));
     }
     draw_tiles(frame.stats);
+    if (frame.stats.choice) {
+        row("Choice", choice_summary(*frame.stats.choice));
+        tip("What auto draws as triangles, and what by exact rays");
+    }
     row("Picture", fmt::format("{} \u00d7 {}", frame.picture.x, frame.picture.y));
 }
 

@@ -34,9 +34,8 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const Rel
 
 Result<void> BeamTarget::prepare(const view::DrawList& list) {
     const bool needed =
-        std::any_of(list.reliefs.begin(), list.reliefs.end(), [](const view::TerrainDraw& draw) {
-            return has_beams(draw.terrain->material.technique);
-        });
+        std::any_of(list.reliefs.begin(), list.reliefs.end(),
+                    [](const view::TerrainDraw& draw) { return has_beams(draw.technique()); });
     if (!needed || picture_size_ == list.size) {
         return {};
     }

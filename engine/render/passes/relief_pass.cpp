@@ -254,7 +254,7 @@ float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& 
 
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::TerrainDraw& draw) {
-    const scene::Technique& technique = draw.terrain->material.technique;
+    const scene::Technique& technique = draw.technique();
     const DrawnSpace drawn = space_of(frame, draw);
     const ReliefSpace& space = drawn.space;
     if (!frame.hits) {
@@ -280,7 +280,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
 }
 
 Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& draw) {
-    const scene::Technique& technique = draw.terrain->material.technique;
+    const scene::Technique& technique = draw.technique();
     DrawState& state = frame.state;
     frame.no_vertices.bind();
     if (has_beams(technique)) {

@@ -253,7 +253,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, T
 Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::TerrainDraw& draw,
                                   bool with_light, TileMaps& lights, view::FrameStats& stats) {
     const std::shared_ptr<scene::TileStream>& source = draw.terrain->stream;
-    const scene::Technique& technique = draw.terrain->material.technique;
+    const scene::Technique& technique = draw.technique();
     Stream& stream = streams_[source.get()];
     stream.owner = source;
     stream.drawn = frame_;

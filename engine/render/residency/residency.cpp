@@ -168,7 +168,7 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 
 Result<void> Residency::prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const scene::Technique& technique = draw.terrain->material.technique;
+    const scene::Technique& technique = draw.technique();
     std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
     const bool uses_mipmap = uses_max_mipmap(technique);
     const bool needs_mipmap = uses_mipmap && !(relief && relief->max_mipmap);

@@ -38,6 +38,7 @@ Search bisection_search(std::uint32_t features, const Technique& technique) {
 struct SearchVisitor {
     Search operator()(const scene::Texture& /*texture*/) const { return {}; }
     Search operator()(const scene::Polygons& /*polygons*/) const { return {}; }
+    Search operator()(const scene::Automatic& /*automatic*/) const { return {}; }
     Search operator()(const scene::Displacement& /*displacement*/) const {
         return {.features = feature_normal_map};
     }

@@ -131,8 +131,7 @@ Result<void> check_support(const view::DrawList& list, const gl::Limits& limits)
     const auto check_terrains = [&](const std::vector<view::TerrainDraw>& draws) -> Result<void> {
         for (const view::TerrainDraw& draw : draws) {
             const scene::TerrainNode& terrain = *draw.terrain;
-            if (auto good = check_surface(terrain.material.technique, surface_of(terrain), limits);
-                !good) {
+            if (auto good = check_surface(draw.technique(), surface_of(terrain), limits); !good) {
                 return good;
             }
         }

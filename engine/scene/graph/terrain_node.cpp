@@ -37,8 +37,8 @@ std::string_view reason_against_terrain(const Technique& technique, const Terrai
 }
 
 bool shows_detail(TechniqueId id) {
-    return id != TechniqueId::polygons && id != TechniqueId::displacement &&
-           id != TechniqueId::prewarp && !searches_layers(id);
+    return !draws_triangles(id) && id != TechniqueId::displacement && id != TechniqueId::prewarp &&
+           !searches_layers(id);
 }
 
 bool has_foreign_options(const TechniqueOptions& options) {
@@ -62,7 +62,7 @@ bool is_seen_from_behind(const Material& material) {
 
 bool shows_heights(const Technique& technique) {
     const TechniqueId id = technique.id();
-    return (id == TechniqueId::polygons || searches_surface(id)) && !technique.options.fade &&
+    return (draws_triangles(id) || searches_surface(id)) && !technique.options.fade &&
            id != TechniqueId::parallax && id != TechniqueId::parallax_limited &&
            id != TechniqueId::parallax_iterated;
 }
@@ -70,7 +70,8 @@ bool shows_heights(const Technique& technique) {
 bool draws_tiles(const Technique& technique) {
     const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
     return std::holds_alternative<Texture>(technique.parameters) ||
-           searches_surface(technique.id()) || (polygons != nullptr && polygons->max_levels == 1);
+           technique.id() == TechniqueId::automatic || searches_surface(technique.id()) ||
+           (polygons != nullptr && polygons->max_levels == 1);
 }
 
 Result<void> check_technique(const Technique& technique, const TerrainSurface& surface) {

@@ -120,6 +120,7 @@ Geometry geometry_of(TechniqueId id) {
     case TechniqueId::prewarp:
         return Geometry::flat;
     case TechniqueId::polygons:
+    case TechniqueId::automatic:
     case TechniqueId::displacement:
         return Geometry::full;
     default:
@@ -131,13 +132,17 @@ bool searches_surface(TechniqueId id) {
     return geometry_of(id) == Geometry::box;
 }
 
+bool draws_triangles(TechniqueId id) {
+    return id == TechniqueId::polygons || id == TechniqueId::automatic;
+}
+
 bool draws_terrain(TechniqueId id) {
     return id != TechniqueId::displacement && id != TechniqueId::bump &&
            id != TechniqueId::emboss && id != TechniqueId::normal && !searches_layers(id);
 }
 
 bool draws_any_mesh(TechniqueId id) {
-    return id != TechniqueId::prewarp;
+    return id != TechniqueId::prewarp && id != TechniqueId::automatic;
 }
 
 bool searches_layers(TechniqueId id) {
@@ -158,6 +163,9 @@ bool is_two_sided(const Technique& technique) {
 }
 
 double error_bound(const Technique& technique) {
+    if (const auto* const automatic = std::get_if<Automatic>(&technique.parameters)) {
+        return automatic->error;
+    }
     const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
     return polygons == nullptr ? 0.0 : polygons->error;
 }

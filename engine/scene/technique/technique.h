@@ -31,6 +31,9 @@ Geometry geometry_of(TechniqueId id);
 /// Whether each pixel searches for the surface along its ray.
 bool searches_surface(TechniqueId id);
 
+/// Whether it draws a terrain as triangles over its heights.
+bool draws_triangles(TechniqueId id);
+
 bool draws_terrain(TechniqueId id);
 
 /// Whether it draws any mesh with a detail tile, not only flat ones. `polygons` shows such a mesh
@@ -49,7 +52,7 @@ bool is_faster_on_plane(TechniqueId id);
 /// Whether it shows the back of a mesh, too.
 bool is_two_sided(const Technique& technique);
 
-/// The error bound of polygons, pixels; 0 without a bound, and for other techniques.
+/// The error bound of polygons and auto, pixels; 0 without a bound, and for other techniques.
 double error_bound(const Technique& technique);
 
 /// The offset of the reference plane of the parallax techniques; null for others.

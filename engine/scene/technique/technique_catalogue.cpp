@@ -101,6 +101,9 @@ constexpr std::array displacement_parameters{parameter_row<&Displacement::max_te
 constexpr std::array emboss_parameters{parameter_row<&Emboss::delta>(
     {"delta", 0.25, 64.0, "distance to the second height, towards the light, texels"})};
 
+constexpr std::array automatic_parameters{parameter_row<&Automatic::error>(
+    {"error", min_polygons_error, max_polygons_error, "error bound, pixels; exact has no error"})};
+
 template <class Kind>
 constexpr TechniqueInfo technique_row(std::string_view name, std::string_view meaning,
                                       std::string_view source,
@@ -172,12 +175,17 @@ constexpr std::array catalogue{
                            "the surface, warped forward onto the reference plane in each frame, "
                            "rows first, then columns: "
                            "(u + k1 d)/(1 + k3 d), (v + k2 d)/(1 + k3 d)",
-                           "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000")};
+                           "Janković 2010 ch. 2.4.1-5; Oliveira, Bishop and McAllister 2000"),
+    technique_row<Automatic>(
+        "auto",
+        "in each view the cheapest of what keeps an error bound: triangles for near tiles, exact "
+        "for all behind them, or one of both for all",
+        "J conclusion", automatic_parameters)};
 
 static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>);
-constexpr auto last_index = static_cast<std::size_t>(TechniqueId::multi_layer);
+constexpr auto last_index = static_cast<std::size_t>(TechniqueId::automatic);
 static_assert(
-    std::is_same_v<std::variant_alternative_t<last_index, TechniqueParameters>, MultiLayer>);
+    std::is_same_v<std::variant_alternative_t<last_index, TechniqueParameters>, Automatic>);
 static_assert(std::all_of(catalogue.begin(), catalogue.end(),
                           [](const TechniqueInfo& info) {
                               return std::all_of(info.parameters.begin(), info.parameters.end(),

@@ -26,6 +26,7 @@ enum class TechniqueId {
     lattice,
     dual_layer,
     multi_layer,
+    automatic,
 };
 
 // One struct per technique: its parameters with their defaults. technique_catalogue.cpp has their
@@ -110,10 +111,16 @@ using Lattice = LayerSearch<TechniqueId::lattice>;
 using DualLayer = LayerSearch<TechniqueId::dual_layer>;
 using MultiLayer = LayerSearch<TechniqueId::multi_layer>;
 
+/// In each view the cheapest of what keeps the bound (view/choice).
+struct Automatic {
+    double error = 1.0; ///< bound in pixels
+    friend auto operator<=>(const Automatic&, const Automatic&) = default;
+};
+
 /// A technique and its parameters, in the order of TechniqueId.
 using TechniqueParameters =
     std::variant<Texture, Polygons, Parallax, ParallaxLimited, ParallaxIterated, Steep, Relief,
                  Interval, Pom, Cone, Exact, Displacement, Bump, Emboss, Normal, Prewarp, Lattice,
-                 DualLayer, MultiLayer>;
+                 DualLayer, MultiLayer, Automatic>;
 
 } // namespace reljef::scene

@@ -1,0 +1,109 @@
+#include "app/choice/calibrate_command.h"
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/choice/calibration.h"
+#include "app/choice/measure_costs.h"
+#include "app/cli/console_log.h"
+#include "app/cli/options.h"
+#include "app/cli/output_files.h"
+#include "app/cli/parsed_option.h"
+#include "app/cli/progress_line.h"
+#include "engine/core/atomic_file.h"
+
+namespace reljef::app {
+namespace {
+
+struct CalibrateChoice {
+    std::optional<session::BackendKind> context;
+    glm::ivec2 size{1024, 768};
+    int threads = 0;
+    std::filesystem::path output;
+    bool quiet = false;
+};
+
+// What `auto` chooses between: rays on the CPU draw every tile.
+Result<std::optional<session::BackendKind>> parse_opengl(const std::string& text) {
+    const auto kind = session::backend_from_string(text);
+    if (text == "auto") {
+        return std::optional<session::BackendKind>();
+    }
+    if (!kind || *kind == session::BackendKind::cpu) {
+        return Error{
+            fmt::format("--context: '{}' found, auto, egl or osmesa was expected{}", text,
+                        kind ? "; on cpu rays draw every tile, so nothing is chosen" : "")};
+    }
+    return kind;
+}
+
+Result<session::TerrainScene> natural(const CalibrateChoice& choice, session::Log& log,
+                                      const std::stop_token& stop) {
+    session::SourceOptions source;
+    source.terrain = "natural";
+    source.threads = choice.threads;
+    session::SceneOptions view;
+    view.max_error = 1.0; // with the maps of triangles with a bound
+    view.size = choice.size;
+    view.pose = scene::Pose::overview;
+    return session::open_scene(source, view, log, stop);
+}
+
+Result<void> calibrate(const CalibrateChoice& choice, const cli::Interrupt& interrupt) {
+    const std::array outputs{cli::NamedFile{"-o", choice.output}};
+    if (auto writable = cli::check_writable(outputs); !writable) {
+        return writable;
+    }
+    cli::ConsoleLog log(choice.quiet);
+    auto scene = natural(choice, log, interrupt.token());
+    if (!scene) {
+        return scene.error();
+    }
+    auto device = session::Device::create({.context = choice.context,
+                                           .size = choice.size,
+                                           .threads = choice.threads,
+                                           .selects_always = true});
+    if (!device) {
+        return device.error();
+    }
+    cli::ProgressLine line("measuring", choice.quiet);
+    const auto frames =
+        measure_frames(*scene, device->renderer(), interrupt.token(), line.callback());
+    if (!frames) {
+        return frames.error();
+    }
+    const Calibration made{place_of(device->info()), costs_from(*frames)};
+    return write_text_file(choice.output, to_text(made));
+}
+
+} // namespace
+
+cli::Command add_calibrate_command(CLI::App& program, cli::Interrupt& interrupt) {
+    auto choice = std::make_shared<CalibrateChoice>();
+    auto* arguments = program.add_subcommand(
+        "calibrate", "measure what triangles and rays cost here, for the technique auto");
+    arguments->add_option("-o", choice->output, "the file of costs")->type_name("FILE")->required();
+    cli::add_parsed(*arguments, "--context", choice->context, parse_opengl,
+                    "what draws: egl (GPU without a window) or osmesa (CPU); auto: the first that "
+                    "works (auto)",
+                    "KIND");
+    cli::add_parsed(*arguments, "--size", choice->size, cli::parse_size,
+                    "size of the pictures, pixels (1024x768)", "WxH");
+    cli::add_parsed(*arguments, "--threads", choice->threads,
+                    cli::number_in<int>("--threads", 0, 1024),
+                    "number of threads; 0: one per processor (0)", "N");
+    arguments->add_flag("--quiet", choice->quiet, "no progress and no notes on stderr");
+    arguments->footer("The costs hold for this machine, this version and this context. Other "
+                      "programs that run\nmeanwhile make them wrong.\n"
+                      "Examples:\n  reljef calibrate -o here.json\n"
+                      "  reljef render natural --technique auto --calibration here.json -o a.png");
+    return {arguments, [choice, &interrupt] { return calibrate(*choice, interrupt); }};
+}
+
+} // namespace reljef::app

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "app/cli/command.h"
+
+namespace reljef::app {
+
+cli::Command add_calibrate_command(CLI::App& program, cli::Interrupt& interrupt);
+
+} // namespace reljef::app

@@ -1,0 +1,146 @@
+#include "app/choice/calibration.h"
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/program.h"
+#include "engine/core/atomic_file.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view schema = "reljef-calibration/1";
+
+struct CostField {
+    const char* name;
+    double session::Costs::*member;
+};
+constexpr std::array cost_fields{CostField{"frame_ms", &session::Costs::frame_ms},
+                                 CostField{"triangle_ns", &session::Costs::triangle_ns},
+                                 CostField{"covered_pixel_ns", &session::Costs::covered_pixel_ns},
+                                 CostField{"rays_ms", &session::Costs::rays_ms},
+                                 CostField{"ray_pixel_ns", &session::Costs::ray_pixel_ns}};
+
+struct PlaceField {
+    const char* name;
+    std::string CalibrationPlace::*member;
+};
+constexpr std::array place_fields{PlaceField{"machine", &CalibrationPlace::machine},
+                                  PlaceField{"version", &CalibrationPlace::version},
+                                  PlaceField{"context", &CalibrationPlace::context},
+                                  PlaceField{"renderer", &CalibrationPlace::renderer}};
+
+constexpr const char* remedy = "'reljef calibrate -o FILE' measures this machine, and without "
+                               "--calibration built-in costs hold";
+
+std::string processor() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        const auto colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) {
+            return line.substr(colon + 2);
+        }
+    }
+    return "unknown";
+}
+
+} // namespace
+
+CalibrationPlace place_of(const platform::RendererInfo& info) {
+    return {processor(), cli::version_text(), info.context, info.renderer};
+}
+
+std::string to_text(const Calibration& calibration) {
+    Json json{{"schema", schema}};
+    for (const PlaceField& field : place_fields) {
+        json[field.name] = calibration.place.*field.member;
+    }
+    Json& costs = json["costs"] = Json::object();
+    for (const CostField& field : cost_fields) {
+        costs[field.name] = calibration.costs.*field.member;
+    }
+    return json.dump(2) + "\n";
+}
+
+Result<Calibration> parse_calibration(const std::string& text, const std::string& file) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || !json.contains("schema") || json["schema"] != schema) {
+        return Error{
+            fmt::format("{}: no calibration found, {} was expected; {}", file, schema, remedy)};
+    }
+    Calibration calibration;
+    for (const PlaceField& field : place_fields) {
+        const auto found = json.find(field.name);
+        if (found == json.end() || !found->is_string()) {
+            return Error{
+                fmt::format("{}: no {} found, a text was expected; {}", file, field.name, remedy)};
+        }
+        calibration.place.*field.member = found->get<std::string>();
+    }
+    const Json costs = json.value("costs", Json::object());
+    for (const CostField& field : cost_fields) {
+        const bool is_number =
+            costs.is_object() && costs.contains(field.name) && costs[field.name].is_number();
+        const double value = is_number ? costs[field.name].get<double>() : -1.0;
+        if (!std::isfinite(value) || value < 0.0) {
+            return Error{fmt::format("{}: no {} found among its costs, a number from 0 was "
+                                     "expected; {}",
+                                     file, field.name, remedy)};
+        }
+        calibration.costs.*field.member = value;
+    }
+    return calibration;
+}
+
+Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here) {
+    const auto text = read_text_file(file);
+    if (!text) {
+        return text.error();
+    }
+    const auto calibration = parse_calibration(*text, file.string());
+    if (!calibration) {
+        return calibration.error();
+    }
+    for (const PlaceField& field : place_fields) {
+        const std::string& found = calibration->place.*field.member;
+        const std::string& expected = here.*field.member;
+        if (found != expected) {
+            return Error{fmt::format("{}: {} '{}' found, '{}' was expected; {}", file.string(),
+                                     field.name, found, expected, remedy)};
+        }
+    }
+    return calibration->costs;
+}
+
+Result<void> use_calibration(const cli::ViewChoice& view, const platform::RendererInfo& info,
+                             session::SceneRenderer& renderer) {
+    if (view.calibration.empty()) {
+        return {};
+    }
+    const scene::TechniqueId id = session::technique_of(view).id();
+    if (id != scene::TechniqueId::automatic) {
+        return usage_error(fmt::format("--calibration: technique {} found, auto was expected, "
+                                       "which chooses by costs",
+                                       scene::technique_info(id).name));
+    }
+    if (renderer.shows_rays()) {
+        return usage_error("--calibration: context cpu found, where rays draw every tile and "
+                           "nothing is chosen; --context osmesa or egl was expected");
+    }
+    const auto costs = read_costs(view.calibration, place_of(info));
+    if (!costs) {
+        return costs.error();
+    }
+    renderer.set_costs(*costs);
+    return {};
+}
+
+} // namespace reljef::app

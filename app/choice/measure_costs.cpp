@@ -1,0 +1,128 @@
+#include "app/choice/measure_costs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/core/hit.h"
+#include "engine/core/statistics.h"
+#include "engine/scene/graph/scene.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr int views = 12; // of each kind
+constexpr double ns_a_ms = 1e6;
+
+// A circle around the terrain; `pitch` as a share of its width.
+scene::Camera view_of(const session::TerrainScene& scene, int index, double height, double target) {
+    const Box& bounds = scene.bounds;
+    const double width = bounds.size().x;
+    const double angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
+    scene::Camera camera = *scene.camera->get<scene::Camera>();
+    camera.eye = bounds.center() +
+                 glm::dvec3(0.65 * width * std::cos(angle), 0.65 * width * std::sin(angle), 0.0);
+    camera.eye.z = bounds.high.z + height * width;
+    camera.target = bounds.center() + glm::dvec3(0.0, 0.0, target * width);
+    return camera;
+}
+
+struct Kind {
+    scene::Technique technique;
+    double height = 0.35; // of the eye above the highest ground, in widths
+    double target = 0.0;  // above the middle of the terrain, in widths
+    FrameCost MeasuredFrames::*result;
+};
+
+const std::array<Kind, 5>& kinds() {
+    static const std::array<Kind, 5> all{
+        Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sky},
+        Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::few},
+        Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::many},
+        Kind{{scene::Exact{}}, 0.35, 0.0, &MeasuredFrames::rays},
+        Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels}};
+    return all;
+}
+
+struct Samples {
+    std::vector<double> ms;
+    double triangles = 0.0;
+    double pixels = 0.0;
+};
+
+Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& renderer,
+                       const Kind& kind, int index, Samples& samples) {
+    scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
+    *scene.camera->get<scene::Camera>() = view_of(scene, index, kind.height, kind.target);
+    const auto stats = renderer.draw(scene.scene, true);
+    if (!stats) {
+        return stats.error();
+    }
+    const auto hits = renderer.draw_hits(scene.scene);
+    if (!hits) {
+        return hits.error();
+    }
+    double pixels = 0.0;
+    for (int y = 0; y < hits->rows(); ++y) {
+        for (int x = 0; x < hits->cols(); ++x) {
+            pixels += (*hits)(x, y).is_sky() ? 0.0 : 1.0;
+        }
+    }
+    samples.ms.push_back(stats->cpu_ms + stats->gpu_ms);
+    samples.triangles += static_cast<double>(stats->triangles) / views;
+    samples.pixels += pixels / views;
+    return {};
+}
+
+} // namespace
+
+session::Costs costs_from(const MeasuredFrames& frames) {
+    const auto slope = [](double ms, double count) {
+        return count > 0.0 ? std::max(ms, 0.0) * ns_a_ms / count : 0.0;
+    };
+    session::Costs costs;
+    costs.frame_ms = frames.sky.ms;
+    costs.triangle_ns =
+        slope(frames.many.ms - frames.few.ms, frames.many.triangles - frames.few.triangles);
+    costs.covered_pixel_ns =
+        slope(frames.few.ms - frames.sky.ms - frames.few.triangles * costs.triangle_ns / ns_a_ms,
+              frames.few.pixels);
+    costs.ray_pixel_ns = slope(frames.rays.ms - frames.fewer_pixels.ms,
+                               frames.rays.pixels - frames.fewer_pixels.pixels);
+    costs.rays_ms = std::max(
+        frames.rays.ms - frames.sky.ms - frames.rays.pixels * costs.ray_pixel_ns / ns_a_ms, 0.0);
+    return costs;
+}
+
+Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
+                                      session::SceneRenderer& renderer, const std::stop_token& stop,
+                                      const Progress& progress) {
+    std::array<Samples, 5> samples;
+    for (int index = -1; index < views; ++index) { // the first warms up
+        for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
+            Samples warm_up;
+            auto drawn = draw_view(scene, renderer, kinds().at(kind), std::max(index, 0),
+                                   index < 0 ? warm_up : samples.at(kind));
+            if (!drawn) {
+                return drawn.error();
+            }
+            if (stop.stop_requested()) {
+                return Error{"interrupted"};
+            }
+        }
+        if (progress) {
+            progress((index + 2.0) / (views + 1.0));
+        }
+    }
+    MeasuredFrames frames;
+    for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
+        frames.*kinds().at(kind).result = {median(samples.at(kind).ms), samples.at(kind).triangles,
+                                           samples.at(kind).pixels};
+    }
+    return frames;
+}
+
+} // namespace reljef::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <stop_token>
+
+#include "engine/core/parallel_for.h"
+#include "engine/core/result.h"
+#include "engine/session/scene_renderer.h"
+#include "engine/session/scene_setup.h"
+
+namespace reljef::app {
+
+/// A frame of a moving view, and what it drew.
+struct FrameCost {
+    double ms = 0.0;
+    double triangles = 0.0;
+    double pixels = 0.0; ///< that show terrain
+};
+
+/// Measurements from which costs follow. Each is a median.
+struct MeasuredFrames {
+    FrameCost sky;          ///< nothing but the sky
+    FrameCost few;          ///< few triangles
+    FrameCost many;         ///< many triangles of the same views
+    FrameCost rays;         ///< rays, of the same views
+    FrameCost fewer_pixels; ///< rays of views with fewer pixels of terrain
+};
+/// None is negative.
+session::Costs costs_from(const MeasuredFrames& frames);
+
+/// Draws a scene of a terrain over a plane from moving views. Fails as the renderer, or when
+/// stopped.
+Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
+                                      session::SceneRenderer& renderer, const std::stop_token& stop,
+                                      const Progress& progress);
+
+} // namespace reljef::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+
+#include "engine/scene/graph/camera.h"
+#include "engine/scene/streaming/terrain_surface.h"
+
+namespace reljef::view {
+
+/// Metres of height per metre along the ground, exaggerated, at most.
+double steepest(const scene::TerrainSurface& surface);
+
+/// Bounds the error of `exact` on OpenGL over a plane in memory, which is that of rounding.
+class RayError {
+public:
+    /// `steepness`: steepest(surface). Preconditions: a perspective camera; the surface lies on a
+    /// plane, moved by `offset` metres.
+    RayError(const scene::Camera& camera, glm::ivec2 size, const scene::TerrainSurface& surface,
+             double steepness, glm::dvec3 offset);
+
+    /// The largest error of a hit at a distance from the eye of at least so many metres, pixels.
+    [[nodiscard]] double at(double distance) const;
+    /// Whether rays to all of the surface keep an error, pixels: it is so far away.
+    [[nodiscard]] bool keeps(double error) const;
+
+private:
+    [[nodiscard]] bool is_nearer(double distance, int level, glm::ivec2 block) const;
+
+    const scene::TerrainSurface& surface_;
+    glm::dvec3 eye_;           // local metres
+    double rounding_ = 0.0;    // of a direction, pixels
+    double steepness_ = 0.0;   // times the share of the operations along the ray
+    double lengths_ = 0.0;     // that are rounded, over the distance of a hit; metres
+    double diagonal_ = 0.0;    // the same, over that to the end of its ray
+    double nearest_end_ = 0.0; // of a ray, at least; metres from the eye
+};
+
+} // namespace reljef::view

@@ -1,0 +1,252 @@
+#include "engine/view/choice/technique_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/terrain/mesh/tile_layout.h"
+#include "engine/view/choice/ray_error.h"
+#include "engine/view/sample_count.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr double ns_a_ms = 1e6;
+constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
+
+bool is_automatic(const scene::TerrainNode& terrain) {
+    return terrain.material.technique.id() == scene::TechniqueId::automatic;
+}
+
+// Rays write no depth, so nothing else may be in the picture. On the ellipsoid and over streams
+// their error is not proven.
+bool may_have_rays(const DrawList& list, const TerrainDraw& draw, int max_map_side) {
+    const scene::TerrainNode& terrain = *draw.terrain;
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    const auto side = static_cast<unsigned>(std::max(heights.cols(), heights.rows()));
+    return list.terrains.size() == 1 && list.reliefs.empty() && list.meshes.empty() &&
+           list.bases.empty() && terrain.stream == nullptr && !terrain.material.wireframe &&
+           terrain.detail == nullptr &&
+           terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
+           list.camera.projection == scene::ProjectionKind::perspective &&
+           glm::dmat3(draw.world_from_local) == glm::dmat3(1.0) &&
+           std::bit_ceil(side) <= static_cast<unsigned>(max_map_side);
+}
+
+bool keep_error(const DrawList& list, const TerrainDraw& draw, double steepness) {
+    return RayError(list.camera, list.size, *draw.terrain->surface, steepness,
+                    glm::dvec3(draw.world_from_local[3]))
+        .keeps(scene::error_bound(draw.terrain->material.technique));
+}
+
+// Metres by which triangles at a place may be off, or none if it is not visible.
+std::optional<double> allowed_at(const terrain::ErrorView& view, glm::dvec3 place, double radius) {
+    for (const glm::dvec4& side : view.sides) {
+        if (glm::dot(glm::dvec3(side), place) + side.w < -radius) {
+            return std::nullopt;
+        }
+    }
+    const double depth = glm::dot(glm::dvec3(view.depth), place) + view.depth.w;
+    const double nearest = std::max(depth, std::max(view.near, 0.5 * radius));
+    const double lateral = glm::length(view.lateral_axes * place + view.lateral_origin);
+    return view.max_error * nearest * nearest / (view.scale * std::max(lateral, 0.5 * radius));
+}
+
+double triangles_of(const scene::TerrainTile& tile, const TerrainDraw& draw,
+                    const TriangleCounts& counts) {
+    const auto* const view = std::get_if<terrain::ErrorView>(&*draw.coarseness);
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const Grid<float>& heights = surface.heightfield().heights;
+    constexpr int block_cells = TriangleCounts::block_cells;
+    const double radius =
+        0.5 * block_cells * glm::length(surface.placement().spacing()); // along the ground
+    double triangles = 0.0;
+    for (int row = 0; row < tile.cells.y; row += block_cells) {
+        for (int col = 0; col < tile.cells.x; col += block_cells) {
+            const glm::ivec2 first = tile.first + glm::ivec2(col, row);
+            const glm::ivec2 middle =
+                glm::min(first + block_cells / 2, glm::ivec2(heights.cols(), heights.rows()) - 1);
+            const glm::dvec3 place = surface.placement().world_from_sample(
+                {glm::dvec2(middle), heights(middle.x, middle.y)});
+            if (const auto allowed = allowed_at(*view, place, radius)) {
+                triangles += counts.triangles(first / block_cells, *allowed);
+            }
+        }
+    }
+    return triangles;
+}
+
+// What a coarse grid of rays hits.
+struct ProbedView {
+    std::map<std::pair<int, int>, int> of_tiles; // by column and row
+    int of_box = 0;
+};
+
+ProbedView probe(const DrawList& list, const TerrainDraw& draw) {
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const glm::dvec3 offset(draw.world_from_local[3]);
+    ProbedView probed;
+    for (int row = 0; row < probes.y; ++row) {
+        for (int col = 0; col < probes.x; ++col) {
+            const glm::dvec2 pixel =
+                (glm::dvec2(col, row) + 0.5) / glm::dvec2(probes) * glm::dvec2(list.size);
+            Ray ray = scene::view_ray(list.camera, list.size, pixel);
+            ray.origin -= offset;
+            if (!intersect(ray, surface.bounds())) {
+                continue;
+            }
+            ++probed.of_box;
+            if (const auto hit = surface.pick(ray)) {
+                const glm::ivec2 tile = glm::ivec2(hit->sample) / terrain::tile_cells;
+                ++probed.of_tiles[{tile.x, tile.y}];
+            }
+        }
+    }
+    return probed;
+}
+
+glm::ivec2 tile_below(const DrawList& list, const TerrainDraw& draw) {
+    constexpr double farthest = 1e6; // tiles
+    const auto sample = draw.terrain->surface->placement().sample_from_world(
+        list.camera.eye - glm::dvec3(draw.world_from_local[3]));
+    const glm::dvec2 tile = glm::floor(glm::dvec2(*sample) / double{terrain::tile_cells});
+    return glm::ivec2(glm::clamp(tile, -farthest, farthest));
+}
+
+int ring_of(const scene::TerrainTile& tile, glm::ivec2 below) {
+    const glm::ivec2 away = glm::abs(tile.first / terrain::tile_cells - below);
+    return std::max(away.x, away.y);
+}
+
+std::vector<RingCost> costs_of_rings(const DrawList& list, const TerrainDraw& draw,
+                                     const TriangleCounts& counts, const ProbedView& probed) {
+    const glm::ivec2 below = tile_below(list, draw);
+    const double pixels_a_probe =
+        static_cast<double>(list.size.x) * list.size.y / (static_cast<double>(probes.x) * probes.y);
+    std::map<int, RingCost> rings;
+    for (const TileDraw& tile : list.tiles) {
+        const int ring = ring_of(*tile.tile, below);
+        RingCost& cost = rings.try_emplace(ring, RingCost{.ring = ring}).first->second;
+        cost.triangles += triangles_of(*tile.tile, draw, counts);
+        const glm::ivec2 place = tile.tile->first / terrain::tile_cells;
+        const auto hits = probed.of_tiles.find({place.x, place.y});
+        cost.pixels += hits == probed.of_tiles.end() ? 0.0 : hits->second * pixels_a_probe;
+    }
+    std::vector<RingCost> costs;
+    costs.reserve(rings.size());
+    for (const auto& [ring, cost] : rings) {
+        costs.push_back(cost);
+    }
+    return costs;
+}
+
+// Leaves the tiles up to a ring to triangles, and all else to rays.
+void split_at(DrawList& list, int last_ring) {
+    const glm::ivec2 below = tile_below(list, list.terrains.front());
+    TerrainDraw rays = list.terrains.front();
+    rays.chosen = scene::make_technique(scene::TechniqueId::exact);
+    rays.coarseness.reset();
+    std::erase_if(list.tiles,
+                  [&](const TileDraw& draw) { return ring_of(*draw.tile, below) > last_ring; });
+    list.reliefs.push_back(std::move(rays));
+    // Rays keep the bound by their distance; triangles state their own error.
+    list.stats.kept_error = scene::error_bound(list.terrains.front().terrain->material.technique);
+}
+
+} // namespace
+
+ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs) {
+    double triangles = 0.0;
+    double covered = 0.0;
+    bool is_all = true;
+    for (const RingCost& cost : view.rings) {
+        if (cost.ring > ring) {
+            is_all = false;
+            continue;
+        }
+        triangles += cost.triangles;
+        covered += cost.pixels;
+    }
+    ViewPlan plan{.last_ring = ring};
+    plan.ms = costs.frame_ms +
+              (triangles * costs.triangle_ns + covered * costs.covered_pixel_ns) / ns_a_ms;
+    if (!is_all) {
+        const int samples = triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
+        plan.ray_pixels = std::max(view.box_pixels - covered, 0.0);
+        plan.ms += costs.rays_ms + plan.ray_pixels * samples * costs.ray_pixel_ns / ns_a_ms;
+    }
+    return plan;
+}
+
+ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs) {
+    ViewPlan best = plan_up_to(-1, view, costs);
+    for (const RingCost& last : view.rings) {
+        const ViewPlan plan = plan_up_to(last.ring, view, costs);
+        best = plan.ms <= best.ms ? plan : best;
+    }
+    return best;
+}
+
+void TechniqueChooser::know(const scene::TerrainNode& terrain) {
+    if (surface_.lock() != terrain.surface) {
+        counts_ = terrain.bisection != nullptr
+                      ? TriangleCounts(*terrain.bisection)
+                      : TriangleCounts(terrain::Bisection(terrain.surface->heightfield(),
+                                                          terrain.surface->placement()));
+        steepness_ = steepest(*terrain.surface);
+        surface_ = terrain.surface;
+    }
+}
+
+void TechniqueChooser::choose(DrawList& list) {
+    const bool is_any =
+        std::any_of(list.terrains.begin(), list.terrains.end(),
+                    [](const TerrainDraw& draw) { return is_automatic(*draw.terrain); });
+    if (!is_any || list.tiles.empty()) {
+        return;
+    }
+    const auto tiles = static_cast<int>(list.tiles.size());
+    if (options_.rays_draw_all) {
+        list.stats.choice = Choice{.tiles_by_rays = tiles, .ray_pixels = 1.0};
+        return;
+    }
+    Choice choice{.tiles_as_triangles = tiles};
+    const TerrainDraw& draw = list.terrains.front();
+    const bool may_choose = may_have_rays(list, draw, max_map_side_);
+    if (may_choose) {
+        know(*draw.terrain);
+    }
+    if (may_choose && keep_error(list, draw, steepness_)) {
+        const ProbedView probed = probe(list, draw);
+        const double pixels = static_cast<double>(list.size.x) * list.size.y;
+        const bool is_free = samples_ == automatic_samples; // the driver chooses
+        const ViewCosts view{.rings = costs_of_rings(list, draw, counts_, probed),
+                             .box_pixels = pixels * probed.of_box /
+                                           (static_cast<double>(probes.x) * probes.y),
+                             .samples_of_rays = is_free ? 1 : samples_,
+                             .samples_of_both = is_free ? samples_of_triangles : samples_};
+        const ViewPlan best = cheapest_plan(view, options_.costs);
+        const int last_ring = view.rings.back().ring;
+        choice.triangles_ms = plan_up_to(last_ring, view, options_.costs).ms;
+        choice.rays_ms = plan_up_to(-1, view, options_.costs).ms;
+        choice.estimated_ms = best.ms;
+        choice.ray_pixels = best.ray_pixels / pixels;
+        if (best.last_ring < last_ring) {
+            split_at(list, best.last_ring);
+            choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
+            choice.tiles_by_rays = tiles - choice.tiles_as_triangles;
+        }
+    }
+    list.stats.choice = choice;
+}
+
+} // namespace reljef::view

@@ -1,0 +1,74 @@
+#include "engine/view/choice/triangle_counts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "engine/terrain/mesh/tile_layout.h"
+
+namespace reljef::view {
+
+// The places of splits are counted in half samples.
+
+TriangleCounts::TriangleCounts(const terrain::Bisection& bisection) {
+    const glm::ivec2 cells = terrain::sample_before(bisection.end());
+    const glm::ivec2 blocks = (cells + block_cells - 1) / block_cells;
+    counts_ = Grid<Counts>(blocks.x, blocks.y, Counts{});
+    for (int size = terrain::tile_cells; size >= 2; size /= 2) {
+        add_splits(bisection, size, true);
+        if (size < terrain::tile_cells) {
+            add_splits(bisection, size, false);
+        }
+    }
+    add_splits(bisection, 1, false);
+    for (int row = 0; row < blocks.y; ++row) {
+        for (int col = 0; col < blocks.x; ++col) {
+            Counts& counts = counts_(col, row);
+            for (std::size_t bin = counts.size() - 1; bin > 0; --bin) {
+                counts[bin - 1] += counts[bin];
+            }
+        }
+    }
+}
+
+void TriangleCounts::add_splits(const terrain::Bisection& bisection, int size, bool on_side) {
+    const glm::ivec2 end = 2 * terrain::sample_before(bisection.end());
+    const int step = on_side ? size : 2 * size;
+    for (int row = on_side ? 0 : size; row <= end.y; row += step) {
+        const bool begins_at_corner = on_side && row % (2 * size) != 0;
+        for (int col = begins_at_corner ? 0 : size; col <= end.x; col += 2 * size) {
+            add(bisection, {col, row}, size, on_side);
+        }
+    }
+}
+
+void TriangleCounts::add(const terrain::Bisection& bisection, glm::ivec2 twice_place, int size,
+                         bool on_side) {
+    constexpr auto half = static_cast<std::int64_t>(terrain::steps_per_sample / 2);
+    const terrain::Split split = bisection.split(half * terrain::Steps(twice_place),
+                                                 size * terrain::steps_per_sample, on_side);
+    const int bin = static_cast<int>(std::floor(bin_of(split.error)));
+    if (bin >= 0) {
+        const glm::ivec2 block = glm::min(twice_place / (2 * block_cells), blocks() - 1);
+        ++counts_(block.x, block.y)[static_cast<std::size_t>(std::min(bin, bins - 1))];
+    }
+}
+
+double TriangleCounts::bin_of(double error) {
+    return error > 0.0 ? bins_an_octave * (std::log2(error) - lowest_octave)
+                       : -std::numeric_limits<double>::infinity();
+}
+
+// A split halves two triangles. Between the errors of two bins, the number is interpolated.
+double TriangleCounts::triangles(glm::ivec2 block, double error) const {
+    const Counts& counts = counts_(block.x, block.y);
+    const double at = std::clamp(bin_of(error), 0.0, bins - 1.0);
+    const auto low = static_cast<std::size_t>(at);
+    const std::size_t high = std::min(low + 1, counts.size() - 1);
+    return 2.0 + 2.0 * std::lerp(static_cast<double>(counts[low]),
+                                 static_cast<double>(counts[high]), at - static_cast<double>(low));
+}
+
+} // namespace reljef::view

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/grid.h"
+#include "engine/terrain/mesh/bisection.h"
+
+namespace reljef::view {
+
+/// Estimates how many triangles a bisection draws with an error, without cutting anything: counts
+/// its splits down to single cells by their errors, for blocks of cells.
+class TriangleCounts {
+public:
+    static constexpr int block_cells = 32;
+
+    TriangleCounts() = default;
+    explicit TriangleCounts(const terrain::Bisection& bisection);
+
+    [[nodiscard]] glm::ivec2 blocks() const { return {counts_.cols(), counts_.rows()}; }
+    /// About how many triangles a block has if they are off by at most `error` scene metres.
+    /// Never less for a smaller error.
+    [[nodiscard]] double triangles(glm::ivec2 block, double error) const;
+
+private:
+    static constexpr int bins_an_octave = 2;
+    static constexpr int lowest_octave = -12; // metres
+    static constexpr int bins = 24 * bins_an_octave;
+    // Splits whose error is at least that of the bin.
+    using Counts = std::array<std::uint32_t, bins>;
+
+    static double bin_of(double error);
+    void add_splits(const terrain::Bisection& bisection, int size, bool on_side);
+    void add(const terrain::Bisection& bisection, glm::ivec2 twice_place, int size, bool on_side);
+
+    Grid<Counts> counts_;
+};
+
+} // namespace reljef::view

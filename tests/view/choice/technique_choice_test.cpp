@@ -1,0 +1,189 @@
+#include "engine/view/choice/technique_choice.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "engine/view/choice/ray_error.h"
+#include "engine/view/select.h"
+#include "tests/render/made_scene.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr glm::ivec2 chosen_size{320, 240};
+constexpr TechniqueCosts triangles_only{.frame_ms = 0.0,
+                                        .triangle_ns = 0.0,
+                                        .covered_pixel_ns = 0.0,
+                                        .rays_ms = 1.0,
+                                        .ray_pixel_ns = 1.0};
+constexpr TechniqueCosts rays_only{.frame_ms = 0.0,
+                                   .triangle_ns = 1.0,
+                                   .covered_pixel_ns = 1.0,
+                                   .rays_ms = 0.0,
+                                   .ray_pixel_ns = 0.0};
+constexpr TechniqueCosts both{.frame_ms = 0.0,
+                              .triangle_ns = 1000.0,
+                              .covered_pixel_ns = 0.0,
+                              .rays_ms = 0.0,
+                              .ray_pixel_ns = 100.0};
+
+// Nine tiles seen from above their south, with costs that decide.
+struct ChosenView {
+    scene::Scene scene;
+    scene::Node* node = nullptr;
+    scene::Node* camera = nullptr;
+
+    explicit ChosenView(const char* technique = "auto:error=1") {
+        node = &test::add_terrain(scene,
+                                  test::plane_heightfield(test::hills(380, 361, 60.0), {10, 10}));
+        camera = &scene.add_camera(test::camera_at({0.0, -1500.0, 300.0}, {0.0, 0.0, 0.0}));
+        node->get<scene::TerrainNode>()->material.technique =
+            scene::parse_technique(technique).value();
+    }
+    [[nodiscard]] FrameView select(const ChoiceOptions& options, int samples = 1) const {
+        TechniqueChooser chooser(options);
+        chooser.set_samples(samples);
+        return view::select(scene, chosen_size, {.occlusion = true, .refine = [&](DrawList& list) {
+                                                     chooser.choose(list);
+                                                 }});
+    }
+    [[nodiscard]] DrawList chosen(const TechniqueCosts& costs) const {
+        return select({.costs = costs}).list;
+    }
+};
+
+TEST(ViewPlanTest, IsTheCheapestOfAllRings) {
+    const TechniqueCosts costs{.frame_ms = 1.0,
+                               .triangle_ns = 100.0,
+                               .covered_pixel_ns = 10.0,
+                               .rays_ms = 2.0,
+                               .ray_pixel_ns = 50.0};
+    const ViewCosts view{.rings = {{0, 100.0, 40e3}, {1, 10e3, 40e3}, {2, 200e3, 20e3}},
+                         .box_pixels = 110e3};
+    EXPECT_DOUBLE_EQ(plan_up_to(-1, view, costs).ms, 1.0 + 2.0 + 110e3 * 50e-6);
+    EXPECT_DOUBLE_EQ(plan_up_to(2, view, costs).ms, 1.0 + 210.1e3 * 1e-4 + 100e3 * 1e-5);
+    const ViewPlan best = cheapest_plan(view, costs);
+    EXPECT_EQ(best.last_ring, 1);
+    EXPECT_DOUBLE_EQ(best.ray_pixels, 30e3);
+    EXPECT_DOUBLE_EQ(best.ms, 1.0 + 10.1e3 * 1e-4 + 80e3 * 1e-5 + 2.0 + 30e3 * 50e-6);
+}
+
+TEST(ViewPlanTest, CountsTheSamplesOfRays) {
+    const TechniqueCosts costs{.frame_ms = 0.0,
+                               .triangle_ns = 1.0,
+                               .covered_pixel_ns = 0.0,
+                               .rays_ms = 0.0,
+                               .ray_pixel_ns = 1e6};
+    const ViewCosts view{.rings = {{0, 1e6, 10.0}, {3, 1e6, 10.0}},
+                         .box_pixels = 30.0,
+                         .samples_of_rays = 1,
+                         .samples_of_both = 4};
+    EXPECT_DOUBLE_EQ(plan_up_to(-1, view, costs).ms, 30.0);
+    EXPECT_DOUBLE_EQ(plan_up_to(0, view, costs).ms, 1.0 + 4.0 * 20.0);
+    EXPECT_DOUBLE_EQ(plan_up_to(3, view, costs).ms, 2.0);
+}
+
+TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
+    const ChosenView view;
+    const DrawList triangles = view.chosen(triangles_only);
+    EXPECT_TRUE(triangles.reliefs.empty());
+    EXPECT_EQ(triangles.stats.choice->tiles_as_triangles, static_cast<int>(triangles.tiles.size()));
+    const DrawList rays = view.chosen(rays_only);
+    EXPECT_TRUE(rays.tiles.empty());
+    ASSERT_EQ(rays.reliefs.size(), 1U);
+    EXPECT_EQ(rays.reliefs.front().technique().id(), scene::TechniqueId::exact);
+    EXPECT_EQ(rays.stats.choice->tiles_by_rays, static_cast<int>(triangles.tiles.size()));
+    EXPECT_GT(rays.stats.choice->ray_pixels, 0.3);
+    const DrawList mixed = view.chosen(both);
+    EXPECT_EQ(mixed.reliefs.size(), 1U);
+    EXPECT_FALSE(mixed.tiles.empty());
+    EXPECT_LT(mixed.tiles.size(), triangles.tiles.size());
+    EXPECT_LT(mixed.stats.choice->ray_pixels, rays.stats.choice->ray_pixels);
+    EXPECT_EQ(mixed.stats.kept_error, 1.0);
+}
+
+// So that no tile of rays is in front of a triangle.
+TEST(TechniqueChooserTest, TrianglesAreAroundTheEye) {
+    const ChosenView view;
+    const glm::ivec2 below(1, 2); // the tile below the eye
+    const auto ring_of = [&](const TileDraw& draw) {
+        const glm::ivec2 away = glm::abs(draw.tile->first / terrain::tile_cells - below);
+        return std::max(away.x, away.y);
+    };
+    const DrawList mixed = view.chosen(both);
+    int last_ring = 0;
+    for (const TileDraw& draw : mixed.tiles) {
+        last_ring = std::max(last_ring, ring_of(draw));
+    }
+    for (const TileDraw& draw : view.chosen(triangles_only).tiles) {
+        const bool is_drawn =
+            std::any_of(mixed.tiles.begin(), mixed.tiles.end(),
+                        [&](const TileDraw& other) { return other.tile == draw.tile; });
+        EXPECT_EQ(is_drawn, ring_of(draw) <= last_ring);
+    }
+}
+
+TEST(TechniqueChooserTest, TheSameViewGetsTheSameChoice) {
+    const ChosenView view;
+    EXPECT_EQ(view.chosen({}).stats.choice, view.chosen({}).stats.choice);
+    EXPECT_EQ(view.chosen(both).tiles.size(), view.chosen(both).tiles.size());
+}
+
+TEST(TechniqueChooserTest, LeavesOtherTechniquesAlone) {
+    const ChosenView view("polygons:error=1");
+    const DrawList list = view.chosen(rays_only);
+    EXPECT_TRUE(list.reliefs.empty());
+    EXPECT_FALSE(list.stats.choice.has_value());
+}
+
+TEST(TechniqueChooserTest, DrawsTrianglesWhereRaysHaveNoProof) {
+    ChosenView view;
+    const auto expect_triangles = [&](const char* why) {
+        const DrawList list = view.chosen(rays_only);
+        EXPECT_TRUE(list.reliefs.empty()) << why;
+        EXPECT_EQ(list.stats.choice->tiles_by_rays, 0) << why;
+        EXPECT_FALSE(list.stats.choice->rays_ms.has_value()) << why;
+    };
+    scene::Camera& camera = *view.camera->get<scene::Camera>();
+    const scene::Camera before = camera;
+    camera.projection = scene::ProjectionKind::orthographic;
+    camera.view_height = 2000.0;
+    expect_triangles("a map");
+    camera = before;
+    const double ground = test::surface_of(*view.node).height_at(3.0, 4.0).value();
+    camera = test::camera_at({3.0, 4.0, ground + 0.003}, {100.0, 0.0, ground});
+    expect_triangles("an eye so near that floats round by pixels");
+    camera = before;
+    view.node->get<scene::TerrainNode>()->material.wireframe = true;
+    expect_triangles("a wireframe");
+    view.node->get<scene::TerrainNode>()->material.wireframe = false;
+    EXPECT_FALSE(view.chosen(rays_only).reliefs.empty());
+    view.scene.add_mesh(scene::plane_mesh({10.0F, 10.0F}), {});
+    expect_triangles("a mesh beside it");
+}
+
+TEST(TechniqueChooserTest, CountsTilesOfRaysOnTheCpu) {
+    const ChosenView view;
+    const DrawList list = view.select({.costs = {}, .rays_draw_all = true}).list;
+    EXPECT_EQ(list.stats.choice->tiles_by_rays, static_cast<int>(list.tiles.size()));
+    EXPECT_EQ(list.stats.choice->tiles_as_triangles, 0);
+}
+
+TEST(RayErrorTest, GrowsTowardsTheEye) {
+    const ChosenView view;
+    const RayError error(view.scene.camera(), chosen_size, test::surface_of(*view.node),
+                         steepest(test::surface_of(*view.node)), glm::dvec3(0.0));
+    double last = std::numeric_limits<double>::infinity();
+    for (double distance = 0.01; distance < 1e6; distance *= 2.0) {
+        EXPECT_LT(error.at(distance), last);
+        last = error.at(distance);
+    }
+    EXPECT_LT(last, 1e-3);
+    EXPECT_TRUE(error.keeps(1.0));
+    EXPECT_FALSE(error.keeps(1e-9));
+}
+
+} // namespace
+} // namespace reljef::view
