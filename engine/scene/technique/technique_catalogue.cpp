@@ -180,7 +180,7 @@ constexpr std::array catalogue{
         "auto",
         "in each view the cheapest of what keeps an error bound: triangles for near tiles, exact "
         "for all behind them, or one of both for all",
-        "J conclusion", automatic_parameters)};
+        "Janković 2010, conclusion", automatic_parameters)};
 
 static_assert(catalogue.size() == std::variant_size_v<TechniqueParameters>);
 constexpr auto last_index = static_cast<std::size_t>(TechniqueId::automatic);

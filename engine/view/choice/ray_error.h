@@ -19,7 +19,7 @@ public:
     RayError(const scene::Camera& camera, glm::ivec2 size, const scene::TerrainSurface& surface,
              double steepness, glm::dvec3 offset);
 
-    /// The largest error of a hit at a distance from the eye of at least so many metres, pixels.
+    /// The largest error of a hit `distance` metres from the eye or farther, pixels.
     [[nodiscard]] double at(double distance) const;
     /// Whether rays to all of the surface keep an error, pixels: it is so far away.
     [[nodiscard]] bool keeps(double error) const;

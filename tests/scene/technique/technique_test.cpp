@@ -82,7 +82,7 @@ TEST(Technique, ErrorsAreWholeSentences) {
     EXPECT_EQ(error_of("polygon"),
               "technique 'polygon' found, one of texture, polygons, displacement, bump, emboss, "
               "normal, parallax, parallax-limited, parallax-iterated, steep, relief, interval, "
-              "pom, cone, exact, lattice, dual-layer, multi-layer, prewarp was expected");
+              "pom, cone, exact, lattice, dual-layer, multi-layer, prewarp, auto was expected");
     EXPECT_EQ(error_of("cone:m=1"), "technique cone: parameter 'm' found, one of relaxed, n, k, "
                                     "step was expected");
     EXPECT_EQ(error_of("exact:n=1"), "technique exact: parameter 'n' found, it has none");
