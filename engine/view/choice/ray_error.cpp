@@ -58,12 +58,12 @@ RayError::RayError(const scene::Camera& camera, glm::ivec2 size,
     const double below_eye = std::abs(eye_.z - bounds.low.z);
     const glm::dvec2 spacing = surface.placement().spacing();
     diagonal_ = glm::length(bounds.size());
-    steepness_ = steepness * operations_along / operations;
     const glm::dvec3 inside = glm::min(eye_ - bounds.low, bounds.high - eye_);
     nearest_end_ = std::max(std::min({inside.x, inside.y, inside.z}), 0.0);
-    const double from_origin =
-        2.0 * std::max(spacing.x, spacing.y) + (nearest_end_ > 0.0 ? 0.0 : diagonal_);
-    lengths_ = (1.0 + steepness_) * from_origin + bounds.size().z + below_eye;
+    const bool is_outside = nearest_end_ == 0.0;
+    steepness_ = steepness * operations_along / operations * (is_outside ? 2.0 : 1.0);
+    lengths_ = (1.0 + steepness_) * 2.0 * std::max(spacing.x, spacing.y) + bounds.size().z +
+               below_eye + (is_outside ? diagonal_ : 0.0);
 }
 
 double RayError::at(double distance) const {

@@ -10,8 +10,7 @@ using testing::HasSubstr;
 
 TEST(TerrainDetail, WhatMovesVerticesWarpsOrLooksForLayersShowsNoTileOnATerrain) {
     for (const TechniqueInfo& info : technique_catalogue()) {
-        const bool shows = info.id != TechniqueId::polygons &&
-                           info.id != TechniqueId::displacement &&
+        const bool shows = !draws_triangles(info.id) && info.id != TechniqueId::displacement &&
                            info.id != TechniqueId::prewarp && !searches_layers(info.id);
         const auto checked = check_terrain_detail_technique(make_technique(info.id));
         EXPECT_EQ(static_cast<bool>(checked), shows) << info.name;
