@@ -98,15 +98,16 @@ std::span<const SourceMeasurement> source_measurements() {
 std::vector<Group> source_groups(bool quick) {
     const SceneChoice urban_tile{"urban", 512, true};
     const SceneChoice natural{"natural", 1025};
-    return {
-        group_of("parallax-1", urban_tile),
-        group_of("relief-1", urban_tile),
-        group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
-        group_of("relief-2", {"urban", 1024}),
-        group_of("parallax-3", natural),
-        with_ours(group_of("relief-4", natural), {scene::Technique{scene::Polygons{.error = 1.0}},
-                                                  scene::Technique{scene::Exact{}}}),
-        group_of("relief-3", {"natural", 1280})};
+    return {group_of("parallax-1", urban_tile),
+            group_of("relief-1", urban_tile),
+            group_of("parallax-2", {"urban", quick ? 2048 : 4096}),
+            group_of("relief-2", {"urban", 1024}),
+            group_of("parallax-3", natural),
+            with_ours(group_of("relief-4", natural),
+                      {scene::Technique{scene::Polygons{.error = 1.0}},
+                       scene::Technique{scene::Exact{}},
+                       scene::Technique{scene::Automatic{.error = 1.0}}}),
+            group_of("relief-3", {"natural", 1280})};
 }
 
 } // namespace reljef::bench

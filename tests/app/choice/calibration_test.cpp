@@ -1,0 +1,97 @@
+#include "app/choice/calibration.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/choice/measure_costs.h"
+#include "engine/core/atomic_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::app {
+namespace {
+
+using testing::HasSubstr;
+
+const CalibrationPlace here_of_test{"a processor", "reljef 1", "osmesa", "llvmpipe"};
+
+Calibration made_calibration() {
+    return {here_of_test,
+            {.frame_ms = 1.5,
+             .triangle_ns = 100.25,
+             .covered_pixel_ns = 7.0,
+             .rays_ms = 0.0,
+             .ray_pixel_ns = 50.0}};
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST(Calibration, IsReadAsItWasWritten) {
+    const Calibration made = made_calibration();
+    EXPECT_EQ(parse_calibration(to_text(made), "a.json").value(), made);
+}
+
+TEST(Calibration, OtherTextsAreErrorsThatNameTheFileAndARemedy) {
+    const std::string good = to_text(made_calibration());
+    for (const std::string& bad :
+         {std::string(), std::string("[]"), std::string("{}"), std::string("\xff\x00{", 3),
+          replaced(good, "calibration/1", "calibration/2"), replaced(good, "100.25", "-1"),
+          replaced(good, "100.25", "1e999"), replaced(good, "100.25", "\"much\""),
+          replaced(good, "\"osmesa\"", "3"), replaced(good, "\"costs\"", "\"prices\""),
+          good.substr(0, good.size() / 2)}) {
+        const auto parsed = parse_calibration(bad, "a.json");
+        ASSERT_FALSE(parsed) << bad;
+        EXPECT_THAT(parsed.error().message, HasSubstr("a.json: "));
+        EXPECT_THAT(parsed.error().message, HasSubstr("'reljef calibrate"));
+    }
+}
+
+TEST(Calibration, HoldsInItsPlaceOnly) {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "costs.json";
+    ASSERT_TRUE(write_text_file(file, to_text(made_calibration())));
+    EXPECT_EQ(read_costs(file, here_of_test).value(), made_calibration().costs);
+    for (std::string CalibrationPlace::*const member :
+         {&CalibrationPlace::machine, &CalibrationPlace::version, &CalibrationPlace::context,
+          &CalibrationPlace::renderer}) {
+        CalibrationPlace other = here_of_test;
+        other.*member = "another";
+        const auto costs = read_costs(file, other);
+        ASSERT_FALSE(costs);
+        EXPECT_THAT(costs.error().message, HasSubstr("'another' was expected"));
+    }
+    EXPECT_FALSE(read_costs(folder.path() / "none.json", here_of_test));
+}
+
+TEST(Calibration, CostsFollowFromFrames) {
+    // 2 ms, 100 ns a triangle, 10 ns a pixel; 3 ms and 50 ns a ray.
+    const MeasuredFrames frames{.sky = {2.0, 0.0, 0.0},
+                                .few = {2.0 + 0.1 + 5.0, 1e3, 5e5},
+                                .many = {2.0 + 10.0 + 5.0, 1e5, 5e5},
+                                .rays = {2.0 + 3.0 + 25.0, 12.0, 5e5},
+                                .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 1e5}};
+    const session::Costs costs = costs_from(frames);
+    EXPECT_NEAR(costs.frame_ms, 2.0, 1e-9);
+    EXPECT_NEAR(costs.triangle_ns, 100.0, 1e-6);
+    EXPECT_NEAR(costs.covered_pixel_ns, 10.0, 1e-6);
+    EXPECT_NEAR(costs.rays_ms, 3.0, 1e-9);
+    EXPECT_NEAR(costs.ray_pixel_ns, 50.0, 1e-6);
+}
+
+TEST(Calibration, CostsAreNeverNegative) {
+    const FrameCost same{1.0, 10.0, 10.0};
+    const FrameCost cheaper{0.5, 20.0, 20.0};
+    const session::Costs costs = costs_from({same, cheaper, same, cheaper, same});
+    for (const double cost : {costs.frame_ms, costs.triangle_ns, costs.covered_pixel_ns,
+                              costs.rays_ms, costs.ray_pixel_ns}) {
+        EXPECT_TRUE(std::isfinite(cost));
+        EXPECT_GE(cost, 0.0);
+    }
+}
+
+} // namespace
+} // namespace reljef::app
