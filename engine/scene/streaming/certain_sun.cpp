@@ -75,17 +75,18 @@ struct Lines {
     int last = 0;
 };
 
-// Those with places in [low, high]. The border between two lines has heights of both.
+// Those with places in [low, high], and those that rounded rays touch instead.
 Lines lines_between(double low, double high) {
-    const int first = static_cast<int>(std::floor(low));
-    return {first, std::max(static_cast<int>(std::ceil(high)) - 1, first)};
+    constexpr double rounding = 0x1p-10; // cells
+    return {static_cast<int>(std::floor(low - rounding)),
+            static_cast<int>(std::floor(high + rounding))};
 }
 
 // Strip q covers the places q + drift · (cells from the sun's side) to q + 1 + …: rays stay in it.
 class Sweep {
 public:
-    Sweep(const SunwardCells& cells, double lift)
-        : cells_(cells), lift_(lift),
+    Sweep(const SunwardCells& cells, const SunRays& rays)
+        : cells_(cells), lift_(rays.max_lift), max_variation_(rays.max_variation),
           first_strip_(static_cast<int>(std::floor(-std::abs(cells.drift()) * cells.along())) - 2),
           strips_(cells.across() - 2 * first_strip_) {
         const auto count = static_cast<std::size_t>(strips_);
@@ -156,6 +157,9 @@ private:
 
     // ahead_[0] begins at the next cells, ahead_[1] behind them.
     [[nodiscard]] CertainSun known_of(int from_sun, int line) const {
+        if (variation_around(from_sun, line) > max_variation_) {
+            return CertainSun::unknown;
+        }
         const SunwardCells::Corners corners = cells_.corners(from_sun, line);
         const Lines strips = strips_of(from_sun, line);
         double high = none;
@@ -170,6 +174,22 @@ private:
         }
         const bool is_under = high - cells_.rise() < corners.low();
         return is_under && is_open_nearby(from_sun, line) ? CertainSun::lit : CertainSun::unknown;
+    }
+
+    // Of the heights of a cell and its neighbours, metres.
+    [[nodiscard]] double variation_around(int from_sun, int line) const {
+        double high = none;
+        double low = std::numeric_limits<double>::infinity();
+        for (int cell = std::max(from_sun - 1, 0);
+             cell <= std::min(from_sun + 1, cells_.along() - 1); ++cell) {
+            for (int other = std::max(line - 1, 0);
+                 other <= std::min(line + 1, cells_.across() - 1); ++other) {
+                const SunwardCells::Corners corners = cells_.corners(cell, other);
+                high = std::max(high, corners.high());
+                low = std::min(low, corners.low());
+            }
+        }
+        return high - low;
     }
 
     // Whether no ray meets the surface in its own cells and the next ones.
@@ -190,6 +210,7 @@ private:
 
     const SunwardCells& cells_;
     double lift_;
+    double max_variation_;
     int first_strip_;
     int strips_;
     Bounds ahead_[2];
@@ -197,13 +218,13 @@ private:
 
 } // namespace
 
-Grid<CertainSun> certain_sun(GridView<const float> heights, glm::dvec3 to_sun, double lift) {
-    check(to_sun.z > 0.0 && heights.cols() > 1 && heights.rows() > 1, "a sun above cells");
-    const SunwardCells cells(heights, to_sun);
+Grid<CertainSun> certain_sun(GridView<const float> heights, const SunRays& rays) {
+    check(rays.to_sun.z > 0.0 && heights.cols() > 1 && heights.rows() > 1, "a sun above cells");
+    const SunwardCells cells(heights, rays.to_sun);
     if (!std::isfinite(cells.rise())) { // above: slopes are finite
         return Grid<CertainSun>(heights.cols() - 1, heights.rows() - 1, CertainSun::lit);
     }
-    return Sweep(cells, lift).run(heights);
+    return Sweep(cells, rays).run(heights);
 }
 
 std::optional<glm::dvec3> sun_in_samples(const terrain::Placement& placement,
@@ -216,11 +237,6 @@ std::optional<glm::dvec3> sun_in_samples(const terrain::Placement& placement,
     const glm::dvec3 to_sun(local.x / spacing.x, -local.y / spacing.y,
                             local.z / placement.exaggeration());
     return to_sun.z > 0.0 ? std::optional(to_sun) : std::nullopt;
-}
-
-double certain_sun_lift(terrain::MinMax heights) {
-    constexpr double share = 1.0 / 2048.0;
-    return share * (heights.high - heights.low);
 }
 
 } // namespace reljef::scene

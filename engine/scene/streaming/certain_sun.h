@@ -19,19 +19,24 @@ enum class CertainSun : std::uint8_t {
     dark ///< the terrain hides it
 };
 
-/// Of each cell of a heightfield on a plane, for rays that begin at most `lift` metres above the
-/// surface. `to_sun`: samples (col, row) and metres; it rises. Strips along the sun's direction are
-/// swept from the sun's side: the highest and the lowest heights that rays of a strip pass, less
-/// what the rays rise on the way, bound what may hide the sun. Precondition: heights are finite.
-Grid<CertainSun> certain_sun(GridView<const float> heights, glm::dvec3 to_sun, double lift);
+/// How rays to the sun are cast.
+struct SunRays {
+    glm::dvec3 to_sun{0.0, 0.0, 1.0}; ///< samples (col, row) and metres; it rises
+    double max_lift = 0.0;            ///< metres above the surface at which rays begin at most
+    /// Rounded rays from cells whose heights, with those of their neighbours, differ by more metres
+    /// may begin below the surface. Nothing is certain of these cells.
+    double max_variation = 0.0;
+};
+
+/// Of each cell of a heightfield on a plane. Strips along the sun's direction are swept from the
+/// sun's side: the highest and the lowest heights that rays of a strip pass, less what the rays
+/// rise on the way, bound what may hide the sun. Rays may be rounded by 2^-10 of a cell.
+/// Precondition: heights are finite.
+Grid<CertainSun> certain_sun(GridView<const float> heights, const SunRays& rays);
 
 /// The direction to the sun in samples of a placement (col, row, metres); empty if it is not on a
 /// plane, or if the sun does not rise.
 std::optional<glm::dvec3> sun_in_samples(const terrain::Placement& placement,
                                          const TerrainLight& light);
-
-/// A `lift` for all kinds of rays over a terrain, metres: shaders begin 1/4096 of its heights above
-/// it, rays on the CPU near what floats round.
-double certain_sun_lift(terrain::MinMax heights);
 
 } // namespace reljef::scene
