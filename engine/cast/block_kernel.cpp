@@ -19,9 +19,9 @@
 
 #include <hwy/highway.h>
 
+#include "engine/cast/packet_light-inl.h"
 #include "engine/cast/packet_paint-inl.h"
 #include "engine/cast/packet_rays-inl.h"
-#include "engine/cast/packet_sun-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -61,8 +61,7 @@ HWY_INLINE void merge(const PacketHits& found, int job, MergedHits& merged) {
     take(found.height, hits.height);
 }
 
-template <bool has_walls>
-HWY_INLINE MergedHits merged_hits(const BlockJobs& jobs, int col, int row) {
+template <class Mode> HWY_INLINE MergedHits merged_hits(const BlockJobs& jobs, int col, int row) {
     const PixelOffsets pixels = offsets_of(col, row);
     const Floats zero = hn::Zero(floats);
     const Ints none = hn::Zero(ints);
@@ -72,8 +71,8 @@ HWY_INLINE MergedHits merged_hits(const BlockJobs& jobs, int col, int row) {
         const BlockJob& job = jobs.tiles[i];
         const float start = job.starts[beam_at(col, row)];
         if (start < nowhere) {
-            merge(hits_of<has_walls>(rays_of(job, pixels), job, all(start), met),
-                  static_cast<int>(i), merged);
+            merge(hits_of<Mode>(rays_of(job, pixels), job, all(start), met), static_cast<int>(i),
+                  merged);
         }
     }
     return merged;
@@ -97,17 +96,20 @@ template <class Body> HWY_INLINE void for_each_packet(const Body& body) {
     }
 }
 
-HWY_INLINE void find_all_starts(const BlockJobs& jobs) {
+// Returns the taps that this took.
+HWY_INLINE std::size_t find_all_starts(const BlockJobs& jobs) {
+    std::size_t taps = 0;
     for (BlockJob& job : jobs.tiles) {
-        find_starts(job);
+        taps += find_starts(job);
     }
+    return taps;
 }
 
 void cast_all(const BlockJobs& jobs, BlockHits& hits) {
     find_all_starts(jobs);
     for_each_packet([&](int col, int row) HWY_ATTR {
-        store_hits(jobs.has_walls ? merged_hits<true>(jobs, col, row)
-                                  : merged_hits<false>(jobs, col, row),
+        store_hits(jobs.has_walls ? merged_hits<AmongTiles>(jobs, col, row)
+                                  : merged_hits<InMemory>(jobs, col, row),
                    col, row, hits);
     });
 }
@@ -120,12 +122,12 @@ HWY_INLINE Floats nearness_of(const BlockPaint& paint, Floats t) {
                                 : hn::Max(hn::Neg(depth), sky);
 }
 
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
     for_each_packet([&](int col, int row) HWY_ATTR {
         const auto start_of = [&](const BlockJob& job)
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
-        const Look look = look_of<has_walls>(jobs, paint, offsets_of(col, row), start_of);
+        const Look look = look_of<Mode>(jobs, paint, offsets_of(col, row), start_of);
         store(ints, bytes_of(look.color), col, row, pixels.rgba.data());
         if (paint.needs_nearness) {
             store(floats, nearness_of(paint, look.t), col, row, pixels.nearness.data());
@@ -136,10 +138,22 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
 void paint_all(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
     find_all_starts(jobs);
     if (jobs.has_walls) {
-        paint_packets<true>(jobs, paint, pixels);
+        paint_packets<AmongTiles>(jobs, paint, pixels);
     } else {
-        paint_packets<false>(jobs, paint, pixels);
+        paint_packets<InMemory>(jobs, paint, pixels);
     }
+}
+
+void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) {
+    work.beam_taps = find_all_starts(jobs);
+    for_each_packet([&](int col, int row) HWY_ATTR {
+        const auto start_of = [&](const BlockJob& job)
+                                  HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
+        const Work found = look_of<Counted>(jobs, paint, offsets_of(col, row), start_of).work;
+        store(ints, found.taps, col, row, work.taps.data());
+        store(ints, found.steps, col, row, work.steps.data());
+        store(ints, found.rays, col, row, work.rays.data());
+    });
 }
 
 using LaneFloats = std::array<float, static_cast<std::size_t>(lane_count)>;
@@ -221,7 +235,7 @@ HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
     }
 }
 
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
                                const SampledPixels& sampled, ColorSums& sums) {
     for (SampleIndex first; first.pixel < sampled.count;) {
@@ -235,7 +249,7 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         };
         const PixelOffsets offsets{hn::Load(floats, packet.right.data()),
                                    hn::Load(floats, packet.down.data())};
-        const Look look = look_of<has_walls>(jobs, paint, offsets, start_of);
+        const Look look = look_of<Mode>(jobs, paint, offsets, start_of);
         first = add_samples(look.color, sampled, first, sums);
     }
 }
@@ -245,9 +259,9 @@ void sample_all(const BlockJobs& jobs, const BlockPaint& paint, const SampledPix
     find_all_starts(jobs);
     ColorSums sums{};
     if (jobs.has_walls) {
-        sample_packets<true>(jobs, paint, sampled, sums);
+        sample_packets<AmongTiles>(jobs, paint, sampled, sums);
     } else {
-        sample_packets<false>(jobs, paint, sampled, sums);
+        sample_packets<InMemory>(jobs, paint, sampled, sums);
     }
     store_means(sums, sampled, pixels);
 }
@@ -284,6 +298,7 @@ namespace reljef::cast {
 
 HWY_EXPORT(cast_all);
 HWY_EXPORT(paint_all);
+HWY_EXPORT(count_all);
 HWY_EXPORT(sample_all);
 HWY_EXPORT(bends_of);
 
@@ -292,7 +307,8 @@ BlockKernel block_kernel(std::int64_t targets) {
     chosen.Update(targets != 0 ? targets : hwy::SupportedTargets());
     const std::size_t index = chosen.GetIndex();
     return {HWY_DISPATCH_TABLE(cast_all)[index], HWY_DISPATCH_TABLE(paint_all)[index],
-            HWY_DISPATCH_TABLE(sample_all)[index], HWY_DISPATCH_TABLE(bends_of)[index]};
+            HWY_DISPATCH_TABLE(count_all)[index], HWY_DISPATCH_TABLE(sample_all)[index],
+            HWY_DISPATCH_TABLE(bends_of)[index]};
 }
 
 std::int64_t compiled_targets() {

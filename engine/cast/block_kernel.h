@@ -80,6 +80,10 @@ struct TilePaint {
     glm::vec2 longest_texels{0.0F};
 };
 
+/// What is certain of the sun in a cell; 0: nothing.
+inline constexpr std::int32_t sun_certain = 1;
+inline constexpr std::int32_t shadow_certain = 2;
+
 /// A tile that may hide the sun from hits on another one, or on itself.
 struct SunTile {
     TileSamples tile;
@@ -109,13 +113,20 @@ struct BlockJob {
     /// What the sun adds to it where none of its tiles hides it; null: `paint` has its light.
     const TilePaint* sun = nullptr;
     std::span<const SunTile> sun_tiles = {};
+    /// What is certain of the sun in each cell: 2 bits, 16 cells of a row in a word.
+    /// Null: nothing.
+    const std::int32_t* certain_sun = nullptr;
+    int certain_stride = 0; ///< words from row to row
     /// Sides at which other tiles begin. A ray that was above the tile before hits a wall where it
     /// comes in below the surface: neighbours may have other heights at their common border.
     unsigned walls = 0;
     /// The t at which the rays may begin; infinity: they hit nothing.
     float start = 0.0F;
-    bool has_beams = true;   ///< finds later starts for the rays of each beam
-    bool has_starts = false; ///< they are found
+    bool has_beams = true;    ///< finds later starts for the rays of each beam
+    bool skips_blocks = true; ///< rays pass over whole blocks of the maximum mipmap
+    bool skips_cells = true;  ///< and over cells whose maximum is below them
+    bool skips_unlit = true;  ///< no sun rays from where the sun adds nothing
+    bool has_starts = false;  ///< they are found
     alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
 };
 
@@ -167,6 +178,14 @@ struct BlockPixels {
     alignas(64) std::array<float, block_pixels> nearness; ///< of the hits; see FirstSamples
 };
 
+/// What the rays of a block cost, row after row.
+struct BlockWork {
+    alignas(64) std::array<std::int32_t, block_pixels> taps;  ///< maxima, corners of cells, texels
+    alignas(64) std::array<std::int32_t, block_pixels> steps; ///< to a block or a cell; solved ones
+    alignas(64) std::array<std::int32_t, block_pixels> rays; ///< that search; those to the sun, too
+    std::size_t beam_taps = 0;                               ///< maxima, for all beams of the block
+};
+
 /// The nearness of pixels and of the pixels around them: of a row of a block, and of the rows above
 /// and below. One pixel more on each side. Beside the picture it is not a number.
 struct NearnessRows {
@@ -192,6 +211,8 @@ struct BlockKernel {
     void (*cast)(const BlockJobs& jobs, BlockHits& hits) = nullptr;
     /// The same, and the colours instead of the hits.
     void (*paint)(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) = nullptr;
+    /// Counts the work of the same colours. Precondition: the starts are not found yet.
+    void (*count)(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) = nullptr;
     /// Paints these pixels again: the mean of their samples, in linear light.
     void (*sample)(const BlockJobs& jobs, const BlockPaint& paint, const SampledPixels& sampled,
                    BlockPixels& pixels) = nullptr;

@@ -76,13 +76,13 @@ bool overlap(const PixelBlock& a, const PixelBlock& b) {
 
 // The t before which no ray of a block hits a tile; empty if none does.
 std::optional<double> start_of(const RayTile& tile, const PictureRays& rays,
-                               const PixelBlock& block, bool beams) {
+                               const PixelBlock& block, bool skips_free_space) {
     const bool is_finite = are_finite(rays.origin) && are_finite(rays.direction);
     if (!is_finite || tile.cells().x < 1 || tile.cells().y < 1) {
         return std::nullopt;
     }
     const double start =
-        beams ? clear_until(tile, rays, block, rays.range.begin) : rays.range.begin;
+        skips_free_space ? clear_until(tile, rays, block, rays.range.begin) : rays.range.begin;
     return start < rays.range.end ? std::optional(start) : std::nullopt;
 }
 
@@ -101,21 +101,24 @@ void start_beams(const PixelBlock& part, BlockJob& job) {
 
 class JobList {
 public:
-    JobList(const PlacedTiles& placed, const PixelBlock& block, bool beams,
+    JobList(const PlacedTiles& placed, const PixelBlock& block, const RaySkips& skips,
             std::vector<std::size_t>* indices)
-        : placed_(placed), block_(block), beams_(beams), indices_(indices) {}
+        : placed_(placed), block_(block), skips_(skips), indices_(indices) {}
 
     // `part`: of the block.
     void add(std::size_t index, const PictureRays& rays, unsigned more_walls,
              const PixelBlock& part) {
         const PlacedTile& tile = placed_.tiles[index];
-        const auto start = start_of(*tile.tile, rays, part, beams_);
+        const auto start = start_of(*tile.tile, rays, part, skips_.free_space);
         if (!start) {
             return;
         }
         BlockJob& job = jobs_.emplace_back();
         job.start = static_cast<float>(*start - rays.anchor);
-        job.has_beams = beams_;
+        job.has_beams = skips_.beams;
+        job.skips_blocks = skips_.blocks;
+        job.skips_cells = skips_.cells;
+        job.skips_unlit = skips_.unlit;
         if (part.size != glm::ivec2(block_side)) {
             start_beams({part.first - block_.first, part.size}, job);
         }
@@ -124,6 +127,10 @@ public:
         job.paint = &tile.paint;
         job.sun = tile.sun_tiles.empty() ? nullptr : &tile.sun;
         job.sun_tiles = tile.sun_tiles;
+        if (skips_.certain && !tile.certain_sun.empty()) {
+            job.certain_sun = tile.certain_sun.data();
+            job.certain_stride = tile.certain_stride;
+        }
         job.walls = tile.walls | more_walls;
         if (indices_ != nullptr) {
             indices_->push_back(index);
@@ -183,7 +190,7 @@ private:
 
     const PlacedTiles& placed_;
     const PixelBlock& block_;
-    bool beams_;
+    const RaySkips& skips_;
     std::vector<std::size_t>* indices_;
     std::vector<BlockJob> jobs_;
 };
@@ -199,9 +206,9 @@ SunTile sun_tile(const RayTile& tile, glm::dvec3 to_sun) {
     return made;
 }
 
-std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
-                                 std::vector<std::size_t>* indices) {
-    return JobList(placed, block, beams, indices).run();
+std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block,
+                                 const RaySkips& skips, std::vector<std::size_t>* indices) {
+    return JobList(placed, block, skips, indices).run();
 }
 
 namespace {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -21,9 +23,11 @@ struct PlacedTile {
     const RayTile* tile = nullptr;
     PictureRays rays; ///< in samples of the tile; on the ellipsoid only their range and anchor
     TilePaint paint = {};
-    TilePaint sun = {};                  ///< BlockJob::sun, if there are `sun_tiles`
-    std::vector<SunTile> sun_tiles = {}; ///< those that may hide the sun from it
-    unsigned walls = 0;                  ///< BlockJob::walls
+    TilePaint sun = {};                             ///< BlockJob::sun, if there are `sun_tiles`
+    std::vector<SunTile> sun_tiles = {};            ///< those that may hide the sun from it
+    std::span<const std::int32_t> certain_sun = {}; ///< BlockJob::certain_sun; may be empty
+    int certain_stride = 0;
+    unsigned walls = 0; ///< BlockJob::walls
     /// Sample of the terrain = first + step · sample of the tile.
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
@@ -31,6 +35,16 @@ struct PlacedTile {
     /// On the ellipsoid: sample of the tile = scale · sample of the curved rays + by.
     glm::dvec2 scale{1.0};
     glm::dvec2 by{0.0};
+};
+
+/// What rays skip; all of it by default. Nothing of it changes a hit: to measure what each saves.
+struct RaySkips {
+    bool free_space = true; ///< before the first place that the beam of a block may hit
+    bool beams = true;      ///< the same for the beams of 8 by 2 pixels
+    bool blocks = true;     ///< blocks of the maximum mipmap that are below the ray
+    bool cells = true;      ///< cells that are below the ray
+    bool unlit = true;      ///< sun rays from where the sun adds nothing
+    bool certain = true;    ///< sun rays from where it is certain whether the sun is seen
 };
 
 /// The tiles of a picture, front to back on a plane. All rays have the same anchor.
@@ -45,9 +59,10 @@ struct PlacedTiles {
 /// The tile as one that may hide the sun from its own hits. `to_sun`: in its samples; it rises.
 SunTile sun_tile(const RayTile& tile, glm::dvec3 to_sun);
 
-/// The tiles that rays of a block may hit. They point to the paints of `placed`. `beams`: rays
-/// begin where their beams may hit. BlockHits::job counts them; `indices`: their tiles.
-std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block, bool beams,
+/// The tiles that rays of a block may hit. They point to the paints of `placed`. BlockHits::job
+/// counts them; `indices`: their tiles.
+std::vector<BlockJob> block_jobs(const PlacedTiles& placed, const PixelBlock& block,
+                                 const RaySkips& skips,
                                  std::vector<std::size_t>* indices = nullptr);
 
 /// The blocks of a picture.

@@ -31,7 +31,7 @@ public:
 
     void cast(const PixelBlock& block) const {
         std::vector<std::size_t> tiles;
-        std::vector<BlockJob> jobs = block_jobs(placed_, block, options_.beams, &tiles);
+        std::vector<BlockJob> jobs = block_jobs(placed_, block, options_.skips, &tiles);
         if (jobs.empty()) {
             return;
         }

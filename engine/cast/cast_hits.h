@@ -14,7 +14,7 @@ namespace reljef::cast {
 
 struct CastOptions {
     ParallelOptions parallel = {};         ///< no influence on the result
-    bool beams = true;                     ///< to measure their effect; no influence on the result
+    RaySkips skips = {};                   ///< no influence on the result
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
 };
 

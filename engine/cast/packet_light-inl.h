@@ -1,17 +1,34 @@
-// Which hits of a packet the sun reaches. Included once for each instruction set.
-#if defined(RELJEF_PACKET_SUN_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef RELJEF_PACKET_SUN_INL_H
-#undef RELJEF_PACKET_SUN_INL_H
+// The light that the hits of a packet reflect, and which of them the sun reaches. Included once for
+// each instruction set.
+#if defined(RELJEF_PACKET_LIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELJEF_PACKET_LIGHT_INL_H
+#undef RELJEF_PACKET_LIGHT_INL_H
 #else
-#define RELJEF_PACKET_SUN_INL_H
+#define RELJEF_PACKET_LIGHT_INL_H
 #endif
 
 #include <limits>
+#include <type_traits>
 
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
+
+// Linear light.
+struct Color {
+    Floats r;
+    Floats g;
+    Floats b;
+};
+
+HWY_INLINE Color all(glm::vec3 color) {
+    return {all(color.r), all(color.g), all(color.b)};
+}
+
+HWY_INLINE Color scaled(const Color& color, Floats by) {
+    return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
+}
 
 // A tile that may hide the sun, for the functions that walk through it.
 HWY_INLINE void target_sun_tile(const BlockJob& job, const SunTile& tile, BlockJob& target) {
@@ -19,6 +36,8 @@ HWY_INLINE void target_sun_tile(const BlockJob& job, const SunTile& tile, BlockJ
     target.rays.base_height = job.rays.base_height;
     target.rays.lift = job.rays.lift + tile.lift;
     target.rays.highest = tile.highest - job.rays.base_height + target.rays.lift;
+    target.skips_blocks = job.skips_blocks;
+    target.skips_cells = job.skips_cells;
     target.rays.end = 0.5F * std::numeric_limits<float>::max();
 }
 
@@ -43,7 +62,9 @@ HWY_INLINE Rays sun_rays(const BlockJob& job, const SunTile& tile, const BlockJo
 }
 
 // The order of tiles does not matter: a ray that is below one somewhere does not reach the sun.
-HWY_INLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits) {
+template <class Mode>
+HWY_INLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
+    using SunMode = std::conditional_t<Mode::counts, Counted, AmongTiles>;
     Lanes hidden = no_lanes();
     BlockJob target;
     for (const SunTile& tile : job.sun_tiles) {
@@ -60,9 +81,155 @@ HWY_INLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits) {
         walk.walled = hn::Gt(entry.t(), rays.begin);
         walk.below = no_lanes();
         HitPieces pieces{};
-        hidden = hn::Or(hidden, find_hits<true>(rays, target, walk, pieces));
+        walk.work = work;
+        hidden = hn::Or(hidden, find_hits<SunMode>(rays, target, walk, pieces));
+        if constexpr (Mode::counts) {
+            work = walk.work;
+        }
     }
     return hidden;
+}
+
+// What is certain of the sun in the hits' cells.
+HWY_INLINE Ints certain_sun_of(const BlockJob& job, const PacketHits& hits) {
+    constexpr int cells_a_word_bits = 4;
+    const Ints word = hn::Add(hn::Mul(hits.row, all(job.certain_stride)),
+                              hn::ShiftRight<cells_a_word_bits>(hits.col));
+    const Ints bits = hn::GatherIndex(ints, job.certain_sun, word);
+    const Ints cell = hn::And(hits.col, all((1 << cells_a_word_bits) - 1));
+    return hn::And(hn::Shr(bits, hn::Add(cell, cell)), all(std::int32_t{3}));
+}
+
+// The hits that the sun reaches. Rays look for it only where it is not certain.
+template <class Mode>
+HWY_INLINE Lanes seen_by_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
+    if (job.certain_sun == nullptr) {
+        return hn::AndNot(hidden_from_sun<Mode>(job, hits, work), hits.found);
+    }
+    if constexpr (Mode::counts) {
+        work.tap(hits.found, 1);
+    }
+    const Ints certain = certain_sun_of(job, hits);
+    const auto is = [&](std::int32_t what)
+                        HWY_ATTR { return hn::RebindMask(floats, hn::Eq(certain, all(what))); };
+    PacketHits open = hits;
+    open.found = hn::And(hits.found, is(0));
+    const Lanes lit = hn::And(hits.found, is(sun_certain));
+    if (hn::AllFalse(floats, open.found)) {
+        return lit;
+    }
+    return hn::Or(lit, hn::AndNot(hidden_from_sun<Mode>(job, open, work), open.found));
+}
+
+// Adds a texel, times its weight.
+HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
+    const Ints mask = all(1023);
+    const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
+        const Floats root = hn::ConvertTo(floats, hn::And(bits, mask));
+        channel = hn::MulAdd(hn::Mul(root, root), weight, channel);
+    };
+    add(texel, sum.r);
+    add(hn::ShiftRight<10>(texel), sum.g);
+    add(hn::ShiftRight<20>(texel), sum.b);
+}
+
+// Places on the map, texels of level 0 from its corner.
+struct MapPlaces {
+    Floats col;
+    Floats row;
+};
+
+// Adds the bilinear colours of each lane's level, times their weights.
+HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints level,
+                          Floats weight, Color& sum) {
+    const Floats texels = size_of(hn::Neg(level)); // a texel of level 0
+    const Ints last_col = hn::Shr(all(paint.last.x), level);
+    const Ints last_row = hn::Shr(all(paint.last.y), level);
+    const auto inside = [&](Floats place, Ints last) HWY_ATTR {
+        const Floats texel = hn::MulSub(place, texels, all(0.5F));
+        return hn::Min(hn::Max(texel, hn::Zero(floats)), hn::ConvertTo(floats, last));
+    };
+    const Floats u = inside(places.col, last_col);
+    const Floats v = inside(places.row, last_row);
+    const Ints col = hn::ConvertTo(ints, u);
+    const Ints row = hn::ConvertTo(ints, v);
+    const Floats part_u = hn::Sub(u, hn::ConvertTo(floats, col));
+    const Floats part_v = hn::Sub(v, hn::ConvertTo(floats, row));
+    const Ints stride = hn::Add(last_col, all(2));
+    const Ints begin = hn::GatherIndex(ints, paint.begin.data(), level);
+    const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin);
+    const Ints below = hn::Add(index, stride);
+    const auto* const first = reinterpret_cast<const std::int32_t*>(paint.texels);
+    const Floats right = hn::Mul(weight, part_u);
+    const Floats left = hn::Sub(weight, right);
+    const Floats right_below = hn::Mul(right, part_v);
+    const Floats left_below = hn::Mul(left, part_v);
+    add_texel(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
+    add_texel(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
+    add_texel(hn::GatherIndex(ints, first, below), left_below, sum);
+    add_texel(hn::GatherIndex(ints, first + 1, below), right_below, sum);
+}
+
+// The colours of the map: bilinear in the two levels nearest to each lane's.
+HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
+    const auto place = [&](Ints cell, Floats part, int axis) HWY_ATTR {
+        const Floats sample = hn::Add(hn::ConvertTo(floats, cell), part);
+        return hn::MulAdd(sample, all(paint.texels_per_sample[axis]),
+                          all(paint.first[axis] + 0.5F));
+    };
+    const MapPlaces places{place(hits.col, hits.col_part, 0), place(hits.row, hits.row_part, 1)};
+    const Floats seen = hn::IfThenElseZero(hits.found, level);
+    const Ints fine = hn::ConvertTo(ints, seen);
+    const Floats coarse_part = hn::Sub(seen, hn::ConvertTo(floats, fine));
+    Color sum = all(glm::vec3(0.0F));
+    add_level(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);
+    if (!hn::AllTrue(floats, hn::Eq(coarse_part, hn::Zero(floats)))) {
+        const Ints coarse = hn::Min(hn::Add(fine, all(1)), all(paint.level_count - 1));
+        add_level(paint, places, coarse, coarse_part, sum);
+    }
+    return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
+}
+
+// The texels of map_color() that a hit's colour depends on.
+HWY_INLINE void count_texels(const PacketHits& hits, Floats level, Work& work) {
+    constexpr int texels_of_level = 4;
+    work.tap(hits.found, texels_of_level);
+    const Lanes between = hn::Gt(level, hn::Floor(level));
+    work.tap(hn::And(hits.found, between), texels_of_level);
+}
+
+HWY_INLINE Lanes adds_light(const Color& color) {
+    return hn::Gt(hn::Max(color.r, hn::Max(color.g, color.b)), hn::Zero(floats));
+}
+
+// Of the hits.
+template <class Mode>
+HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level, Work& work) {
+    Color lit = map_color(*job.paint, hits, level);
+    if constexpr (Mode::counts) {
+        count_texels(hits, level, work);
+    }
+    if (job.sun == nullptr) {
+        return lit;
+    }
+    if constexpr (Mode::counts) {
+        count_texels(hits, level, work);
+    }
+    const Color sun = map_color(*job.sun, hits, level);
+    PacketHits sunny = hits;
+    if (job.skips_unlit) {
+        sunny.found = hn::And(hits.found, adds_light(sun));
+    }
+    sunny.found = seen_by_sun<Mode>(job, sunny, work);
+    if (!hn::AllFalse(floats, sunny.found)) {
+        const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
+            channel = hn::Add(channel, hn::IfThenElseZero(sunny.found, part));
+        };
+        add(sun.r, lit.r);
+        add(sun.g, lit.g);
+        add(sun.b, lit.b);
+    }
+    return lit;
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

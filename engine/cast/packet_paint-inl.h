@@ -9,22 +9,11 @@
 
 #include <limits>
 
-#include "engine/cast/packet_sun-inl.h"
+#include "engine/cast/packet_light-inl.h"
 #include "engine/cast/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
-
-// Linear light.
-struct Color {
-    Floats r;
-    Floats g;
-    Floats b;
-};
-
-HWY_INLINE Color all(glm::vec3 color) {
-    return {all(color.r), all(color.g), all(color.b)};
-}
 
 HWY_INLINE Color chosen(Lanes lanes, const Color& yes, const Color& no) {
     return {hn::IfThenElse(lanes, yes.r, no.r), hn::IfThenElse(lanes, yes.g, no.g),
@@ -33,10 +22,6 @@ HWY_INLINE Color chosen(Lanes lanes, const Color& yes, const Color& no) {
 
 HWY_INLINE Color mixed(const Color& a, const Color& b, Floats part) {
     return {mixed(a.r, b.r, part), mixed(a.g, b.g, part), mixed(a.b, b.b, part)};
-}
-
-HWY_INLINE Color scaled(const Color& color, Floats by) {
-    return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
 }
 
 // Cubic polynomials interpolate at Chebyshev's places; the errors are relative to the result's
@@ -273,100 +258,12 @@ HWY_INLINE Floats level_of(const BlockJob& job, const Rays& rays, const PacketHi
     return hn::Min(level, all(static_cast<float>(paint.level_count - 1)));
 }
 
-// Adds a texel, times its weight.
-HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
-    const Ints mask = all(1023);
-    const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
-        const Floats root = hn::ConvertTo(floats, hn::And(bits, mask));
-        channel = hn::MulAdd(hn::Mul(root, root), weight, channel);
-    };
-    add(texel, sum.r);
-    add(hn::ShiftRight<10>(texel), sum.g);
-    add(hn::ShiftRight<20>(texel), sum.b);
-}
-
-// Places on the map, texels of level 0 from its corner.
-struct MapPlaces {
-    Floats col;
-    Floats row;
-};
-
-// Adds the bilinear colours of each lane's level, times their weights.
-HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints level,
-                          Floats weight, Color& sum) {
-    const Floats texels = size_of(hn::Neg(level)); // a texel of level 0
-    const Ints last_col = hn::Shr(all(paint.last.x), level);
-    const Ints last_row = hn::Shr(all(paint.last.y), level);
-    const auto inside = [&](Floats place, Ints last) HWY_ATTR {
-        const Floats texel = hn::MulSub(place, texels, all(0.5F));
-        return hn::Min(hn::Max(texel, hn::Zero(floats)), hn::ConvertTo(floats, last));
-    };
-    const Floats u = inside(places.col, last_col);
-    const Floats v = inside(places.row, last_row);
-    const Ints col = hn::ConvertTo(ints, u);
-    const Ints row = hn::ConvertTo(ints, v);
-    const Floats part_u = hn::Sub(u, hn::ConvertTo(floats, col));
-    const Floats part_v = hn::Sub(v, hn::ConvertTo(floats, row));
-    const Ints stride = hn::Add(last_col, all(2));
-    const Ints begin = hn::GatherIndex(ints, paint.begin.data(), level);
-    const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin);
-    const Ints below = hn::Add(index, stride);
-    const auto* const first = reinterpret_cast<const std::int32_t*>(paint.texels);
-    const Floats right = hn::Mul(weight, part_u);
-    const Floats left = hn::Sub(weight, right);
-    const Floats right_below = hn::Mul(right, part_v);
-    const Floats left_below = hn::Mul(left, part_v);
-    add_texel(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
-    add_texel(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
-    add_texel(hn::GatherIndex(ints, first, below), left_below, sum);
-    add_texel(hn::GatherIndex(ints, first + 1, below), right_below, sum);
-}
-
-// The colours of the map: bilinear in the two levels nearest to each lane's.
-HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
-    const auto place = [&](Ints cell, Floats part, int axis) HWY_ATTR {
-        const Floats sample = hn::Add(hn::ConvertTo(floats, cell), part);
-        return hn::MulAdd(sample, all(paint.texels_per_sample[axis]),
-                          all(paint.first[axis] + 0.5F));
-    };
-    const MapPlaces places{place(hits.col, hits.col_part, 0), place(hits.row, hits.row_part, 1)};
-    const Floats seen = hn::IfThenElseZero(hits.found, level);
-    const Ints fine = hn::ConvertTo(ints, seen);
-    const Floats coarse_part = hn::Sub(seen, hn::ConvertTo(floats, fine));
-    Color sum = all(glm::vec3(0.0F));
-    add_level(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);
-    if (!hn::AllTrue(floats, hn::Eq(coarse_part, hn::Zero(floats)))) {
-        const Ints coarse = hn::Min(hn::Add(fine, all(1)), all(paint.level_count - 1));
-        add_level(paint, places, coarse, coarse_part, sum);
-    }
-    return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
-}
-
-// Of the hits.
-HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level) {
-    Color lit = map_color(*job.paint, hits, level);
-    if (job.sun == nullptr) {
-        return lit;
-    }
-    PacketHits sunny = hits;
-    sunny.found = hn::AndNot(hidden_from_sun(job, hits), hits.found);
-    if (!hn::AllFalse(floats, sunny.found)) {
-        const Color sun = map_color(*job.sun, sunny, level);
-        const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
-            channel = hn::Add(channel, hn::IfThenElseZero(sunny.found, part));
-        };
-        add(sun.r, lit.r);
-        add(sun.g, lit.g);
-        add(sun.b, lit.b);
-    }
-    return lit;
-}
-
 // Of the hits, seen through the air (Koschmieder 1924).
+template <class Mode>
 HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
-                              const ViewRays& view, const PacketHits& hits) {
+                              const ViewRays& view, const PacketHits& hits, Work& work) {
     const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
-    const Color lit = lit_color(job, hits, level_of(job, rays, hits, metres));
+    const Color lit = lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), work);
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }
 
@@ -374,6 +271,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, cons
 struct Look {
     Color color;
     Floats t; // infinity: sky
+    Work work = Work::nothing();
 };
 
 // Beyond the sides of a triangle, pixels: less than a step of the places of samples, so that
@@ -411,7 +309,7 @@ struct WallLook {
 // The walls below the terrain: in front of all ground.
 HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    WallLook walls{no_lanes(), {all(glm::vec3(0.0F)), never}};
+    WallLook walls{no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}};
     const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
                         hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
     const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
@@ -443,24 +341,28 @@ HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pi
 }
 
 // `start_of(job)`: where the rays may begin.
-template <bool has_walls, class StartOf>
+template <class Mode, class StartOf>
 HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
                                const PixelOffsets& pixels, const StartOf& start_of) {
     const Floats never = all(std::numeric_limits<float>::infinity());
     const ViewRays view = view_rays(paint, pixels);
     Look look{all(glm::vec3(0.0F)), never};
     Met met = Met::nothing();
+    met.has_walls = jobs.has_walls;
     for (const BlockJob& job : jobs.tiles) {
         const Floats start = start_of(job);
         if (hn::AllFalse(floats, hn::Lt(start, never))) {
             continue;
         }
         const Rays rays = rays_of(job, pixels);
-        const PacketHits hits = hits_of<has_walls>(rays, job, start, met);
+        const PacketHits hits = hits_of<Mode>(rays, job, start, met);
         if (!hn::AllFalse(floats, hits.found)) {
-            const Color color = ground_color(job, paint, rays, view, hits);
-            look = {chosen(hits.found, color, look.color),
-                    hn::IfThenElse(hits.found, hits.t, look.t)};
+            const Color color = ground_color<Mode>(job, paint, rays, view, hits, met.work);
+            look.color = chosen(hits.found, color, look.color);
+            look.t = hn::IfThenElse(hits.found, hits.t, look.t);
+        }
+        if constexpr (Mode::counts) {
+            look.work = met.work;
         }
         if (hn::AllTrue(floats, met.found)) {
             return look;
@@ -470,19 +372,19 @@ HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
     return look;
 }
 
-template <bool has_walls, class StartOf>
+template <class Mode, class StartOf>
 HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
                         const StartOf& start_of) {
     if (paint.walls.empty()) {
-        return ground_look_of<has_walls>(jobs, paint, pixels, start_of);
+        return ground_look_of<Mode>(jobs, paint, pixels, start_of);
     }
     const WallLook walls = wall_look_of(paint, pixels);
     if (hn::AllTrue(floats, walls.found)) {
         return walls.look;
     }
-    const Look ground = ground_look_of<has_walls>(jobs, paint, pixels, start_of);
+    const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
     return {chosen(walls.found, walls.look.color, ground.color),
-            hn::IfThenElse(walls.found, walls.look.t, ground.t)};
+            hn::IfThenElse(walls.found, walls.look.t, ground.t), ground.work};
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

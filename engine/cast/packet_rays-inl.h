@@ -52,6 +52,63 @@ HWY_INLINE Lanes no_lanes() {
     return hn::MaskFromVec(hn::Zero(floats));
 }
 
+// How rays walk: whether a terrain has walls between its tiles, and whether work is counted.
+struct InMemory {
+    static constexpr bool has_walls = false;
+    static constexpr bool counts = false;
+};
+struct AmongTiles {
+    static constexpr bool has_walls = true;
+    static constexpr bool counts = false;
+};
+struct Counted { // finds the hits of both
+    static constexpr bool has_walls = true;
+    static constexpr bool counts = true;
+};
+
+// What each ray costs, see BlockWork. Stays 0 unless work is counted.
+struct Work {
+    Ints taps;
+    Ints steps;
+    Ints rays;
+
+    HWY_INLINE static Work nothing() { return {hn::Zero(ints), hn::Zero(ints), hn::Zero(ints)}; }
+    HWY_INLINE void step(Lanes lanes, int taps_of_step) {
+        const IntLanes which = hn::RebindMask(ints, lanes);
+        taps = hn::Add(taps, hn::IfThenElseZero(which, all(taps_of_step)));
+        steps = hn::Add(steps, hn::IfThenElseZero(which, all(std::int32_t{1})));
+    }
+    HWY_INLINE void tap(Lanes lanes, int count) {
+        taps = hn::Add(taps, hn::IfThenElseZero(hn::RebindMask(ints, lanes), all(count)));
+    }
+    HWY_INLINE void begin(Lanes lanes) {
+        const Ints one = hn::IfThenElseZero(hn::RebindMask(ints, lanes), all(std::int32_t{1}));
+        rays = hn::Add(rays, one);
+    }
+};
+
+// What the rays of a packet have met in nearer tiles.
+struct Met {
+    Lanes found;
+    Lanes below; // the surface at the end of the last tile
+    Work work;
+    bool has_walls = true; // of the terrain; where work is counted
+
+    HWY_INLINE static Met nothing() { return {no_lanes(), no_lanes(), Work::nothing()}; }
+};
+
+// Exactly `a` at part 0 and `b` at part 1.
+HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
+    return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
+}
+
+// 2^level.
+HWY_INLINE Floats size_of(Ints level) {
+    constexpr int exponent_bits = 23;
+    constexpr int exponent_of_one = 127;
+    return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
+}
+
 // One axis of the ground: column or row.
 struct Axis {
     Floats origin; // samples from the base
@@ -329,8 +386,10 @@ HWY_INLINE Floats smallest_step(const Beams& beams, Floats t) {
 }
 
 // Steps on as long as nothing can be hit; steps double in free space, and halve where a beam may
-// hit, down to half its width. Infinity for beams that hit nothing.
-HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float start) {
+// hit, down to half its width. Infinity for beams that hit nothing. Adds its taps.
+HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float start,
+                              std::size_t& taps) {
+    constexpr std::size_t taps_of_step = 4;
     constexpr int max_steps = 48;
     constexpr float first_step = 4.0F; // samples
     const Floats bound = all(job.rays.base_height - 2.0F * job.rays.lift);
@@ -339,6 +398,7 @@ HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float sta
     Floats step = all(first_step);
     Lanes active = hn::Lt(hn::Zero(floats), all(1.0F));
     for (int i = 0; i < max_steps && !hn::AllFalse(floats, active); ++i) {
+        taps += taps_of_step * hn::CountTrue(floats, active);
         const Floats end = hn::MulAdd(step, all(beams.per_sample), t);
         const BeamPiece piece = beam_piece(beams, t, end);
         const Lanes gone = hn::And(active, beams_gone(job, beams, piece));
@@ -354,20 +414,22 @@ HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float sta
     return hn::IfThenElse(hn::Lt(t, never), hn::Max(before, all(start)), never);
 }
 
-// Of all beams of a block.
-HWY_INLINE void find_starts(BlockJob& job) {
+// Of all beams of a block. Returns the taps that this took.
+HWY_INLINE std::size_t find_starts(BlockJob& job) {
+    std::size_t taps = 0;
     if (job.has_starts) {
-        return;
+        return taps;
     }
     job.has_starts = true;
     if (!job.has_beams || !(job.start < std::numeric_limits<float>::infinity())) {
         job.starts.fill(job.start);
-        return;
+        return taps;
     }
     for (int first = 0; first < beam_count; first += lane_count) {
-        const Floats t = clear_until(job, beams_of(job.rays, first), job.start);
+        const Floats t = clear_until(job, beams_of(job.rays, first), job.start, taps);
         hn::StoreU(t, floats, job.starts.data() + first);
     }
+    return taps;
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

@@ -52,11 +52,6 @@ HWY_INLINE Corners corners_of(const BlockJob& job, Ints col, Ints row) {
     return {corner(0), corner(1), corner(below), corner(below + 1)};
 }
 
-// Exactly `a` at part 0 and `b` at part 1.
-HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
-    return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
-}
-
 HWY_INLINE Floats height_in(const Corners& corners, Floats col_part, Floats row_part) {
     return mixed(mixed(corners.h00, corners.h01, row_part),
                  mixed(corners.h10, corners.h11, row_part), col_part);
@@ -162,6 +157,7 @@ struct Walk {
     Lanes walled; // from another tile
     Lanes below;  // was below the surface where it was last
     Lanes wall;   // hit a wall
+    Work work;
 };
 
 // The cell before a line.
@@ -192,16 +188,11 @@ HWY_INLINE Walk walk_from(const Rays& rays, Floats start) {
     walk.arrived = no_lanes();
     walk.passed = no_lanes();
     walk.wall = no_lanes();
+    walk.work = Work::nothing();
     walk.t = hn::IfThenElse(walk.active, start, rays.begin);
     walk.col = cell_at(rays.col, walk.t);
     walk.row = cell_at(rays.row, walk.t);
     return walk;
-}
-
-HWY_INLINE Floats size_of(Ints level) {
-    constexpr int exponent_bits = 23;
-    constexpr int exponent_of_one = 127;
-    return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
 }
 
 // A line between blocks of cells that a ray crosses next, along one axis.
@@ -260,7 +251,7 @@ HWY_INLINE Floats maxima_at(const TileSamples& tile, const BlockPlaces& places) 
 // Moves rays from block to block of a level while they are above it, at most `max_steps` times. No
 // step waits for the maxima of the one before: rays that have arrived at a block that they may hit
 // go on, and their last lines are kept.
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE void march(const Rays& rays, const BlockJob& job, int level, int max_steps, Walk& walk) {
     const Lanes lanes = hn::AndNot(walk.arrived, walk.active);
     const auto cells = static_cast<float>(1 << level);
@@ -271,7 +262,8 @@ HWY_INLINE void march(const Rays& rays, const BlockJob& job, int level, int max_
     BlockPlaces places = places_of(rays, job.tile, first_col, first_row, level);
     Floats kept_col = col.line;
     Floats kept_row = row.line;
-    const Floats height = hn::Add(rays.height, all(job.rays.base_height - job.rays.lift));
+    const float lift = job.skips_cells ? job.rays.lift : std::numeric_limits<float>::infinity();
+    const Floats height = hn::Add(rays.height, all(job.rays.base_height - lift));
     Floats enter_height = hn::MulAdd(walk.t, rays.rise, height);
     Lanes run = lanes;
     Lanes ended = no_lanes();
@@ -279,8 +271,11 @@ HWY_INLINE void march(const Rays& rays, const BlockJob& job, int level, int max_
         const Floats next = hn::Min(col.t, row.t);
         const Floats leave_height = hn::MulAdd(hn::Min(next, rays.end), rays.rise, height);
         const Floats highest = maxima_at(job.tile, places);
+        if constexpr (Mode::counts) {
+            walk.work.step(run, 1);
+        }
         Lanes over = hn::And(run, hn::Gt(hn::Min(enter_height, leave_height), highest));
-        if constexpr (has_walls) {
+        if constexpr (Mode::has_walls) {
             walk.below = hn::AndNot(over, walk.below);
         }
         over = hn::Or(over, walk.passed);
@@ -377,15 +372,19 @@ struct HitPieces {
 };
 
 // Ends the rays that hit their cells.
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
     const IntLanes there = hn::RebindMask(ints, walk.arrived);
     const Ints col = hn::IfThenElseZero(there, walk.col);
     const Ints row = hn::IfThenElseZero(there, walk.row);
     const Corners corners = corners_of(job, col, row);
     const Piece piece = piece_in(rays, corners, col, row);
+    if constexpr (Mode::counts) {
+        constexpr int corner_count = 4;
+        walk.work.step(walk.arrived, corner_count);
+    }
     Lanes hit = hn::And(crosses(piece), walk.arrived);
-    if constexpr (has_walls) {
+    if constexpr (Mode::has_walls) {
         hit = hn::Or(hit, hit_walls(piece, hit, walk));
     }
     pieces.keep(piece, corners, hit);
@@ -405,20 +404,24 @@ HWY_INLINE bool is_time_to_solve(const Walk& walk) {
 
 // Walks all rays to their first hit: through ever larger blocks as long as rays find none that they
 // may hit.
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE Lanes find_hits(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
     constexpr int levels = 2; // between marches
     constexpr int max_steps = 32;
     Lanes hits = no_lanes();
+    const int top_level = job.skips_blocks ? job.tile.top_level : 0;
     int top = 0; // a start is near the surface
+    if constexpr (Mode::counts) {
+        walk.work.begin(walk.active);
+    }
     while (!hn::AllFalse(floats, walk.active)) {
         for (int level = top; level > 0; level -= levels) {
-            march<has_walls>(rays, job, level, max_steps, walk);
+            march<Mode>(rays, job, level, max_steps, walk);
         }
-        march<has_walls>(rays, job, 0, max_steps, walk);
-        top = top + levels <= job.tile.top_level ? top + levels : top;
+        march<Mode>(rays, job, 0, max_steps, walk);
+        top = top + levels <= top_level ? top + levels : top;
         if (is_time_to_solve(walk)) {
-            hits = hn::Or(hits, solve<has_walls>(rays, job, walk, pieces));
+            hits = hn::Or(hits, solve<Mode>(rays, job, walk, pieces));
             top = 0;
         }
     }
@@ -437,42 +440,37 @@ struct PacketHits {
     Corners corners;
 };
 
-// What the rays of a packet have met in nearer tiles.
-struct Met {
-    Lanes found;
-    Lanes below; // the surface at the end of the last tile
-
-    HWY_INLINE static Met nothing() { return {no_lanes(), no_lanes()}; }
-};
-
 // The hits of the rays that have found nothing yet. `start`: of t.
-template <bool has_walls>
+template <class Mode>
 HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met& met) {
     const Entry entry = entry_of(rays);
     const Floats begin = hn::Max(hn::Max(entry.t(), rays.begin), start);
-    if constexpr (has_walls) {
+    if (Mode::has_walls && (!Mode::counts || met.has_walls)) {
         // A ray that begins below all of the tile is past its surface, and may hit a wall.
         const Floats height = hn::MulAdd(begin, rays.rise, rays.height);
         rays.end = hn::IfThenElse(hn::Lt(height, all(job.rays.lowest)), leaving_of(rays, job.rays),
                                   rays.end);
     }
     Walk walk = walk_from(rays, begin);
-    if constexpr (has_walls) {
+    if constexpr (Mode::has_walls) {
         walk.active = hn::AndNot(met.found, walk.active);
         walk.entry = hn::Max(entry.t(), rays.begin);
         walk.walled = walled_of(rays, entry, job.walls);
         walk.below = met.below;
     }
+    if constexpr (Mode::counts) {
+        walk.work = met.work;
+    }
     PacketHits hits;
     HitPieces pieces{};
-    hits.found = find_hits<has_walls>(rays, job, walk, pieces);
+    hits.found = find_hits<Mode>(rays, job, walk, pieces);
     const IntLanes found = hn::RebindMask(ints, hits.found);
     hits.col = hn::IfThenElseZero(found, walk.col);
     hits.row = hn::IfThenElseZero(found, walk.row);
     hits.corners = pieces.corners_of(hits.found);
     const Piece piece = pieces.piece_of(hits.found);
     Floats u = crossing_of(piece);
-    if constexpr (has_walls) {
+    if constexpr (Mode::has_walls) {
         u = hn::IfThenZeroElse(walk.wall, u);
         met.below = walk.below;
     }
@@ -480,9 +478,12 @@ HWY_INLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Met&
     hits.col_part = hn::MulAdd(u, piece.col.way, piece.col.enter);
     hits.row_part = hn::MulAdd(u, piece.row.way, piece.row.enter);
     hits.height = height_in(hits.corners, hits.col_part, hits.row_part);
-    if constexpr (has_walls) {
+    if constexpr (Mode::has_walls) {
         const Floats on_ray = hn::MulAdd(hits.t, rays.rise, rays.height);
         hits.height = hn::IfThenElse(walk.wall, on_ray, hits.height);
+    }
+    if constexpr (Mode::counts) {
+        met.work = walk.work;
     }
     met.found = hn::Or(met.found, hits.found);
     return hits;

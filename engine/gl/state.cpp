@@ -50,4 +50,9 @@ void set_sample_shading(bool on) {
     glMinSampleShading(on ? 1.0F : 0.0F);
 }
 
+void set_adding(bool on) {
+    enable(GL_BLEND, on);
+    glBlendFunc(GL_ONE, GL_ONE);
+}
+
 } // namespace reljef::gl

@@ -19,5 +19,7 @@ void set_polygon_mode(PolygonMode mode);
 /// Runs the fragment shader once per sample, with its inputs at the sample, instead of once per
 /// pixel. No effect on a target with one sample per pixel.
 void set_sample_shading(bool on);
+/// Whether fragments add to the colours that are there instead of replacing them.
+void set_adding(bool on);
 
 } // namespace reljef::gl

@@ -1,6 +1,9 @@
 #include "engine/render/driver.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <numeric>
 
 #include "engine/core/stopwatch.h"
 #include "engine/gl/read_pixels.h"
@@ -64,6 +67,7 @@ Result<void> Driver::resize(glm::ivec2 size) {
     }
     color_target_ = std::move(*target);
     hit_target_ = {};
+    work_target_ = {};
     return {};
 }
 
@@ -129,7 +133,86 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     return view::DrawnHits{std::move(hits), stats};
 }
 
+namespace {
+
+view::PictureWork work_of(const gl::Framebuffer& picture) {
+    const Grid<glm::vec4> channels = gl::read_float_color(picture);
+    view::PictureWork work{Grid<view::PixelWork>(channels.cols(), channels.rows())};
+    std::ranges::transform(channels.samples(), work.pixels.samples().begin(),
+                           [](const glm::vec4& counts) {
+                               return view::PixelWork{static_cast<std::uint32_t>(counts.x),
+                                                      static_cast<std::uint32_t>(counts.y),
+                                                      static_cast<std::uint32_t>(counts.z)};
+                           });
+    return work;
+}
+
+std::size_t taps_of_beams(const gl::Framebuffer& beams) {
+    const Grid<glm::vec4> channels = gl::read_second_color(beams);
+    const auto taps = channels.samples();
+    return std::accumulate(taps.begin(), taps.end(), std::size_t{0},
+                           [](std::size_t sum, const glm::vec4& counts) {
+                               return sum + static_cast<std::size_t>(counts.x);
+                           });
+}
+
+} // namespace
+
+Result<view::PictureWork> Driver::count_work(const view::FrameView& frame) {
+    if (work_target_.size() != size()) {
+        auto target = gl::Framebuffer::create({.size = size(), .color = gl::Format::rgba32f});
+        if (!target) {
+            return target.error();
+        }
+        work_target_ = std::move(*target);
+    }
+    view::FrameStats ignored;
+    if (auto done = prepare(frame.list, false, ignored); !done) {
+        return done.error();
+    }
+    if (auto prepared = counted_beams_.prepare(frame.list); !prepared) {
+        return prepared.error();
+    }
+    if (auto drawn = draw_work(frame.list, work_target_); !drawn) {
+        return drawn.error();
+    }
+    view::PictureWork work = work_of(work_target_);
+    if (options_.skips.beams && needs_beams(frame.list)) {
+        work.beam_taps = taps_of_beams(counted_beams_.framebuffer());
+    }
+    return work;
+}
+
+// Terrains only: nothing else counts.
+Result<void> Driver::draw_work(const view::DrawList& list, const gl::Framebuffer& picture) {
+    view::FrameStats ignored;
+    picture.bind();
+    picture.clear_color(glm::vec4(0.0F));
+    DrawState state(shaders_, blocks_, ignored, options_.skips.state);
+    picture.clear_depth();
+    frame_block_.bind_uniform_block(FrameBlock::layout.binding);
+    const FrameContext frame{.list = list,
+                             .residency = residency_,
+                             .hits = false,
+                             .features = scene_features(list, false, 1, options_.skips.features) |
+                                         feature_count,
+                             .picture = picture,
+                             .beams = counted_beams_.framebuffer(),
+                             .no_vertices = no_vertices_,
+                             .skips = options_.skips,
+                             .state = state};
+    auto drawn = draw_terrain_tiles(frame);
+    drawn = drawn ? draw_reliefs(frame) : drawn;
+    state.set_adding(false);
+    return drawn;
+}
+
 Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameStats& stats) {
+    if (!options_.skips.uploads) {
+        residency_ = {};
+    } else if (!options_.skips.cuts) {
+        residency_.forget_cuts();
+    }
     if (auto good = view::check_techniques(list); !good) {
         return good;
     }
@@ -191,7 +274,7 @@ Result<void> Driver::draw_sample_pass(const view::DrawList& list, int pass,
     if (auto drawn = draw_pass(list, sample_target_.picture(), stats); !drawn) {
         return drawn;
     }
-    DrawState state(shaders_, blocks_, stats);
+    DrawState state(shaders_, blocks_, stats, options_.skips.state);
     return sample_target_.add_pass(pass, color_target_, state, no_vertices_);
 }
 
@@ -204,17 +287,19 @@ Result<void> Driver::draw_pass(const view::DrawList& list, const gl::Framebuffer
 
 Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuffer& picture,
                                   bool hits, view::FrameStats& stats) {
-    DrawState state(shaders_, blocks_, stats);
+    DrawState state(shaders_, blocks_, stats, options_.skips.state);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
-    const FrameContext frame{.list = list,
-                             .residency = residency_,
-                             .hits = hits,
-                             .features = scene_features(list, hits, picture.samples()),
-                             .picture = picture,
-                             .beams = beam_target_.framebuffer(),
-                             .no_vertices = no_vertices_,
-                             .state = state};
+    const FrameContext frame{
+        .list = list,
+        .residency = residency_,
+        .hits = hits,
+        .features = scene_features(list, hits, picture.samples(), options_.skips.features),
+        .picture = picture,
+        .beams = beam_target_.framebuffer(),
+        .no_vertices = no_vertices_,
+        .skips = options_.skips,
+        .state = state};
     for (const auto pass : {draw_terrain_tiles, draw_reliefs, draw_bases, draw_meshes, draw_sky}) {
         if (auto drawn = pass(frame); !drawn) {
             return drawn;

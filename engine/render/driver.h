@@ -13,6 +13,7 @@
 #include "engine/gl/timer_query.h"
 #include "engine/render/passes/beams.h"
 #include "engine/render/passes/sample_target.h"
+#include "engine/render/passes/skips.h"
 #include "engine/render/residency/block_buffers.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/shader_library.h"
@@ -29,6 +30,7 @@ struct DriverOptions {
     /// Per pixel, see view::check_samples(). In a relief search each sample has its own ray. Hits
     /// are those of the pixels' centres.
     int samples = 1;
+    Skips skips = {};
 };
 
 /// Draws selected frames with the current context into its own framebuffer object with reversed
@@ -44,6 +46,9 @@ public:
     Result<view::FrameStats> draw(const view::FrameView& frame, bool wait = false);
 
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
+    /// What the fragments of draw() cost with one sample per pixel: those of terrains that pass the
+    /// depth test, also where nearer ones replace them.
+    Result<view::PictureWork> count_work(const view::FrameView& frame);
 
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
@@ -74,13 +79,16 @@ private:
                            view::FrameStats& stats);
     Result<void> draw_content(const view::DrawList& list, const gl::Framebuffer& picture, bool hits,
                               view::FrameStats& stats);
+    Result<void> draw_work(const view::DrawList& list, const gl::Framebuffer& picture);
 
     DriverOptions options_;
     gl::Limits limits_;
     gl::Framebuffer color_target_;
-    gl::Framebuffer hit_target_; // created on first use
+    gl::Framebuffer hit_target_;  // created on first use
+    gl::Framebuffer work_target_; // likewise
     SampleTarget sample_target_;
     BeamTarget beam_target_;
+    BeamTarget counted_beams_{true};
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;

@@ -210,6 +210,15 @@ Result<HitBuffer> SceneRenderer::draw_hits(const scene::Scene& scene) {
     return drawn ? Result<HitBuffer>(std::move(drawn->hits)) : drawn.error();
 }
 
+Result<view::PictureWork> SceneRenderer::count_work(const scene::Scene& scene) {
+    const view::FrameView& frame = select(scene);
+    const auto by_rays = choose_rays();
+    if (!by_rays) {
+        return by_rays.error();
+    }
+    return *by_rays ? rays_->count_work(frame) : opengl_->count_work(frame);
+}
+
 void limit_software_threads(int threads) {
     if (threads > 0) {
         ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1);

@@ -66,6 +66,8 @@ public:
     /// Selects and draws; FrameStats::cpu_ms includes the selection.
     Result<view::FrameStats> draw(const scene::Scene& scene, bool wait = false);
     Result<HitBuffer> draw_hits(const scene::Scene& scene);
+    /// Selects, and counts what the pixels of draw() cost.
+    Result<view::PictureWork> count_work(const scene::Scene& scene);
 
     /// Releases the last view, before another scene is opened.
     void forget_scene() { selector_.forget(); }

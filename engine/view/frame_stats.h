@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
+#include "engine/core/grid.h"
 #include "engine/core/hit.h"
 
 namespace reljef::view {
@@ -60,6 +62,29 @@ struct FrameStats {
     double cpu_ms = 0.0; ///< uploads and submission; with the selection if the caller adds it
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
 };
+
+/// What the colour of a pixel costs.
+struct PixelWork {
+    std::uint32_t taps = 0;  ///< texels and heights read; of a filtered texture, one tap
+    std::uint32_t steps = 0; ///< of searches along rays
+    std::uint32_t rays = 0;  ///< that search: from the eye and to the sun
+
+    friend bool operator==(const PixelWork&, const PixelWork&) = default;
+};
+
+/// The work of a picture with one sample per pixel. Only terrains count.
+struct PictureWork {
+    Grid<PixelWork> pixels;
+    std::size_t beam_taps = 0; ///< of beams, which pixels share
+};
+
+/// Sums over a picture.
+struct WorkTotals {
+    std::size_t taps = 0; ///< with those of beams
+    std::size_t steps = 0;
+    std::size_t rays = 0;
+};
+WorkTotals totals_of(const PictureWork& work);
 
 /// The stats' times are 0.
 struct DrawnHits {

@@ -148,7 +148,9 @@ public:
 
     /// The tiles of all terrains, front to back.
     void order_tiles() {
-        seen_ = nearest_first(std::move(seen_));
+        if (options_.front_to_back) {
+            seen_ = nearest_first(std::move(seen_));
+        }
         list_.tiles.reserve(seen_.size());
         for (const SeenTile& seen : seen_) {
             TileDraw& draw = draws_[seen.draw];
@@ -180,7 +182,7 @@ private:
 
     void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
                   const Box& local_bounds) {
-        if (frustum_.may_see(transformed(world_from_local, local_bounds))) {
+        if (!options_.frustum || frustum_.may_see(transformed(world_from_local, local_bounds))) {
             if (scene::is_seen_from_behind(mesh.material)) {
                 list_.meshes.push_back({&mesh, world_from_local, true});
             }
@@ -297,7 +299,7 @@ private:
             list_.camera.eye - (is_only_moved ? glm::dvec3(world_from_local[3]) : glm::dvec3(0.0));
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             const Box& bounds = draw.flat ? terrain.surface->flat_bounds()[i] : tiles[i]->bounds;
-            if (frustum.may_see(bounds)) {
+            if (!options_.frustum || frustum.may_see(bounds)) {
                 const glm::dvec3 away =
                     away_from(eye, is_only_moved ? bounds : transformed(world_from_local, bounds));
                 draw.tile = tiles[i];

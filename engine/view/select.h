@@ -35,6 +35,12 @@ struct SelectOptions {
     /// Called with each list that was selected; the same list must give the same result. Empty:
     /// not called.
     std::function<void(DrawList&)> refine = {};
+    /// Drops what is outside the frustum. Without it, meshes and terrains in memory are listed
+    /// whole. Streams have no tiles there.
+    bool frustum = true;
+    /// Nearer tiles come first, so that they hide the pixels of farther ones before these are
+    /// shaded. Without it, the order is that of the scene and its tiles.
+    bool front_to_back = true;
 };
 
 /// Drops what is hidden or outside the frustum and orders the rest front to back. Fits the depth

@@ -30,6 +30,7 @@ float light_end_part() {
 
 // Visible share of the sun.
 float sun_over_earth(vec2 place, vec3 relative) {
+    count_ray();
     Curve view = curve;
     vec2 view_range = curve_range;
     vec3 metres_of_view = metres_per_unit;

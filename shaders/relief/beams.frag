@@ -1,4 +1,5 @@
 #include "frame/bindings.inc"
+#include "frame/count.glsl"
 #if defined(STREAMED) || defined(CURVED)
 #include "frame/relief_block.glsl"
 #endif
@@ -23,6 +24,12 @@ uniform float begin_height;    // of the beams
 uniform float beam_lift;       // margin for rounding errors, in heights
 
 layout(location = 0) out float clear_height;
+#ifdef COUNT
+layout(location = 1) out vec2 taps_of_beam;
+#define write_work() taps_of_beam = vec2(work_taps, 0.0)
+#else
+#define write_work()
+#endif
 
 #ifndef CURVED
 // The four edges of a beam.
@@ -77,6 +84,7 @@ ivec2 cell_at(vec2 place) {
 }
 
 float max_height_in_block(ivec2 block, int level) {
+    count_taps(1.0);
     return texelFetch(max_mipmap, block, level).r;
 }
 #endif
@@ -106,6 +114,7 @@ void main() {
     float extent = float(pixels_a_beam);
     vec2 low = floor(gl_FragCoord.xy) * extent;
     clear_height = clear_depth_of(low, low + extent);
+    write_work();
 }
 #else
 float max_height_between(Corners upper, Corners lower) {
@@ -140,5 +149,6 @@ void main() {
     Beam beam = beam_of(low, low + extent);
     bool falls = all(lessThan(beam.directions[2], vec4(0.0)));
     clear_height = falls ? clear_down_to(beam) + beam_lift : begin_height + beam_lift;
+    write_work();
 }
 #endif

@@ -41,6 +41,7 @@ vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative 
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
+uniform float max_unlit;             // light of the sun that is not worth a ray; < 0: every one is
 #include "relief/relief_light.glsl"
 #ifdef HIT
 uniform vec4 origin_sample;   // xy: col, row of the search space's origin; zw: to be added
@@ -48,6 +49,14 @@ uniform float samples_a_cell; // of a terrain in memory, 1; of streamed tiles, o
 #endif
 
 #include "frame/output.glsl"
+
+#ifdef COUNT
+#define write_work() work = vec4(work_taps, work_steps, work_rays, 1.0)
+#define SHOW_NOTHING write_work(); return
+#else
+#define write_work()
+#define SHOW_NOTHING discard
+#endif
 
 #ifdef HIT
 // origin_sample plus the place as two floats (Knuth's two-sum).
@@ -120,15 +129,42 @@ float near_level(float level, float distance_to_hit) {
 #endif
 
 #ifndef HIT
+#ifdef SHADOW
+#if defined(EXACT) && defined(HARD_SHADOW) && !defined(STREAMED) && !defined(CURVED)
+#define CERTAIN_SUN
+layout(binding = certain_sun_unit) uniform sampler2D certain_sun; // of cells: 1 lit, 2 dark, 0 neither
+uniform int has_certain_sun;
+#endif
+
+float share_of_sun_at(vec2 place, vec3 relative) {
+#ifdef CERTAIN_SUN
+    if (has_certain_sun != 0) {
+        count_taps(1.0);
+        ivec2 cell = clamp(ivec2(floor(place)) + origin_cell, ivec2(0), last_cell);
+        float certain = texelFetch(certain_sun, cell, 0).r;
+        if (certain > 0.5) {
+            return 2.0 - certain;
+        }
+    }
+#endif
+#ifdef CURVED
+    return sun_over_earth(place, relative);
+#else
+    vec3 sun_direction = space_from_relative * to_sun.xyz;
+    return sun_at(place, sun_direction, box_begin.xyz, box_end.xyz);
+#endif
+}
+#endif
+
 // `relative`: the place, relative to the eye.
 vec3 lit_at(vec2 place, float level, vec3 relative) {
     LitPlace at = lit_place(place, level);
     vec3 lit = reflected_at(at);
-#if defined(SHADOW) && defined(CURVED)
-    lit += sun_over_earth(place, relative) * of_sun_at(at);
-#elif defined(SHADOW)
-    vec3 sun_direction = space_from_relative * to_sun.xyz;
-    lit += sun_at(place, sun_direction, box_begin.xyz, box_end.xyz) * of_sun_at(at);
+#ifdef SHADOW
+    vec3 sun = of_sun_at(at);
+    if (max(max(sun.r, sun.g), sun.b) > max_unlit) {
+        lit += share_of_sun_at(place, relative) * sun;
+    }
 #endif
     return lit;
 }
@@ -140,6 +176,7 @@ vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
 
 #ifndef CURVED
 bool find_view_hit(vec3 start, vec3 span, out float part, out vec2 place) {
+    count_ray();
 #ifdef BEAMS
     float clear = clear_part(start, span);
     begins_above = clear > 0.0;
@@ -157,8 +194,9 @@ void main() {
 #ifdef CURVED
     float part;
     vec2 place;
+    count_ray();
     if (!find_on_curve(part, place)) {
-        discard;
+        SHOW_NOTHING;
     }
     vec3 relative = part * back;
 #else
@@ -172,7 +210,7 @@ void main() {
     float part;
     vec2 place;
     if (!find_view_hit(start, span, part, place)) {
-        discard;
+        SHOW_NOTHING;
     }
 #ifdef FADE
     float way = mix(ends.x, ends.y, part);
@@ -209,5 +247,6 @@ void main() {
     }
 #endif
     color = vec4(shown, 1.0);
+    write_work();
 #endif
 }

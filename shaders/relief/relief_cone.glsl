@@ -12,6 +12,7 @@ layout(binding = relief_cone_map_unit) uniform sampler2D cone_map;
 
 // Plain and relaxed cone, samples per unit of height.
 vec2 cones_at(vec2 place) {
+    count_taps(1.0);
 #ifdef TILE
     vec2 cell = floor(place);
 #ifdef WRAP
@@ -59,6 +60,7 @@ float end_of_cone(vec3 start, vec3 span, float at) {
 // Bisection, then a secant, between `part` at clearance `over` (>= 0) and `low_part` at `under` (< 0).
 float halved(vec3 start, vec3 span, float part, float over, float low_part, float under) {
     for (float i = 0.0; i < bisection_steps; ++i) {
+        count_step();
         float middle = 0.5 * (part + low_part);
         vec3 p = start + middle * span;
         float above = p.z - height_at(p.xy);
@@ -103,6 +105,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     bool found = false;
     bool skips = false; // any place
     for (float i = 0.0; i < n && next < 1.0; ++i) {
+        count_step();
         vec2 cones = cones_at(start.xy + at * span.xy);
         float ratio = relaxed ? cones.g : cones.r;
         float opens = run - ratio * span.z;

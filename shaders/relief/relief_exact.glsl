@@ -20,6 +20,7 @@ bool stays(inout vec3 start, inout Walk walk) {
 }
 
 float max_height_in(Walk walk) {
+    count_taps(1.0);
     return texelFetch(max_mipmap, walk.block, walk.level).r;
 }
 

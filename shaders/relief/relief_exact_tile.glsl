@@ -37,6 +37,7 @@ bool stays(inout vec3 start, inout Walk walk) {
 }
 
 float max_height_in(Walk walk) {
+    count_taps(1.0);
     ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);
     return texelFetch(max_mipmap, block, walk.level).r;
 }

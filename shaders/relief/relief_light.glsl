@@ -42,11 +42,13 @@ LitPlace lit_place(vec2 place, float level) {
 #endif
 
 vec3 reflected_at(LitPlace at) {
+    count_taps(1.0);
     return textureLod(lit_map, at.coordinate, at.level).rgb;
 }
 
 #ifdef SHADOW
 vec3 of_sun_at(LitPlace at) {
+    count_taps(1.0);
     return textureLod(sun_map, at.coordinate, at.level).rgb;
 }
 #endif

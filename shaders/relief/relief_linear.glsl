@@ -15,6 +15,7 @@ float steps_for(vec3 span) {
 float narrowed(vec3 start, vec3 span, float part, float over, float low_part, float under) {
 #if defined(BISECT)
     for (float i = 0.0; i < bisection_steps; ++i) {
+        count_step();
         float middle = 0.5 * (part + low_part);
         vec3 p = ray_at(start, span, middle);
         if (p.z < height_at(p.xy)) {
@@ -27,6 +28,7 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
 #elif defined(SECANT)
     float rounds = secant_steps - 1.0;
     for (float i = 0.0; i < rounds; ++i) {
+        count_step();
         float guess = mix(part, low_part, over / (over - under));
         vec3 p = ray_at(start, span, guess);
         float above = p.z - height_at(p.xy);
@@ -52,6 +54,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float under = 0.0;
     bool found = false;
     for (float i = 1.0; i <= n; ++i) {
+        count_step();
         float next = i / n;
         vec3 p = ray_at(start, span, next);
         float now = p.z - height_at(p.xy);

@@ -18,6 +18,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     place = entry + (height + offset) * shift;
 #ifdef ITERATED
     for (float i = 0.0; i < parallax_iterations; ++i) {
+        count_step();
         height = 0.5 * (height + height_at(place));
         place = entry + (height + offset) * shift;
     }

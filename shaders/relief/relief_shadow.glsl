@@ -25,6 +25,7 @@ float share_of_sun(vec3 start, vec3 span) {
     float n = shadow_steps(span);
     float deepest = 0.0;
     for (float i = 1.0; i <= n && deepest < shadow_depth; ++i) {
+        count_step();
         vec3 p = ray_at(start, span, i / n);
         deepest = max(deepest, depth_in_surface(p));
     }
@@ -45,6 +46,7 @@ float share_of_sun(vec3 start, vec3 span) {
 
 // Visible share of the sun; `low` and `high` bound the search space.
 float sun_at(vec2 place, vec3 sun_direction, vec3 low, vec3 high) {
+    count_ray();
     vec3 start = vec3(place, height_at(place) + outward() * shadow_lift);
     return share_of_sun(start, way_out(start, sun_direction, low, high));
 }

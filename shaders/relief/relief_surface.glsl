@@ -1,4 +1,5 @@
 #include "frame/technique_block.glsl"
+#include "frame/count.glsl"
 
 // The searched surface: x column, y row, z height in [0,1].
 #ifndef STREAMED
@@ -36,6 +37,7 @@ vec3 ray_at(vec3 start, vec3 span, float part) {
 #ifdef LAYERS
 // Solid between 1 and 2, and between 3 and 4.
 vec4 layers_at(vec2 place) {
+    count_taps(1.0);
     return textureLod(height_map, (place + 0.5) * height_texel, 0.0);
 }
 
@@ -64,6 +66,7 @@ float outward() {
 #include "stream/stream_tiles.glsl"
 #else
 float height_at(vec2 place) {
+    count_taps(1.0);
     return textureLod(height_map, (place + vec2(origin_cell) + 0.5) * height_texel, 0.0).r;
 }
 #endif

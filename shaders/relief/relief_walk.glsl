@@ -82,6 +82,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         vec2 exits = vec2(1.0);
         bool reached = false;
         while (inside && !reached) {
+            count_step();
             exits = exits_of(start, course.inverse, course.forward, walk) + course.never;
             float leave = min(min(exits.x, exits.y), 1.0);
             float lowest = start.z + (course.falls ? leave : walk.part) * span.z;
@@ -97,6 +98,8 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             }
         }
         if (reached) {
+            count_step();
+            count_taps(1.0);
             float leave = min(min(exits.x, exits.y), 1.0);
             vec4 corners = textureGather(height_map, (vec2(walk.block) + 1.0) * height_texel);
             float found =

@@ -10,6 +10,7 @@ float max_height_of(ivec2 block, int level) {
         int coarser = max(tile.level - level, 0);
         int up = level + coarser - tile.level;
         ivec2 texel = (block >> coarser) & ((page_cells >> up) - 1);
+        count_taps(1.0);
         metres = texelFetch(max_mipmaps, ivec3(texel, int(tile.layer)), up).r;
     }
     return unit_height(metres);

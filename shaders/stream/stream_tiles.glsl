@@ -26,11 +26,13 @@ float unit_height(float metres) {
 }
 
 vec2 page_of(ivec2 cell) {
+    count_taps(1.0);
     return texelFetch(pages, cell >> page_level, 0).xy;
 }
 
 // The page of a block of 2^level cells, or the first of its pages and the maximum of all.
 vec2 page_of_block(ivec2 block, int level) {
+    count_taps(1.0);
     int up = max(level - page_level, 0);
     return texelFetch(pages, block >> max(page_level - level, 0), up).xy;
 }
@@ -62,5 +64,6 @@ float height_at(vec2 place) {
     ivec2 cell = cell_at(place);
     StreamedTile tile = tile_of_page(page_of(cell).x);
     vec2 vertex = vertex_at(place, cell, tile.level);
+    count_taps(1.0);
     return unit_height(textureLod(height_tiles, vec3((vertex + 0.5) * height_texel, tile.layer), 0.0).r);
 }

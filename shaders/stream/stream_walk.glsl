@@ -21,6 +21,7 @@ void descend(vec3 start, vec3 span, inout Walk walk) {
 
 float crossing_in(vec3 start, vec3 span, Walk walk, StreamedTile tile, float leave, inout bool above) {
     TileCell cell = tile_cell(walk.block << walk.level, tile.level);
+    count_taps(1.0);
     vec4 corners =
         textureGather(height_tiles, vec3((vec2(cell.index) + 1.0) * height_texel, tile.layer));
     corners = (corners - height_span.x) * height_span.z;
@@ -41,6 +42,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     walk.block = cell_at(start.xy) >> walk.level;
     bool inside = true;
     while (inside) {
+        count_step();
         vec2 page = page_of_block(walk.block, walk.level);
         StreamedTile tile = tile_of_page(page.x);
         // A block within a larger cell becomes that cell, or its page: other pages of the cell may show
@@ -64,6 +66,8 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             }
         }
         while (inside && in_page && !reached) {
+            count_step();
+            count_taps(1.0);
             exits = exits_of(start, course.inverse, course.forward, walk) + course.never;
             float leave = min(min(exits.x, exits.y), 1.0);
             float lowest = start.z + (course.falls ? leave : walk.part) * span.z;

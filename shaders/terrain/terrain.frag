@@ -2,6 +2,7 @@
 #include "frame/air.glsl"
 #include "frame/fragment.glsl"
 #include "frame/distance.glsl"
+#include "frame/count.glsl"
 
 in vec2 tile_place;
 #ifdef HIT
@@ -66,5 +67,12 @@ void main() {
 #endif
 #ifndef HIT
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
+#endif
+#ifdef COUNT
+#ifdef WARPED
+    count_taps(1.0);
+#endif
+    count_taps(1.0);
+    work = vec4(work_taps, work_steps, work_rays, 1.0);
 #endif
 }

@@ -232,7 +232,15 @@ TEST(CastHits, LieWithinAHundredthOfAPixel) {
     }
 }
 
-TEST(CastHits, HaveTheSameBitsForAnyThreadsAndStarts) {
+std::vector<RaySkips> without_one_each() {
+    return {{.free_space = false},
+            {.beams = false},
+            {.free_space = false, .beams = false},
+            {.blocks = false},
+            {.cells = false}};
+}
+
+TEST(CastHits, HaveTheSameBitsForAnyThreadsAndWhateverIsSkipped) {
     test::Chance chance(11);
     for (MadeSurface& made : surfaces()) {
         Stage stage(made.heights, {3.0, 3.0});
@@ -240,7 +248,9 @@ TEST(CastHits, HaveTheSameBitsForAnyThreadsAndStarts) {
             stage.look(any_camera(stage, chance));
             const HitBuffer one = stage.cast(picture, on_threads(1));
             EXPECT_TRUE(same_bits(one, stage.cast(picture, on_threads(3))));
-            EXPECT_TRUE(same_bits(one, stage.cast(picture, {.beams = false}))) << made.name;
+            for (const RaySkips& skips : without_one_each()) {
+                EXPECT_TRUE(same_bits(one, stage.cast(picture, {.skips = skips}))) << made.name;
+            }
         }
     }
 }

@@ -1,9 +1,8 @@
 #include "engine/cast/frame/driver.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -14,12 +13,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
-#include "engine/cast/frame/base_walls.h"
+#include "engine/cast/frame/painter.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/core/stopwatch.h"
+#include "engine/scene/streaming/certain_sun.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
@@ -76,61 +75,6 @@ StreamedList with_tiles_of_reliefs(view::DrawList list) {
 // Tiles of a stream are drawn in up to four pieces.
 int tile_count(const view::DrawList& list, const PlacedTiles& placed) {
     return static_cast<int>(list.tiles.empty() ? placed.tiles.size() : list.tiles.size());
-}
-
-bool is_perspective(const view::DrawList& list) {
-    return list.camera.projection == scene::ProjectionKind::perspective;
-}
-
-// World directions of the rays.
-PictureRays::Vectors view_of(const view::DrawList& list) {
-    const auto at = [&](glm::dvec2 pixel) {
-        return scene::view_ray(list.camera, list.size, pixel).direction;
-    };
-    const glm::dvec2 extent(list.size);
-    const glm::dvec3 first = at({0.0, 0.0});
-    return {first, (at({extent.x, 0.0}) - first) / extent.x,
-            (at({0.0, extent.y}) - first) / extent.y};
-}
-
-BlockPaint backdrop_of(const view::DrawList& list) {
-    BlockPaint paint;
-    if (list.sky) {
-        paint.has_sky = true;
-        const scene::Sky& sky = *list.sky;
-        const scene::AirSeen air = scene::air_seen(sky, list.camera);
-        paint.horizon = sky.horizon;
-        paint.zenith = sky.zenith;
-        paint.glow = sky.glow;
-        paint.curve = sky.curve;
-        paint.has_plane = air.has_plane;
-        paint.plane = sky.plane.value_or(glm::vec3(0.0F));
-        // On a map there is no viewing distance.
-        paint.has_air = is_perspective(list) && sky.visibility > 0.0;
-        paint.extinction = air.extinction;
-        paint.eye_above = air.eye_above;
-        paint.eye_density = air.eye_density;
-        paint.per_height = air.per_height;
-    }
-    if (list.sun) {
-        paint.has_sun = true;
-        paint.sun = list.sun->color;
-        paint.to_sun = glm::vec3(scene::to_light(*list.sun));
-    }
-    return paint;
-}
-
-// The bytes of a pixel are those of Rgba8.
-static_assert(std::endian::native == std::endian::little);
-
-void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& picture) {
-    const auto width = static_cast<std::size_t>(block.size.x);
-    for (int row = 0; row < block.size.y; ++row) {
-        const std::uint32_t* const from =
-            pixels.rgba.data() + static_cast<std::size_t>(row) * block_side;
-        Rgba8* const to = &picture(block.first.x, block.first.y + row);
-        std::memcpy(static_cast<void*>(to), from, width * sizeof(Rgba8));
-    }
 }
 
 } // namespace
@@ -204,7 +148,7 @@ const Driver::Light& Driver::light_of(const scene::TerrainNode& terrain,
         ++stats.skipped.uploads_unchanged;
         return made;
     }
-    made = {light, nullptr, nullptr};
+    made = {light, nullptr, nullptr, {}};
     const scene::TerrainSurface& surface = *terrain.surface;
     if (in_parts) {
         const view::LightParts parts = view::light_parts(surface, *light, max_texture_side());
@@ -228,9 +172,11 @@ Result<void> Driver::add_light(const view::PreparedLight& prepared) {
         return {};
     }
     const scene::TerrainSurface& surface = *request.surface;
-    surface_of(request.surface).light = {request.light, levels_over(surface, prepared.lit),
+    surface_of(request.surface).light = {request.light,
+                                         levels_over(surface, prepared.lit),
                                          request.in_parts ? levels_over(surface, prepared.sun)
-                                                          : nullptr};
+                                                          : nullptr,
+                                         {}};
     return {};
 }
 
@@ -269,6 +215,55 @@ std::vector<TileContents::SharedTile> tiles_of(const view::DrawList& list) {
         tiles.push_back(draw.tile);
     }
     return tiles;
+}
+
+constexpr int cells_a_word = 16;
+constexpr double share_of_heights = 1.0 / 2048.0; // that sun rays may begin above the surface
+
+int words_a_row(int cells) {
+    return (cells + cells_a_word - 1) / cells_a_word;
+}
+
+static_assert(static_cast<std::int32_t>(scene::CertainSun::unknown) == 0 &&
+              static_cast<std::int32_t>(scene::CertainSun::lit) == sun_certain &&
+              static_cast<std::int32_t>(scene::CertainSun::dark) == shadow_certain);
+
+// As BlockJob::certain_sun.
+std::vector<std::int32_t> packed(const Grid<scene::CertainSun>& known) {
+    const auto stride = static_cast<std::size_t>(words_a_row(known.cols()));
+    std::vector<std::uint32_t> words(stride * static_cast<std::size_t>(known.rows()));
+    for (int row = 0; row < known.rows(); ++row) {
+        for (int col = 0; col < known.cols(); ++col) {
+            const std::size_t word = static_cast<std::size_t>(row) * stride +
+                                     static_cast<std::size_t>(col / cells_a_word);
+            words[word] |= static_cast<std::uint32_t>(known(col, row))
+                           << static_cast<unsigned>(2 * (col % cells_a_word));
+        }
+    }
+    return {words.begin(), words.end()};
+}
+
+// Metres by which sun rays begin above the surface at most: packet_light-inl.h adds what floats
+// round of the tile's heights and of the ray's, from the height at which it begins.
+double max_sun_lift(const RayTile& tile, const PictureRays& rays) {
+    constexpr double rounding = 0x1p-18; // a few of 2^-20
+    const glm::dvec3 first = rays.origin.first + rays.anchor * rays.direction.first;
+    const glm::dvec3 extent = glm::abs(rays.origin.right + rays.anchor * rays.direction.right) *
+                                  static_cast<double>(rays.size.x) +
+                              glm::abs(rays.origin.down + rays.anchor * rays.direction.down) *
+                                  static_cast<double>(rays.size.y);
+    const terrain::MinMax total = tile.total();
+    return rounding *
+           (std::max(std::abs(total.low), std::abs(total.high)) + std::abs(first.z) + extent.z);
+}
+
+// Metres within a cell for which sun rays begin above the surface: they begin at least 2^-19 of the
+// heights above a place whose column and row are rounded by 2^-25 of the side. Half of it is left.
+double max_variation(const RayTile& tile) {
+    const terrain::MinMax total = tile.total();
+    const double lift = 0x1p-19 * std::max(std::abs(total.low), std::abs(total.high));
+    const double rounded = 0x1p-25 * std::max(tile.cells().x, tile.cells().y);
+    return 0.5 * lift / (2.0 * rounded);
 }
 
 // Where hits have the light of the sun: its map has no shadows. Of a terrain on a plane.
@@ -328,9 +323,32 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
         paint_surface(list, seen, tile, stats);
         if (node.material.technique.options.shadow) {
             add_sun(list, seen, {}, placed);
+            add_certain_sun(list, seen, placed.tiles.front());
         }
     }
     return placed;
+}
+
+// Of a terrain in memory.
+void Driver::add_certain_sun(const view::DrawList& list, const SeenTerrain& seen,
+                             PlacedTile& tile) {
+    const scene::TerrainSurface& surface = *seen.node->surface;
+    Light& light = surface_of(seen.node->surface).light;
+    const auto on = view::light_on(list, seen.world_from_local);
+    const auto to_sun =
+        on ? scene::sun_in_samples(surface.placement(), *on) : std::optional<glm::dvec3>();
+    const terrain::MinMax total = tile.tile->total();
+    const double max_lift = share_of_heights * (total.high - total.low);
+    if (!to_sun || tile.sun_tiles.empty() || !options_.skips.certain ||
+        max_sun_lift(*tile.tile, tile.rays) > max_lift) {
+        return;
+    }
+    if (light.certain_sun.empty()) {
+        light.certain_sun = packed(scene::certain_sun(
+            surface.heightfield().heights.view(), {*to_sun, max_lift, max_variation(*tile.tile)}));
+    }
+    tile.certain_sun = light.certain_sun;
+    tile.certain_stride = words_a_row(tile.tile->cells().x);
 }
 
 // A terrain in memory.
@@ -346,99 +364,15 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     }
 }
 
-namespace {
-
-// Draws the blocks of a picture.
-class Painter {
-public:
-    Painter(const view::DrawList& list, const PlacedTiles& placed, const DriverOptions& options,
-            FirstSamples& first)
-        : placed_(placed), kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)),
-          shared_(backdrop_of(list)), view_(view_of(list)), walls_(base_walls(list)), first_(first),
-          jobs_(static_cast<std::size_t>(block_count(list.size))) {
-        shared_.anchor =
-            placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
-        const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
-        samples_.samples = static_cast<int>(places.size());
-        shared_.is_perspective = first.is_perspective;
-        shared_.needs_nearness = has_samples();
-        std::transform(places.begin(), places.end(), samples_.places.begin(),
-                       [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
-    }
-
-    void paint(const PixelBlock& block, std::size_t index) {
-        std::vector<BlockJob> jobs = block_jobs(placed_, block, true);
-        BlockPixels pixels;
-        kernel_.paint({jobs, placed_.has_walls}, paint_of(block, index), pixels);
-        write_block(pixels, block, first_.picture);
-        if (samples_.samples > 1) {
-            write_nearness(pixels, block);
-            jobs_[index] = std::move(jobs);
-        }
-    }
-
-    // Where surfaces end. `picture`: the result.
-    void sample(const PixelBlock& block, std::size_t index, Image& picture) {
-        SampledPixels sampled;
-        sampled.samples = samples_.samples;
-        sampled.places = samples_.places;
-        choose_sampled(first_, kernel_, block, sampled);
-        if (sampled.count == 0) {
-            return;
-        }
-        BlockPixels pixels;
-        kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block, index), sampled, pixels);
-        for (int i = 0; i < sampled.count; ++i) {
-            const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
-            std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
-                                                    block.first.y + pixel / block_side)),
-                        &pixels.rgba[static_cast<std::size_t>(pixel)], sizeof(Rgba8));
-        }
-    }
-
-    [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
-
-private:
-    [[nodiscard]] BlockPaint paint_of(const PixelBlock& block, std::size_t index) const {
-        BlockPaint paint = shared_;
-        if (!walls_.empty()) {
-            paint.walls = walls_[index];
-        }
-        const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
-        paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
-        paint.from_corner = glm::vec2(middle.x, first_.picture.rows() - middle.y);
-        return paint;
-    }
-
-    void write_nearness(const BlockPixels& pixels, const PixelBlock& block) {
-        for (int row = 0; row < block.size.y; ++row) {
-            const float* const from =
-                pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
-            std::copy_n(from, block.size.x, first_.nearness_at(block.first + glm::ivec2(0, row)));
-        }
-    }
-
-    const PlacedTiles& placed_;
-    BlockKernel kernel_;
-    BlockPaint shared_;
-    PictureRays::Vectors view_;
-    std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
-    FirstSamples& first_;
-    std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
-    SampledPixels samples_;
-};
-
-} // namespace
-
 void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
     // Of a pixel's width: a step of this depth shows another surface.
     constexpr double step_in_pixels = 2.0;
     const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
-    first_.is_perspective = is_perspective(list);
+    first_.is_perspective = list.camera.projection == scene::ProjectionKind::perspective;
     first_.samples_all = options_.samples_all;
     first_.disagreement =
         static_cast<float>(step_in_pixels) * (first_.is_perspective ? pixel.y : pixel.x);
-    Painter painter(list, placed, options_, first_);
+    Painter painter(list, placed, {options_.target, options_.skips, options_.samples}, first_);
     ParallelOptions parallel;
     parallel.threads = options_.threads;
     for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
@@ -453,10 +387,35 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
     }
 }
 
+view::PictureWork Driver::count(const view::DrawList& list, const PlacedTiles& placed) {
+    view::PictureWork work{Grid<view::PixelWork>(list.size.x, list.size.y)};
+    Painter painter(list, placed, {options_.target, options_.skips, 1}, first_);
+    std::vector<std::size_t> beam_taps(static_cast<std::size_t>(block_count(list.size)));
+    ParallelOptions parallel;
+    parallel.threads = options_.threads;
+    for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
+        beam_taps[index] = painter.count(block, index, work.pixels);
+    });
+    work.beam_taps = std::accumulate(beam_taps.begin(), beam_taps.end(), std::size_t{0});
+    return work;
+}
+
+Result<view::PictureWork> Driver::count_work(const view::FrameView& frame) {
+    if (auto possible = check_support(frame.list); !possible) {
+        return possible.error();
+    }
+    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    view::FrameStats stats;
+    return count(streamed.list, placed_tiles(streamed, true, stats));
+}
+
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
     const Stopwatch watch;
     if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
+    }
+    if (!options_.keeps_content) {
+        forget_content();
     }
     const StreamedList streamed = with_tiles_of_reliefs(frame.list);
     view::FrameStats stats = frame.list.stats;
@@ -479,6 +438,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     CastOptions options;
     options.parallel.threads = options_.threads;
     options.target = options_.target;
+    options.skips = options_.skips;
     auto hits = cast_hits(placed, size, options);
     if (!hits) {
         return hits.error();

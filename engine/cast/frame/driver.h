@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/cast/block_rays.h"
 #include "engine/cast/frame/ray_support.h"
 #include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/tile_contents.h"
@@ -34,6 +36,9 @@ struct DriverOptions {
     int samples = 1;
     bool samples_all = false; ///< each sample of all pixels has its own ray, to measure the others
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
+    RaySkips skips = {};                   ///< no influence on the picture
+    /// Keeps what was made of terrains for the next frames. No influence on the picture.
+    bool keeps_content = true;
 };
 
 /// How far rounding of floats moves a hit at most, pixels: what exact rays keep of an error bound
@@ -56,6 +61,9 @@ public:
     /// Draws a frame of size(), and has finished when it returns. Fails as check_support().
     Result<view::FrameStats> draw(const view::FrameView& frame);
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
+    /// What each pixel of draw() costs with one sample: exactly what its rays read and where they
+    /// step. Without the few steps of the beams of whole blocks (RaySkips::free_space).
+    Result<view::PictureWork> count_work(const view::FrameView& frame);
 
     /// The last frame.
     [[nodiscard]] const Image& read_color() const { return first_.picture; }
@@ -78,7 +86,8 @@ private:
     struct Light {
         std::optional<scene::TerrainLight> light;
         std::shared_ptr<const LitLevels> levels;
-        std::shared_ptr<const LitLevels> sun; // without shadows; null: the levels have its light
+        std::shared_ptr<const LitLevels> sun;  // without shadows; null: the levels have its light
+        std::vector<std::int32_t> certain_sun; // BlockJob::certain_sun; empty: not made yet
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
@@ -91,10 +100,12 @@ private:
     const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
     const Light& light_of(const scene::TerrainNode& terrain,
                           const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
+    void add_certain_sun(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile);
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
     void paint(const view::DrawList& list, const PlacedTiles& placed);
+    view::PictureWork count(const view::DrawList& list, const PlacedTiles& placed);
 
     DriverOptions options_;
     FirstSamples first_; // its picture becomes that of all samples

@@ -32,16 +32,19 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const Rel
         static_cast<float>(is_perspective(camera) ? std::min(highest, corner.origin.z) : highest)};
 }
 
+bool needs_beams(const view::DrawList& list) {
+    return std::any_of(list.reliefs.begin(), list.reliefs.end(),
+                       [](const view::TerrainDraw& draw) { return has_beams(draw.technique()); });
+}
+
 Result<void> BeamTarget::prepare(const view::DrawList& list) {
-    const bool needed =
-        std::any_of(list.reliefs.begin(), list.reliefs.end(),
-                    [](const view::TerrainDraw& draw) { return has_beams(draw.technique()); });
-    if (!needed || picture_size_ == list.size) {
+    if (!needs_beams(list) || picture_size_ == list.size) {
         return {};
     }
     auto made = gl::Framebuffer::create(
         {.size = (list.size + bindings::pixels_a_beam - 1) / bindings::pixels_a_beam,
          .color = gl::Format::r32f,
+         .second_color = counts_ ? std::optional(gl::Format::rg32f) : std::nullopt,
          .depth = false});
     if (!made) {
         return made.error();

@@ -22,10 +22,15 @@ struct PictureRays {
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const ReliefSpace& space,
                          const glm::dmat4& local_from_world);
 
+/// Whether rays of a relief in the list begin where their beam may hit.
+bool needs_beams(const view::DrawList& list);
+
 /// The heights down to which beams meet nothing: a float per block of pixels. Created for the first
-/// list with beams.
+/// list with beams. `counts`: also the taps of each beam.
 class BeamTarget {
 public:
+    explicit BeamTarget(bool counts = false) : counts_(counts) {}
+
     Result<void> prepare(const view::DrawList& list);
 
     [[nodiscard]] const gl::Framebuffer& framebuffer() const { return framebuffer_; }
@@ -33,6 +38,7 @@ public:
 private:
     gl::Framebuffer framebuffer_;
     glm::ivec2 picture_size_{0};
+    bool counts_;
 };
 
 /// Sets the rays of beams.frag.

@@ -2,16 +2,18 @@
 
 namespace reljef::render {
 
-DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats)
-    : shaders_(shaders), blocks_(blocks), stats_(stats) {
+DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats,
+                     bool skips)
+    : shaders_(shaders), blocks_(blocks), stats_(stats), skips_(skips) {
     gl::set_reversed_depth();
     gl::set_culling(culling_);
     gl::set_polygon_mode(gl::PolygonMode::fill);
     gl::set_sample_shading(false);
+    gl::set_adding(false);
 }
 
 Result<gl::Program*> DrawState::use(ShaderVariant variant) {
-    if (variant_ == variant) {
+    if (skips_ && variant_ == variant) {
         return program_;
     }
     auto program = shaders_.program(variant);
@@ -33,7 +35,7 @@ Result<void> DrawState::set_block(unsigned int binding, std::span<const std::byt
         return buffer.error();
     }
     const gl::Buffer*& bound = bound_[binding];
-    if (bound != *buffer) {
+    if (!skips_ || bound != *buffer) {
         bound = *buffer;
         bound->bind_uniform_block(binding);
         ++stats_.state_changes;
@@ -42,7 +44,7 @@ Result<void> DrawState::set_block(unsigned int binding, std::span<const std::byt
 }
 
 void DrawState::set_sample_shading(bool on) {
-    if (on != shades_samples_) {
+    if (!skips_ || on != shades_samples_) {
         gl::set_sample_shading(on);
         shades_samples_ = on;
         ++stats_.state_changes;
@@ -50,7 +52,7 @@ void DrawState::set_sample_shading(bool on) {
 }
 
 void DrawState::set_culling(gl::Culling culling) {
-    if (culling != culling_) {
+    if (!skips_ || culling != culling_) {
         gl::set_culling(culling);
         culling_ = culling;
         ++stats_.state_changes;
@@ -58,9 +60,17 @@ void DrawState::set_culling(gl::Culling culling) {
 }
 
 void DrawState::set_wireframe(bool wireframe) {
-    if (wireframe != wireframe_) {
+    if (!skips_ || wireframe != wireframe_) {
         gl::set_polygon_mode(wireframe ? gl::PolygonMode::line : gl::PolygonMode::fill);
         wireframe_ = wireframe;
+        ++stats_.state_changes;
+    }
+}
+
+void DrawState::set_adding(bool adding) {
+    if (!skips_ || adding != adding_) {
+        gl::set_adding(adding);
+        adding_ = adding;
         ++stats_.state_changes;
     }
 }

@@ -20,8 +20,10 @@ namespace reljef::render {
 /// pass sets all state that it needs. Needs a current context.
 class DrawState {
 public:
-    /// Sets reversed depth, filled triangles and back-face culling.
-    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
+    /// Sets reversed depth, filled triangles, back-face culling, and colours that replace others.
+    /// `skips`: redundant changes.
+    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats,
+              bool skips = true);
 
     /// Binds the variant's program. Programs with a surface search run per sample. Fails as
     /// ShaderLibrary::program.
@@ -31,6 +33,8 @@ public:
     }
     void set_culling(gl::Culling culling);
     void set_wireframe(bool wireframe);
+    /// Whether fragments add to the colours that are there.
+    void set_adding(bool adding);
 
     void draw(const ResidentMesh& mesh, gl::IndexType type);
 
@@ -43,11 +47,13 @@ private:
     ShaderLibrary& shaders_;
     BlockBuffers& blocks_;
     view::FrameStats& stats_;
+    bool skips_;
     std::optional<ShaderVariant> variant_;
     gl::Program* program_ = nullptr;
     std::map<unsigned int, const gl::Buffer*> bound_;
     gl::Culling culling_ = gl::Culling::back;
     bool wireframe_ = false;
+    bool adding_ = false;
     bool shades_samples_ = false;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/render/passes/draw_state.h"
+#include "engine/render/passes/skips.h"
 #include "engine/render/residency/residency.h"
 #include "engine/view/draw_list.h"
 
@@ -19,11 +20,16 @@ struct FrameContext {
     const gl::Framebuffer& picture;
     const gl::Framebuffer& beams; ///< used by techniques with beams (beams.h)
     const gl::VertexArray& no_vertices;
+    const Skips& skips;
     DrawState& state;
+
+    /// Whether fragments add their work to the picture instead of their colours.
+    [[nodiscard]] bool counts() const { return (features & feature_count) != 0; }
 };
 
-/// The features that all programs of the list share. `samples`: per pixel of the picture.
-std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples = 1);
+/// The features that all programs of the list share, see Skips::features. `samples`: per pixel of
+/// the picture.
+std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples, bool skips);
 
 // The passes. They fail as ShaderLibrary::program and without memory.
 

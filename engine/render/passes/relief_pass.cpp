@@ -88,6 +88,10 @@ void set_origin(gl::Program& program, const DrawnSpace& drawn) {
     program.set(uniforms.samples_a_cell, static_cast<float>(drawn.samples_a_cell));
 }
 
+bool uses_beams(const FrameContext& frame, const scene::Technique& technique) {
+    return frame.skips.beams && has_beams(technique);
+}
+
 void set_own_heights(gl::Program& program, const ResidentRelief& relief) {
     relief.heights.bind(bindings::height_map_unit);
     if (relief.max_mipmap) {
@@ -171,7 +175,9 @@ void set_heights(gl::Program& program, const FrameContext& frame, const view::Te
 
 Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw) {
     DrawState& state = frame.state;
-    auto program = state.use({ShaderKind::beams, surface_features(draw)});
+    state.set_adding(false);
+    auto program =
+        state.use({ShaderKind::beams, surface_features(draw) | (frame.features & feature_count)});
     if (!program) {
         return program.error();
     }
@@ -252,6 +258,17 @@ float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& 
     return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
 }
 
+void set_certain_sun(gl::Program& program, const FrameContext& frame,
+                     const view::TerrainDraw& draw) {
+    const gl::Texture2D* const map = frame.skips.certain && !frame.hits && !is_streamed(draw)
+                                         ? frame.residency.certain_sun(draw)
+                                         : nullptr;
+    if (map != nullptr) {
+        map->bind(bindings::certain_sun_unit);
+    }
+    program.set(uniforms.has_certain_sun, map != nullptr ? 1 : 0);
+}
+
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::TerrainDraw& draw) {
     const scene::Technique& technique = draw.technique();
@@ -262,6 +279,11 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         ++frame.state.stats().state_changes;
     }
     set_heights(program, frame, draw);
+    if (!frame.skips.blocks) {
+        program.set(uniforms.top_level, 0);
+    }
+    set_certain_sun(program, frame, draw);
+    program.set(uniforms.max_unlit, frame.skips.unlit ? 0.0F : -1.0F);
     set_origin(program, drawn);
     set_space(program, frame.list.camera, space, draw.world_from_local);
     if (draw.course) {
@@ -269,7 +291,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
             return set;
         }
     }
-    if (has_beams(technique)) {
+    if (uses_beams(frame, technique)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
@@ -283,17 +305,20 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     const scene::Technique& technique = draw.technique();
     DrawState& state = frame.state;
     frame.no_vertices.bind();
-    if (has_beams(technique)) {
+    if (uses_beams(frame, technique)) {
         if (auto drawn = draw_beams(frame, draw); !drawn) {
             return drawn;
         }
     }
-    auto program = state.use({ShaderKind::relief, frame.features | technique_features(technique) |
-                                                      surface_features(draw)});
+    const std::uint32_t unused = uses_beams(frame, technique) ? 0U : feature_beams;
+    auto program =
+        state.use({ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
+                                           surface_features(draw)});
     if (!program) {
         return program.error();
     }
     state.set_wireframe(draw.terrain->material.wireframe);
+    state.set_adding(frame.counts());
     if (auto set = set_relief(**program, frame, draw); !set) {
         return set;
     }

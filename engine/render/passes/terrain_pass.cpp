@@ -38,6 +38,7 @@ class TerrainPass {
 public:
     explicit TerrainPass(const FrameContext& frame) : frame_(frame), state_(frame.state) {
         state_.set_culling(gl::Culling::back);
+        state_.set_adding(frame.counts());
     }
 
     // The tile with this index in the list.
@@ -62,9 +63,9 @@ public:
     }
 
 private:
-    // Hits are on the terrain itself.
+    // Hits are on the terrain itself, and details do not count.
     [[nodiscard]] view::DetailLevel shown(view::DetailLevel detail) const {
-        return frame_.hits ? view::DetailLevel::none : detail;
+        return frame_.hits || frame_.counts() ? view::DetailLevel::none : detail;
     }
 
     [[nodiscard]] bool has_ground() const { return detail_ != view::DetailLevel::none; }

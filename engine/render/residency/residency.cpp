@@ -11,6 +11,7 @@
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/scene/streaming/certain_sun.h"
 #include "engine/view/terrain_maps.h"
 
 namespace reljef::render {
@@ -49,6 +50,20 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
     return upload_light(surface, parts.sky, parts.sun, stats);
 }
 
+// Empty if nothing is certain of the sun: only exact finds all that hides it.
+std::optional<scene::TerrainLight> light_of_certain_sun(const view::DrawList& list,
+                                                        const view::TerrainDraw& draw) {
+    const scene::Technique& technique = draw.terrain->material.technique;
+    const bool casts_hard_shadows = technique.id() == scene::TechniqueId::exact &&
+                                    technique.options.shadow &&
+                                    technique.options.shadow->depth <= 0.0;
+    const auto light = view::light_on(list, draw.world_from_local);
+    const bool is_known =
+        casts_hard_shadows && light &&
+        scene::sun_in_samples(draw.terrain->surface->placement(), *light).has_value();
+    return is_known ? light : std::nullopt;
+}
+
 Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMaps>& cones,
                                    const Grid<float>& heights, view::FrameStats& stats) {
     const Grid<glm::vec2> texels =
@@ -71,6 +86,8 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;
     for (const view::TerrainDraw& draw : list.reliefs) {
         done = done && draw.tiles.empty() ? prepare_relief(draw, stats) : done;
+        done =
+            done && with_maps && draw.tiles.empty() ? prepare_certain_sun(list, draw, stats) : done;
     }
     std::vector<view::MeshDraw> meshes = list.meshes;
     meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
@@ -198,6 +215,40 @@ Result<void> Residency::prepare_relief(const view::TerrainDraw& draw, view::Fram
                        : Result<void>();
 }
 
+Result<void> Residency::prepare_certain_sun(const view::DrawList& list,
+                                            const view::TerrainDraw& draw,
+                                            view::FrameStats& stats) {
+    Surface& surface = surface_of(draw.terrain->surface);
+    const auto light = light_of_certain_sun(list, draw);
+    if (!light) {
+        surface.certain_sun.reset();
+        return {};
+    }
+    if (surface.certain_sun && surface.certain_light == light) {
+        ++stats.skipped.uploads_unchanged;
+        return {};
+    }
+    const scene::TerrainSurface& of = *draw.terrain->surface;
+    // relief_shadow.glsl begins 1/4096 of the heights above the surface; some renderers interpolate
+    // heights to 1/256 of a cell.
+    const terrain::MinMax total = of.pyramid().total();
+    const double range = total.high - total.low;
+    const auto known = scene::certain_sun(
+        of.heightfield().heights.view(),
+        {*scene::sun_in_samples(of.placement(), *light), range / 2048.0, range / 16.0});
+    Grid<float> texels(known.cols(), known.rows());
+    std::transform(known.samples().begin(), known.samples().end(), texels.samples().begin(),
+                   [](scene::CertainSun cell) { return static_cast<float>(cell); });
+    auto texture =
+        upload_grid(texels, {.format = gl::Format::r32f, .filter = gl::Filter::nearest}, stats);
+    if (!texture) {
+        return texture.error();
+    }
+    surface.certain_light = light;
+    surface.certain_sun = std::move(*texture);
+    return {};
+}
+
 Result<void> Residency::prepare_warped(const view::DrawList& list, view::FrameStats& stats) {
     std::map<const scene::TerrainNode*, gl::Texture2D> last = std::exchange(warped_, {});
     for (const view::TileDraw& draw : list.tiles) {
@@ -225,6 +276,11 @@ const ResidentRelief& Residency::relief(const view::TerrainDraw& draw) const {
     const auto& relief = surfaces_.at(draw.terrain->surface.get()).relief;
     check(relief.has_value(), "a relief that was not prepared");
     return *relief;
+}
+
+const gl::Texture2D* Residency::certain_sun(const view::TerrainDraw& draw) const {
+    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
+    return surface.certain_sun ? &*surface.certain_sun : nullptr;
 }
 
 const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {

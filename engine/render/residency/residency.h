@@ -42,6 +42,9 @@ public:
     /// Uploads the list's content and counts it in `stats`. Fails without GL memory.
     Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
 
+    /// Tiles get new triangles in the next frame.
+    void forget_cuts() { terrain_meshes_.forget_cuts(); }
+
     /// Adds precomputed light of a terrain in the next frame. Fails without GL memory.
     Result<void> add_light(const view::PreparedLight& prepared);
 
@@ -53,6 +56,9 @@ public:
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
     [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
+    /// What is certain of the sun in each cell (scene::CertainSun as a float), for exact with hard
+    /// shadows on a plane; else null.
+    [[nodiscard]] const gl::Texture2D* certain_sun(const view::TerrainDraw& draw) const;
     /// warped_places() for prewarp.
     [[nodiscard]] const gl::Texture2D& warped(const scene::TerrainNode& terrain) const;
 
@@ -66,6 +72,8 @@ private:
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::vector<LitMaps> maps; // one per light of the last frame
         std::optional<ResidentRelief> relief;
+        std::optional<scene::TerrainLight> certain_light; // of the map
+        std::optional<gl::Texture2D> certain_sun;
     };
     void forget_unused();
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
@@ -76,6 +84,8 @@ private:
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              view::FrameStats& stats);
     Result<void> prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats);
+    Result<void> prepare_certain_sun(const view::DrawList& list, const view::TerrainDraw& draw,
+                                     view::FrameStats& stats);
     Result<void> prepare_warped(const view::DrawList& list, view::FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;

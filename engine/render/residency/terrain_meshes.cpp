@@ -261,6 +261,14 @@ std::vector<TerrainMeshes::Outdated> TerrainMeshes::outdated_cuts(Group& group, 
     return outdated;
 }
 
+void TerrainMeshes::forget_cuts() {
+    for (auto& [key, group] : groups_) {
+        for (auto& [id, entry] : group.tiles) {
+            entry.version = 0;
+        }
+    }
+}
+
 // The triangles of the tiles that need others. Empty if all tiles together have too many.
 std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const Draws& draws) {
     const bool by_error = std::holds_alternative<terrain::ErrorView>(group.coarseness);

@@ -23,6 +23,8 @@ namespace reljef::render {
 class TerrainMeshes {
 public:
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
+    /// Tiles are cut again in the next frame.
+    void forget_cuts();
 
     /// The parts of the tile with this index in the prepared list.
     [[nodiscard]] std::span<const ResidentMesh> tile(std::size_t index) const {

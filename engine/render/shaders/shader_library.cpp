@@ -18,13 +18,13 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 26> feature_names{
+constexpr std::array<std::string_view, 27> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED",
-    "STREAMED",    "CURVED"};
-static_assert(std::bit_width(std::uint32_t{feature_curved}) == feature_names.size());
+    "STREAMED",    "CURVED",       "COUNT"};
+static_assert(std::bit_width(std::uint32_t{feature_count}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -243,6 +243,21 @@ bool is_lit_per_pixel(ShaderKind kind) {
     return kind != ShaderKind::terrain && kind != ShaderKind::relief;
 }
 
+bool counts_work(ShaderVariant variant) {
+    const bool is_terrain = variant.kind == ShaderKind::terrain ||
+                            variant.kind == ShaderKind::relief || variant.kind == ShaderKind::beams;
+    return is_terrain && (variant.features & feature_hit) == 0 &&
+           (variant.features & feature_count) != 0;
+}
+
+ShaderVariant counting_variant(ShaderVariant variant) {
+    constexpr std::uint32_t looks =
+        feature_count | feature_fog | feature_write_depth | feature_multisampled;
+    variant = canonical_variant({variant.kind, variant.features & ~looks});
+    variant.features |= feature_count;
+    return variant;
+}
+
 } // namespace
 
 bool searches_for_surface(ShaderKind kind) {
@@ -251,6 +266,9 @@ bool searches_for_surface(ShaderKind kind) {
 }
 
 ShaderVariant canonical_variant(ShaderVariant variant) {
+    if (counts_work(variant)) {
+        return counting_variant(variant);
+    }
     variant.features &= ~(has_ground(variant.kind) ? feature_hit : 0U);
     const std::uint32_t own =
         own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);

@@ -64,6 +64,7 @@ enum ShaderFeature : std::uint32_t {
     feature_multisampled = 1U << 23U,
     feature_streamed = 1U << 24U, ///< relief over the tiles of a stream
     feature_curved = 1U << 25U,   ///< relief on the ellipsoid: view rays are bent
+    feature_count = 1U << 26U,    ///< of a terrain: writes its work instead of colours
 };
 
 struct ShaderVariant {
@@ -75,7 +76,8 @@ struct ShaderVariant {
 
 /// The variant without features that have no effect. Hits have no light, fog, shadows, smooth edges
 /// or samples. The sky has no fog. Sky and surface detail on terrains are never hit. A terrain's
-/// light is in its map unless a relief casts shadows. Parallax follows no ray.
+/// light is in its map unless a relief casts shadows. Parallax follows no ray. Work is that of a
+/// colour, whose air and depth cost no taps.
 ShaderVariant canonical_variant(ShaderVariant variant);
 
 /// Programs by variant, compiled on first use. Needs a current context.

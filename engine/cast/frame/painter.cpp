@@ -1,0 +1,156 @@
+#include "engine/cast/frame/painter.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <span>
+
+#include "engine/cast/frame/base_walls.h"
+#include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/daylight.h"
+
+namespace reljef::cast {
+namespace {
+
+bool is_perspective(const view::DrawList& list) {
+    return list.camera.projection == scene::ProjectionKind::perspective;
+}
+
+// World directions of the rays.
+PictureRays::Vectors view_of(const view::DrawList& list) {
+    const auto at = [&](glm::dvec2 pixel) {
+        return scene::view_ray(list.camera, list.size, pixel).direction;
+    };
+    const glm::dvec2 extent(list.size);
+    const glm::dvec3 first = at({0.0, 0.0});
+    return {first, (at({extent.x, 0.0}) - first) / extent.x,
+            (at({0.0, extent.y}) - first) / extent.y};
+}
+
+BlockPaint backdrop_of(const view::DrawList& list) {
+    BlockPaint paint;
+    if (list.sky) {
+        paint.has_sky = true;
+        const scene::Sky& sky = *list.sky;
+        const scene::AirSeen air = scene::air_seen(sky, list.camera);
+        paint.horizon = sky.horizon;
+        paint.zenith = sky.zenith;
+        paint.glow = sky.glow;
+        paint.curve = sky.curve;
+        paint.has_plane = air.has_plane;
+        paint.plane = sky.plane.value_or(glm::vec3(0.0F));
+        // On a map there is no viewing distance.
+        paint.has_air = is_perspective(list) && sky.visibility > 0.0;
+        paint.extinction = air.extinction;
+        paint.eye_above = air.eye_above;
+        paint.eye_density = air.eye_density;
+        paint.per_height = air.per_height;
+    }
+    if (list.sun) {
+        paint.has_sun = true;
+        paint.sun = list.sun->color;
+        paint.to_sun = glm::vec3(scene::to_light(*list.sun));
+    }
+    return paint;
+}
+
+// The bytes of a pixel are those of Rgba8.
+static_assert(std::endian::native == std::endian::little);
+
+void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& picture) {
+    const auto width = static_cast<std::size_t>(block.size.x);
+    for (int row = 0; row < block.size.y; ++row) {
+        const std::uint32_t* const from =
+            pixels.rgba.data() + static_cast<std::size_t>(row) * block_side;
+        Rgba8* const to = &picture(block.first.x, block.first.y + row);
+        std::memcpy(static_cast<void*>(to), from, width * sizeof(Rgba8));
+    }
+}
+
+} // namespace
+
+Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
+                 const PainterOptions& options, FirstSamples& first)
+    : placed_(placed), skips_(options.skips),
+      kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)), shared_(backdrop_of(list)),
+      view_(view_of(list)), walls_(base_walls(list)), first_(first),
+      jobs_(static_cast<std::size_t>(block_count(list.size))) {
+    shared_.anchor =
+        placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
+    const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
+    samples_.samples = static_cast<int>(places.size());
+    shared_.is_perspective = first.is_perspective;
+    shared_.needs_nearness = has_samples();
+    std::transform(places.begin(), places.end(), samples_.places.begin(),
+                   [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
+}
+
+void Painter::paint(const PixelBlock& block, std::size_t index) {
+    std::vector<BlockJob> jobs = block_jobs(placed_, block, skips_);
+    BlockPixels pixels;
+    kernel_.paint({jobs, placed_.has_walls}, paint_of(block, index), pixels);
+    write_block(pixels, block, first_.picture);
+    if (samples_.samples > 1) {
+        write_nearness(pixels, block);
+        jobs_[index] = std::move(jobs);
+    }
+}
+
+std::size_t Painter::count(const PixelBlock& block, std::size_t index,
+                           Grid<view::PixelWork>& pixels) const {
+    std::vector<BlockJob> jobs = block_jobs(placed_, block, skips_);
+    BlockWork work;
+    kernel_.count({jobs, placed_.has_walls}, paint_of(block, index), work);
+    for (int row = 0; row < block.size.y; ++row) {
+        for (int col = 0; col < block.size.x; ++col) {
+            const auto at =
+                static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
+            pixels(block.first.x + col,
+                   block.first.y + row) = {static_cast<std::uint32_t>(work.taps[at]),
+                                           static_cast<std::uint32_t>(work.steps[at]),
+                                           static_cast<std::uint32_t>(work.rays[at])};
+        }
+    }
+    return work.beam_taps;
+}
+
+void Painter::sample(const PixelBlock& block, std::size_t index, Image& picture) {
+    SampledPixels sampled;
+    sampled.samples = samples_.samples;
+    sampled.places = samples_.places;
+    choose_sampled(first_, kernel_, block, sampled);
+    if (sampled.count == 0) {
+        return;
+    }
+    BlockPixels pixels;
+    kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block, index), sampled, pixels);
+    for (int i = 0; i < sampled.count; ++i) {
+        const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
+        std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
+                                                block.first.y + pixel / block_side)),
+                    &pixels.rgba[static_cast<std::size_t>(pixel)], sizeof(Rgba8));
+    }
+}
+
+BlockPaint Painter::paint_of(const PixelBlock& block, std::size_t index) const {
+    BlockPaint paint = shared_;
+    if (!walls_.empty()) {
+        paint.walls = walls_[index];
+    }
+    const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
+    paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
+    paint.from_corner = glm::vec2(middle.x, first_.picture.rows() - middle.y);
+    return paint;
+}
+
+void Painter::write_nearness(const BlockPixels& pixels, const PixelBlock& block) {
+    for (int row = 0; row < block.size.y; ++row) {
+        const float* const from =
+            pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
+        std::copy_n(from, block.size.x, first_.nearness_at(block.first + glm::ivec2(0, row)));
+    }
+}
+
+} // namespace reljef::cast

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "engine/cast/block_kernel.h"
+#include "engine/cast/block_rays.h"
+#include "engine/cast/picture_rays.h"
+#include "engine/cast/picture_samples.h"
+#include "engine/cast/simd_target.h"
+#include "engine/core/color.h"
+#include "engine/core/grid.h"
+#include "engine/view/draw_list.h"
+#include "engine/view/frame_stats.h"
+
+namespace reljef::cast {
+
+struct PainterOptions {
+    std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
+    RaySkips skips = {};
+    int samples = 1; ///< of a pixel
+};
+
+/// Draws the blocks of a picture. May be called from several threads for different blocks.
+class Painter {
+public:
+    /// `placed` and `first` outlive this object.
+    Painter(const view::DrawList& list, const PlacedTiles& placed, const PainterOptions& options,
+            FirstSamples& first);
+
+    /// Into the picture of the first samples.
+    void paint(const PixelBlock& block, std::size_t index);
+    /// Returns the taps of the block's beams.
+    [[nodiscard]] std::size_t count(const PixelBlock& block, std::size_t index,
+                                    Grid<view::PixelWork>& pixels) const;
+    /// Where surfaces end. `picture`: the result. Precondition: all blocks are painted.
+    void sample(const PixelBlock& block, std::size_t index, Image& picture);
+
+    [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
+
+private:
+    [[nodiscard]] BlockPaint paint_of(const PixelBlock& block, std::size_t index) const;
+    void write_nearness(const BlockPixels& pixels, const PixelBlock& block);
+
+    const PlacedTiles& placed_;
+    RaySkips skips_;
+    BlockKernel kernel_;
+    BlockPaint shared_;
+    PictureRays::Vectors view_;
+    std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
+    FirstSamples& first_;
+    std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
+    SampledPixels samples_;
+};
+
+} // namespace reljef::cast
