@@ -30,6 +30,11 @@ function grouped(value) {
   return isNumber(value) ? String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, '\u2009') : absent;
 }
 
+// With its sign.
+function signed(value) {
+  return isNumber(value) ? (value < 0 ? '−' : '') + figure(Math.abs(value)) : absent;
+}
+
 function percent(share, decimals = 1) {
   return isNumber(share) ? (100 * share).toFixed(decimals) : absent;
 }

@@ -41,12 +41,16 @@ std::size_t add_truth(Album& album, const RowView::File& truth) {
 }
 
 PageJson add_pictures_of(Album& album, std::size_t row, const RowView& view) {
-    return {{"row", row},
-            {"width", view.size.x},
-            {"height", view.size.y},
-            {"shown", add_picture(album, "image/jpeg", view.shown)},
-            {"truth", add_truth(album, *view.truth)},
-            {"heat", add_picture(album, "image/png", view.heat)}};
+    PageJson pictures{{"row", row},
+                      {"width", view.size.x},
+                      {"height", view.size.y},
+                      {"shown", add_picture(album, "image/jpeg", view.shown)},
+                      {"truth", add_truth(album, *view.truth)},
+                      {"heat", add_picture(album, "image/png", view.heat)}};
+    if (!view.work.empty()) {
+        pictures["work"] = add_picture(album, "image/png", view.work);
+    }
+    return pictures;
 }
 
 std::string css_color(Rgba8 color) {
@@ -57,10 +61,9 @@ PageJson scale_of_errors() {
     const auto scale = heat_scale();
     PageJson colors = PageJson::array();
     std::transform(scale.begin(), scale.end(), std::back_inserter(colors), css_color);
-    return {{"low", heat_low_px},
-            {"high", heat_high_px},
-            {"unbounded", css_color(heat_unbounded)},
-            {"colors", std::move(colors)}};
+    return {
+        {"low", heat_low_px},   {"high", heat_high_px},   {"unbounded", css_color(heat_unbounded)},
+        {"work_low", work_low}, {"work_high", work_high}, {"colors", std::move(colors)}};
 }
 
 std::string pictures_as_json(const std::vector<Row>& rows) {

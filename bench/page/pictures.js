@@ -1,16 +1,26 @@
 // The picture, the truth and the error of each row, with a slider to compare two of them.
 
-function legendOf(scale) {
-  const ramp = 'linear-gradient(to right, ' + scale.colors.join(', ') + ')';
+function rampOf(colors, low, high, unit) {
+  const ramp = 'linear-gradient(to right, ' + colors.join(', ') + ')';
   const powers = [];
-  for (let value = scale.low; value <= 1.001 * scale.high; value *= 10) powers.push(Number(value.toPrecision(1)));
-  const place = value => 100 * Math.log(value / scale.low) / Math.log(scale.high / scale.low) + '%';
+  for (let value = low; value <= 1.001 * high; value *= 10) powers.push(Number(value.toPrecision(1)));
+  const place = value => 100 * Math.log(value / low) / Math.log(high / low) + '%';
+  return element('div', {class: 'ramp', '--ramp': ramp},
+    powers.map(value => element('span', {'--place': place(value)}, String(value))),
+    element('span', {class: 'ramp-unit'}, unit));
+}
+
+function legendOf(scale) {
   return element('div', {class: 'legend', role: 'img', 'aria-label': 'Colours of the error from ' + scale.low + ' to ' + scale.high + ' pixels, logarithmic'},
-    element('div', {class: 'ramp', '--ramp': ramp},
-      powers.map(value => element('span', {'--place': place(value)}, String(value))),
-      element('span', {class: 'ramp-unit'}, 'px')),
+    rampOf(scale.colors, scale.low, scale.high, 'px'),
     element('span', {class: 'swatch', '--color': scale.unbounded}, 'no bound'),
     element('span', {class: 'swatch hatch'}, 'no terrain'));
+}
+
+function legendOfWork(scale) {
+  return element('div', {class: 'legend', role: 'img', 'aria-label': 'Colours of the taps of a pixel from ' + scale.work_low + ' to ' + scale.work_high + ', logarithmic'},
+    rampOf(scale.colors, scale.work_low, scale.work_high, 'taps'),
+    element('span', {class: 'swatch hatch'}, 'none'));
 }
 
 function factsOf(row) {
@@ -67,7 +77,7 @@ function stageOf(wipe, shown, sources, title) {
 }
 
 function againstChoice(wipe, sources, id) {
-  const choices = [['truth', 'truth'], ['heat', 'error']];
+  const choices = [['truth', 'truth'], ['heat', 'error'], ['work', 'taps']].filter(([key]) => sources[key]);
   return element('fieldset', {class: 'against'}, element('legend', {}, 'Picture against'),
     choices.map(([key, name]) => element('label', {},
       element('input', {type: 'radio', name: 'against-' + id, checked: key === 'truth', onchange: () => compareWith(wipe, name, sources[key])}), name)));
@@ -83,19 +93,19 @@ function wipeOf(shown, sources, title, id) {
 }
 
 function strip(shown, sources, title) {
-  const panels = [['shown', 'picture'], ['truth', 'truth'], ['heat', 'error']];
+  const panels = [['shown', 'picture'], ['truth', 'truth'], ['heat', 'error'], ['work', 'taps']].filter(([key]) => sources[key]);
   return element('div', {class: 'strip'}, panels.map(([key, name]) =>
     element('figure', {}, picture(sources[key], name + ' of ' + title, shown), element('figcaption', {}, name))));
 }
 
 function comparison(shown, row, album) {
-  const sources = {shown: album.images[shown.shown], truth: album.images[shown.truth], heat: album.images[shown.heat]};
+  const sources = {shown: album.images[shown.shown], truth: album.images[shown.truth], heat: album.images[shown.heat], work: album.images[shown.work]};
   const title = labelOf(row) + ', ' + titleOf(row);
   return element('article', {class: 'comparison', id: 'row-' + shown.row},
     element('header', {}, element('h3', {}, labelOf(row)), element('p', {class: 'place'}, titleOf(row)), tagsOf(row)),
     factList(row),
     element('div', {class: 'side-by-side'}, wipeOf(shown, sources, title, shown.row), strip(shown, sources, title)),
-    legendOf(album.scale));
+    legendOf(album.scale), sources.work ? legendOfWork(album.scale) : null);
 }
 
 function showPictures(report, album) {

@@ -272,6 +272,7 @@ function keyOf(techniques) {
 }
 
 function showPlots(report) {
+  if (isOfSkips(report)) return; // all of its pictures are the same
   const techniques = techniquesOf(report.rows);
   const groups = groupsOf(report.rows).filter(group => group.rows.some(({row}) => isMeasured(row) && row.error));
   if (!groups.length) return;

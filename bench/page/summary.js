@@ -1,8 +1,13 @@
 // The heading, the environment and the summary tiles.
 
+function isOfSkips(report) {
+  return report.rows.some(row => row.skip);
+}
+
 function headline(report) {
   const techniques = techniquesOf(report.rows).length;
   const scenes = unique(report.rows.map(row => row.scene)).length;
+  if (isOfSkips(report)) return 'What skipping saves on ' + counted(scenes, 'terrain');
   return 'Frame time and error of ' + counted(techniques, 'technique') + ' on ' + counted(scenes, 'terrain');
 }
 
@@ -14,7 +19,7 @@ function subtitle(report) {
   const most = Math.max(...frames);
   const drawn = !frames.length ? '' : least === most ? ', ' + least + ' frames each' : ', ' + least + ' to ' + most + ' frames each';
   return sizes.join(' and ') + ' pixels, ' + (poses.length === 1 ? 'pose ' : 'poses ') + poses.join(', ') + drawn +
-    '. Every picture is compared with the exact one.';
+    (isOfSkips(report) ? '. Pictures with and without each kind of skipping are compared.' : '. Every picture is compared with the exact one.');
 }
 
 function environmentList(environment) {
@@ -75,8 +80,28 @@ function noiseTile(measured) {
     'how far a technique differs from itself');
 }
 
+// How many pictures are the same, and what saves the most and the least of the time.
+function skipTiles(report, measured) {
+  const rows = measured.filter(row => at(row, 'skip.without'));
+  const same = rows.filter(row => !row.skip.difference.pixels && !row.skip.difference.hits).length;
+  const share = row => row.skip.saved.ms / (row.ms.median - row.skip.saved.ms);
+  const place = row => labelOf(row) + ', ' + titleOf(row);
+  const sorted = [...rows].sort((a, b) => share(b) - share(a));
+  const shareTile = (name, row) => tile(name, percent(share(row), 0), '%', place(row));
+  return [
+    measuredTile(report, measured),
+    tile('Pictures with the same bits', String(same), 'of ' + rows.length, 'the others are rounded, or marked'),
+    ...(sorted.length ? [shareTile('Saves the most time', sorted[0]), shareTile('Saves the least time', sorted[sorted.length - 1])] : []),
+    noiseTile(measured),
+  ];
+}
+
 function showSummary(report) {
   const measured = report.rows.filter(row => isMeasured(row) && !row.null_row);
+  if (isOfSkips(report)) {
+    byId('summary').append(element('div', {class: 'tiles'}, skipTiles(report, measured)));
+    return;
+  }
   const place = row => labelOf(row) + ' on ' + viewOf(row);
   const drop = row => isNumber(dropOf(row)) ? '; ' + percent(dropOf(row), 0) + '\u00a0% below texture' : '';
   const shown = measured.filter(row => !showsNothing(row));

@@ -19,9 +19,43 @@ const columns = [
   {group: 'Picture', title: 'PSNR dB', value: psnrOf, cell: psnrCell},
   {group: 'Picture', title: 'SSIM', value: row => at(row, 'error.ssim'), text: value => fixed(value, 3)},
   {group: 'Picture', title: 'FLIP', value: row => at(row, 'error.flip'), text: figure},
+  {group: 'Skipping it saves', title: 'ms', value: savingOf('ms'), text: signed},
+  {group: 'Skipping it saves', title: 'taps a pixel', value: row => perPixel(row, savingOf('taps')(row)), text: signed},
+  {group: 'Skipping it saves', title: 'rays', value: savingOf('rays'), text: grouped},
+  {group: 'Skipping it saves', title: 'triangles', value: savingOf('triangles'), text: grouped},
+  {group: 'Skipping it saves', title: 'kB uploaded', value: row => thousandth(savingOf('bytes_uploaded')(row)), text: grouped},
+  {group: 'Skipping it saves', title: 'kB read', value: row => thousandth(savingOf('bytes_read')(row)), text: grouped},
+  {group: 'Skipping it saves', title: 'picture', value: row => at(row, 'skip.difference.hits'), cell: samenessCell},
+  {group: 'Work of a pixel', title: 'taps', value: row => row.taps, text: figure},
+  {group: 'Work of a pixel', title: 'steps', value: row => perPixel(row, at(row, 'work.steps')), text: figure},
+  {group: 'Work of a pixel', title: 'rays', value: row => perPixel(row, at(row, 'work.rays')), text: figure},
   {group: 'Run', title: 'triangles', value: row => row.triangles, text: grouped},
   {group: 'Run', title: 'noise %', value: row => row.noise_floor, text: percent},
 ];
+
+// What a kind of skipping saves; nothing for the row that skips everything.
+function savingOf(key) {
+  return row => (at(row, 'skip.without') ? at(row, 'skip.saved.' + key) : undefined);
+}
+
+function thousandth(value) {
+  return isNumber(value) ? value / 1000 : undefined;
+}
+
+function perPixel(row, count) {
+  if (!isNumber(count) || !row.size) return undefined;
+  const [width, height] = row.size.split('x').map(Number);
+  return count / (width * height);
+}
+
+function samenessCell(row) {
+  if (!at(row, 'skip.without')) return absent;
+  const found = row.skip.difference;
+  if (!found.pixels && !found.hits) return 'same bits';
+  const text = (found.hits ? found.max_px <= found.tolerance_px : found.levels <= found.tolerance_levels) ? 'rounded' : 'another';
+  return element('span', {title: grouped(found.pixels) + ' pixels by up to ' + found.levels + ' of 255; ' + grouped(found.hits) +
+    ' hits, ' + figure(found.max_px) + ' px from their pixels, ' + figure(found.tolerance_px) + ' are allowed'}, text);
+}
 
 // Infinite for identical pictures.
 function psnrOf(row) {
@@ -134,7 +168,11 @@ function tableHead(table) {
 }
 
 function isShown(column, entries) {
-  return column.group !== 'Sources' || entries.some(({row}) => row.source);
+  const hasSkips = entries.some(({row}) => row.skip);
+  if (column.group === 'Sources') return entries.some(({row}) => row.source);
+  if (column.group === 'Skipping it saves') return hasSkips;
+  if (column.group === 'Work of a pixel') return entries.some(({row}) => row.work);
+  return !hasSkips || ['Frame time', 'Run'].includes(column.group) && !['× texture', 'drop %', 'FPS', '1 % low'].includes(column.title);
 }
 
 function tableOf(group) {
@@ -153,6 +191,12 @@ function tableOf(group) {
 function sourcesOf(group) {
   const places = unique(group.rows.map(({row}) => at(row, 'source.where')));
   return places.length ? element('p', {class: 'note'}, 'Sources: ' + places.join('; ') + '.') : null;
+}
+
+// The kinds of skipping, and the errors of the picture that all of its rows show.
+function kindsOf(group) {
+  const kinds = group.rows.map(({row}) => row.skip).filter(skip => skip && skip.without);
+  return kinds.length ? element('p', {class: 'note'}, kinds.map(skip => skip.without + ': ' + skip.meaning).join('; ') + '.') : null;
 }
 
 // The smallest errors that pictures can have here: those of exact.
@@ -174,6 +218,6 @@ function showTables(report) {
     section.append(element('article', {class: 'table'},
       element('h3', {id}, group.title),
       element('div', {class: 'scroll', role: 'region', tabindex: '0', 'aria-labelledby': id}, tableOf(group)),
-      sourcesOf(group), floorOf(group)));
+      sourcesOf(group), kindsOf(group), floorOf(group)));
   });
 }

@@ -76,6 +76,8 @@ static void describe(Fields& fields, typename Fields::template Of<Timing>& timin
     fields.field("triangles", timing.stats.triangles);
     fields.field("draws", timing.stats.draws);
     fields.field("uploads", timing.stats.uploads);
+    fields.later_field("bytes_uploaded", timing.stats.upload_bytes);
+    fields.later_field("state_changes", timing.stats.state_changes);
     fields.later_field("kept_error_px", timing.stats.kept_error);
     fields.later_field("tiles_unproven", timing.stats.tiles_unproven);
     fields.object("choice", timing.stats.choice);
@@ -136,6 +138,46 @@ static void describe(Fields& fields, typename Fields::template Of<LeftOut>& left
 }
 
 template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<view::WorkTotals>& work) {
+    fields.field("taps", work.taps);
+    fields.field("steps", work.steps);
+    fields.field("rays", work.rays);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowSkip::Savings>& saved) {
+    constexpr JsonRange any{.low = -1e15, .high = 1e15};
+    fields.field("ms", saved.ms, any);
+    fields.field("taps", saved.taps, any);
+    fields.field("steps", saved.steps, any);
+    fields.field("rays", saved.rays, any);
+    fields.field("triangles", saved.triangles, any);
+    fields.field("bytes_uploaded", saved.bytes_uploaded, any);
+    fields.field("bytes_read", saved.bytes_read, any);
+    fields.field("state_changes", saved.state_changes, any);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowSkip::Difference>& found) {
+    fields.field("pixels", found.pixels);
+    fields.field("levels", found.levels);
+    fields.field("hits", found.hits);
+    fields.field("edges", found.edges);
+    fields.field("max_px", found.max_px);
+    fields.field("tolerance_px", found.tolerance_px);
+    fields.field("tolerance_levels", found.tolerance_levels);
+}
+
+template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowSkip>& skip) {
+    fields.field("without", skip.without);
+    fields.field("meaning", skip.meaning);
+    fields.later_field("bytes_read", skip.bytes_read);
+    fields.object("difference", [&](auto& inner) { describe(inner, skip.difference); });
+    fields.object("saved", [&](auto& inner) { describe(inner, skip.saved); });
+}
+
+template <class Fields>
 static void describe_setting(Fields& fields, typename Fields::template Of<Row>& row) {
     fields.field("scene", row.scene);
     fields.field("pose", row.pose);
@@ -156,10 +198,12 @@ static void describe(JsonWriter& fields, const Row& row) {
     fields.field("noisy", row.noisy());
     fields.field("size", row.size);
     describe(fields, row.timing);
-    fields.json["taps"] = nullptr; // not counted
+    fields.field("taps", row.taps());
+    fields.object("work", row.work);
     fields.object("error", row.error);
     fields.object("source", row.source);
     fields.object("skipped", [&](auto& inner) { describe(inner, row.timing.stats.skipped); });
+    fields.object("skip", row.skip);
 }
 
 static void describe(JsonReader& fields, Row& row) {
@@ -176,6 +220,8 @@ static void describe(JsonReader& fields, Row& row) {
     fields.object("skipped", [&](auto& inner) { describe(inner, row.timing.stats.skipped); });
     fields.object("error", row.error);
     fields.object("source", row.source);
+    fields.object("work", row.work);
+    fields.object("skip", row.skip);
 }
 
 namespace {

@@ -16,8 +16,9 @@ inline constexpr std::string_view schema_name = "reljef-bench/1";
 nlohmann::ordered_json json_of(const Environment& environment);
 
 /// The results as JSON of schema schema_name. Shares are fractions, times milliseconds. Every row
-/// has every key; absent figures are null, "taps" always. "missing" is always false: earlier
-/// versions listed techniques that did not exist yet. "complete" is false if the run ended early
+/// has every key; absent figures are null. "taps" counts a pixel's, "work" a picture's. "missing"
+/// is always false: earlier versions listed techniques that did not exist yet. "complete" is false
+/// if the run ended early
 /// ("stopped") or left settings out ("left_out").
 std::string json_report(const Results& results);
 

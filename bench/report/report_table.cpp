@@ -136,6 +136,65 @@ std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_l
     return cells;
 }
 
+// Tables of the suite skip show what each kind of skipping saves.
+bool is_of_skips(std::span<const Row> rows) {
+    return rows.front().skip.has_value();
+}
+
+std::vector<std::string> skip_columns() {
+    return {"without", "ms",   "±",         "saves",   "%",       "taps/px",
+            "saves",   "rays", "triangles", "MB sent", "MB read", "picture"};
+}
+
+// Without savings in the row that skips everything.
+std::string saved_cell(const RowSkip& skip, const std::optional<double>& saved, double unit,
+                       int decimals) {
+    return skip.without.empty() || !saved ? std::string(no_figure)
+                                          : fmt::format("{:.{}f}", *saved / unit, decimals);
+}
+
+std::string same_cell(const RowSkip& skip) {
+    const RowSkip::Difference& found = skip.difference;
+    if (found.is_same()) {
+        return "same bits";
+    }
+    if (!found.is_allowed()) {
+        return "ANOTHER";
+    }
+    return found.hits > 0 ? fmt::format("rounded: {:.1g} px", found.max_px)
+                          : fmt::format("rounded: {} of 255", found.levels);
+}
+
+std::vector<std::string> skip_cells(const Row& row) {
+    constexpr double megabyte = 1e6;
+    const RowSkip& skip = *row.skip;
+    const RowSkip::Savings& saved = skip.saved;
+    const double pixels = static_cast<double>(row.size.x) * row.size.y;
+    const double all_ms = row.timing.ms.median - saved.ms.value_or(0.0);
+    return {skip.without.empty() ? row.setting.label : skip.without,
+            figure(row.timing.ms.median),
+            half_width_cell(row.timing),
+            saved_cell(skip, saved.ms, 1.0, 2),
+            saved_cell(skip, saved.ms, all_ms / 100.0, 0),
+            row.taps() ? fmt::format("{:.1f}", *row.taps()) : no_figure,
+            saved_cell(skip, saved.taps, pixels, 1),
+            saved_cell(skip, saved.rays, 1.0, 0),
+            saved_cell(skip, saved.triangles, 1.0, 0),
+            saved_cell(skip, saved.bytes_uploaded, megabyte, 2),
+            saved_cell(skip, saved.bytes_read, megabyte, 2),
+            same_cell(skip)};
+}
+
+ReportTable skip_table(std::span<const Row> rows) {
+    ReportTable table{heading_of(rows), skip_columns(), {}, {}};
+    for (const Row& row : rows) {
+        if (!row.null_row) {
+            table.lines.push_back(skip_cells(row));
+        }
+    }
+    return table;
+}
+
 std::string unbounded_text(const Row& row) {
     return fmt::format("{} {}", row.setting.label, row.error->reprojection_px->unbounded);
 }
@@ -177,6 +236,9 @@ std::vector<std::string> notes_of(std::span<const Row> rows) {
 }
 
 ReportTable table_of_rows(std::span<const Row> rows) {
+    if (is_of_skips(rows)) {
+        return skip_table(rows);
+    }
     const bool with_sources = has_sources(rows);
     const bool with_levels = is_of_levels(rows);
     ReportTable table{heading_of(rows), columns_of(with_sources, with_levels), {}, notes_of(rows)};
@@ -216,6 +278,10 @@ Results printable(Results results) {
         for (std::string* text : {&row.suite, &row.test, &row.scene, &row.setting.label}) {
             clean(*text);
         }
+        if (row.skip) {
+            clean(row.skip->without);
+            clean(row.skip->meaning);
+        }
     }
     for (Front& front : results.fronts) {
         clean(front.scene);
@@ -241,11 +307,36 @@ std::vector<std::string> environment_lines(const Environment& environment) {
                         environment.commit)};
 }
 
-std::vector<std::string> column_notes(const Results& results) {
-    std::vector<std::string> notes{
+namespace {
+
+std::vector<std::string> notes_of_techniques() {
+    return {
         "ms: median; ±: half of its 95 % interval. 1 % low: frame rate of the slowest hundredth.",
         "ratio: median over that of texture in the same run; drop: what it costs of the rate.",
         "error px: reprojection, RMS. wrong: pixels whose surface is over a texel off, or a hole."};
+}
+
+std::vector<std::string> notes_of_skips(std::span<const Row> rows) {
+    std::vector<std::string> notes{
+        "ms: median without that kind of skipping; ±: half of its 95 % interval. saves: what the "
+        "kind saves of ms (also in % of the time with everything skipped) and of taps a pixel.",
+        "rays, triangles, MB: what it saves of a picture. Savings below the noise floor say "
+        "nothing. rounded: hits with other bits are that near to their pixels."};
+    for (const Row& row : rows) {
+        const std::string text = fmt::format("{}: {}", row.skip->without, row.skip->meaning);
+        if (!row.skip->without.empty() &&
+            std::find(notes.begin(), notes.end(), text) == notes.end()) {
+            notes.push_back(text);
+        }
+    }
+    return notes;
+}
+
+} // namespace
+
+std::vector<std::string> column_notes(const Results& results) {
+    std::vector<std::string> notes =
+        is_of_skips(results.rows) ? notes_of_skips(results.rows) : notes_of_techniques();
     const auto begin = results.rows.begin();
     const auto end = results.rows.end();
     if (has_sources(results.rows)) {

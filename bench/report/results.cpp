@@ -49,6 +49,23 @@ Setting setting_of(const scene::Technique& technique) {
     return setting;
 }
 
+Timing timed(const std::vector<double>& ms, std::optional<double> noise_floor) {
+    Timing timing;
+    timing.frames = ms.size();
+    timing.ms = summarize(ms);
+    timing.fps_1_percent_low = 1000.0 / mean_of_largest(ms, 0.01);
+    if (ms.size() >= min_frames) {
+        timing.interval = median_interval(ms);
+        timing.noise_floor = noise_floor;
+    }
+    return timing;
+}
+
+std::optional<double> Row::taps() const {
+    const double pixels = static_cast<double>(size.x) * size.y;
+    return work ? std::optional(static_cast<double>(work->taps) / pixels) : std::nullopt;
+}
+
 bool Row::noisy() const {
     return has_few_frames() || (timing.noise_floor && *timing.noise_floor > max_noise);
 }

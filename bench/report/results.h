@@ -68,6 +68,10 @@ struct Timing {
     view::FrameStats stats;       ///< of the last frame
 };
 
+/// The times of frames, in ms, and their noise floor; without a ratio and stats. Precondition:
+/// some.
+Timing timed(const std::vector<double>& ms, std::optional<double> noise_floor);
+
 /// Errors of a picture, see engine/truth/geometric_error.h and image_error.h.
 struct RowError {
     struct Geometric {
@@ -92,6 +96,45 @@ struct SourceFigure {
     std::string where;  ///< "relief-4, configuration 2"
 };
 
+/// What a row of the suite skip leaves on, and what that saves. Savings are the difference from the
+/// row that skips everything; absent if they are not known.
+struct RowSkip {
+    struct Savings {
+        std::optional<double> ms; ///< of the medians
+        std::optional<double> taps;
+        std::optional<double> steps;
+        std::optional<double> rays;
+        double triangles = 0.0;
+        double bytes_uploaded = 0.0;
+        std::optional<double> bytes_read;
+        double state_changes = 0.0;
+    };
+    /// The pictures and hits with and without it. Hits differ where floats round differently.
+    struct Difference {
+        std::size_t pixels = 0; ///< with another colour
+        int levels = 0;         ///< largest difference of a channel, of 255
+        std::size_t hits = 0;   ///< with other bits
+        std::size_t edges = 0;  ///< of these, those that show sky instead of terrain, or reversed
+        /// How far such a hit is from its pixel, and how far it may be by rounding: of the hit that
+        /// is the farthest for its tolerance. A tolerance of 0: hits must have the same bits.
+        double max_px = 0.0;
+        double tolerance_px = 0.0;
+        int tolerance_levels = 0; ///< for `levels`, where hits have the same bits
+
+        [[nodiscard]] bool is_same() const { return pixels == 0 && hits == 0; }
+        [[nodiscard]] bool is_allowed() const {
+            return hits == 0 ? levels <= tolerance_levels
+                             : tolerance_px > 0.0 && max_px <= tolerance_px;
+        }
+    };
+
+    std::string without;              ///< the kind of skipping that is off; empty: none
+    std::string meaning;              ///< what it skips
+    std::optional<double> bytes_read; ///< of files, for the tiles of this picture
+    Difference difference;
+    Savings saved; ///< by the kind
+};
+
 struct Row {
     std::string suite;
     std::string test;  ///< of the sources, "relief-4"; may be empty
@@ -104,8 +147,12 @@ struct Row {
     Timing timing;
     std::optional<RowError> error;
     std::optional<SourceFigure> source;
-    std::shared_ptr<const RowView> view; ///< only with SuiteOptions::keep_views; not in the JSON
+    std::optional<view::WorkTotals> work; ///< of terrains; absent if it was not counted
+    std::optional<RowSkip> skip;          ///< of the suite skip
+    std::shared_ptr<const RowView> view;  ///< only with SuiteOptions::keep_views; not in the JSON
 
+    /// Taps per pixel.
+    [[nodiscard]] std::optional<double> taps() const;
     [[nodiscard]] bool has_few_frames() const { return timing.frames < min_frames; }
     /// Whether the noise floor is above max_noise, or unknown because of too few frames.
     [[nodiscard]] bool noisy() const;

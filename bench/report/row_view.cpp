@@ -116,6 +116,42 @@ Image heat_map(const Grid<float>& error_px) {
     return map;
 }
 
+namespace {
+
+float taps_of(const view::PixelWork& work) {
+    return work.taps > 0 ? static_cast<float>(work.taps) : std::numeric_limits<float>::quiet_NaN();
+}
+
+Image map_of_taps(Grid<float> taps) {
+    for (float& count : taps.samples()) {
+        count *= static_cast<float>(heat_low_px / work_low);
+    }
+    return heat_map(taps);
+}
+
+Grid<float> taps_in(const Grid<view::PixelWork>& pixels) {
+    Grid<float> taps(pixels.cols(), pixels.rows());
+    std::transform(pixels.samples().begin(), pixels.samples().end(), taps.samples().begin(),
+                   taps_of);
+    return taps;
+}
+
+// Empty without work.
+Result<RowView::File> encoded_work(const Grid<view::PixelWork>& pixels, int factor) {
+    if (pixels.empty()) {
+        return RowView::File();
+    }
+    const Grid<float> taps = taps_in(pixels);
+    return io::encode_image(".png",
+                            map_of_taps(factor == 1 ? taps : reduced(taps, factor, max_error)));
+}
+
+} // namespace
+
+Image work_map(const Grid<view::PixelWork>& pixels) {
+    return map_of_taps(taps_in(pixels));
+}
+
 Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
     const int cols = view.shown.cols();
     check(!view.shown.empty() && view.truth->cols() == cols &&
@@ -138,10 +174,15 @@ Result<std::shared_ptr<const RowView>> RowViews::make(const ShownView& view) {
     if (!truth) {
         return truth.error();
     }
+    auto work = encoded_work(view.work, factor);
+    if (!work) {
+        return work.error();
+    }
     return std::make_shared<const RowView>(RowView{{heat_picture.cols(), heat_picture.rows()},
                                                    std::move(*shown),
                                                    std::move(*truth),
-                                                   std::move(*heat)});
+                                                   std::move(*heat),
+                                                   std::move(*work)});
 }
 
 Result<std::shared_ptr<const RowView::File>> RowViews::truth_of(const ShownView& view, int factor) {

@@ -10,6 +10,7 @@
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
 #include "engine/core/result.h"
+#include "engine/view/frame_stats.h"
 
 namespace reljef::bench {
 
@@ -29,11 +30,20 @@ std::array<Rgba8, heat_levels> heat_scale();
 /// a grey hatch. Precondition: no error is negative.
 Image heat_map(const Grid<float>& error_px);
 
+/// Taps of a pixel at the ends of the same scale for work.
+inline constexpr double work_low = 1.0;
+inline constexpr double work_high = 10'000.0;
+static_assert(work_high / work_low == heat_high_px / heat_low_px);
+
+/// Colours the taps of pixels by heat_scale(); pixels without taps are the grey hatch.
+Image work_map(const Grid<view::PixelWork>& pixels);
+
 /// The picture of a technique, the true picture and the error; of one size, not empty.
 struct ShownView {
     Image shown;
     std::shared_ptr<const Image> truth;
-    Grid<float> reprojection; ///< error, pixels; NaN: none
+    Grid<float> reprojection;        ///< error, pixels; NaN: none
+    Grid<view::PixelWork> work = {}; ///< empty: it was not counted
 };
 
 /// The pictures of a row, encoded.
@@ -44,6 +54,7 @@ struct RowView {
     File shown;                        ///< JPEG
     std::shared_ptr<const File> truth; ///< JPEG, shared by the rows of one truth
     File heat;                         ///< PNG, heat_map() of the reprojection error
+    File work;                         ///< PNG, work_map(); empty: it was not counted
 };
 
 class RowViews {

@@ -125,6 +125,10 @@ Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice, const Sui
     session::SourceOptions terrain;
     terrain.terrain = choice.terrain;
     terrain.threads = options.threads;
+    if (choice.memory_megabytes > 0) {
+        terrain.memory_megabytes = choice.memory_megabytes;
+        terrain.streamed = true;
+    }
     cli::ConsoleLog log(options.quiet);
     terrain.placement = choice.placement;
     auto source = open_source(choice, terrain, log, stop);
@@ -151,6 +155,20 @@ void set_pose(session::TerrainScene& scene, scene::Pose pose) {
 
 void BenchmarkScene::set_camera(const scene::Camera& camera) {
     *scene_.camera->get<scene::Camera>() = camera;
+}
+
+void BenchmarkScene::set_daylight(Daylight daylight) {
+    constexpr double low_altitude = 10.0; // degrees
+    auto& sun = *scene_.light->get<scene::Light>();
+    sun_altitude_ = sun_altitude_.value_or(sun.altitude);
+    sun.altitude = daylight == Daylight::low_sun ? low_altitude : *sun_altitude_;
+    scene_.light->set_visible(daylight != Daylight::night);
+    if (const auto& sky = scene_.scene.sky()) {
+        scene::Sky changed = *sky;
+        visibility_ = visibility_.value_or(sky->visibility);
+        changed.visibility = daylight == Daylight::night ? 0.0 : *visibility_;
+        scene_.scene.set_sky(changed);
+    }
 }
 
 void BenchmarkScene::set_technique(const scene::Technique& technique) {

@@ -24,6 +24,12 @@ Result<session::Device> make_device(const SuiteOptions& options);
 /// The same for rays on the CPU.
 Result<session::Device> make_rays_device(const SuiteOptions& options);
 
+enum class Daylight {
+    scene,   ///< its own sun and air
+    low_sun, ///< its sun, 10 degrees above the horizon
+    night    ///< neither a sun nor air
+};
+
 /// A terrain, or copies of a detail texture on a level square, to measure on.
 struct SceneChoice {
     /// A built-in name, a scene file or a DEM file; with `size`: "natural" or "urban".
@@ -34,6 +40,8 @@ struct SceneChoice {
     terrain::PlacementKind placement = terrain::PlacementKind::plane;
     /// A name of terrains::detail_names(): the detail texture; empty: the terrain.
     std::string detail = {};
+    /// Reads a georeferenced DEM file tile by tile within this memory; 0: keeps all of it.
+    int memory_megabytes = 0;
 
     friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
 };
@@ -64,6 +72,7 @@ public:
         bench::set_pose(scene_, pose);
         pose_ = pose;
     }
+    void set_daylight(Daylight daylight);
     /// Not for measure_error(), which needs a pose.
     void set_camera(const scene::Camera& camera);
     void set_technique(const scene::Technique& technique);
@@ -95,6 +104,8 @@ private:
     session::TerrainScene scene_;
     SuiteOptions options_;
     scene::Pose pose_ = scene::Pose::overview;
+    std::optional<double> visibility_;   // of the scene's air
+    std::optional<double> sun_altitude_; // of the scene
     std::optional<truth::SceneCaster> caster_;
     std::optional<truth::Shading> shading_;
     std::optional<truth::DetailPlane> detail_; // absent for terrains

@@ -145,18 +145,6 @@ std::optional<double> noise_floor_of(const Measurement& measurement, std::size_t
     return is_reliable ? measurement.noise_floor : std::nullopt;
 }
 
-Timing timing_of(const std::vector<double>& ms, std::optional<double> noise_floor) {
-    Timing timing;
-    timing.frames = ms.size();
-    timing.ms = summarize(ms);
-    timing.fps_1_percent_low = 1000.0 / mean_of_largest(ms, 0.01);
-    if (ms.size() >= min_frames) {
-        timing.interval = median_interval(ms);
-        timing.noise_floor = noise_floor;
-    }
-    return timing;
-}
-
 LeftOut left_out_of(const Group& group, const std::string& scene, std::span<const Row> rows) {
     LeftOut left_out{scene, group.pose, 0, {}};
     std::set<scene::TechniqueId> found;
@@ -324,6 +312,10 @@ private:
             return measured.error();
         }
         entry.row.error = measured->error;
+        if (auto counted = count_work(entry, *measured, scene, renderer_of(entry, driver));
+            !counted) {
+            return counted.error();
+        }
         if (measured->view) {
             auto view = views_.make(*measured->view);
             if (!view) {
@@ -341,6 +333,23 @@ private:
         return GroupCost{
             since_group_.seconds(), is_texture ? 0.0 : cost.error_seconds + since_begin.seconds(),
             is_texture ? 0 : cost.checked + 1, cost.round + frames * frame, cost.frames + frames};
+    }
+
+    // Meshes do not count.
+    static Result<void> count_work(Entry& entry, MeasuredError& measured, BenchmarkScene& scene,
+                                   session::SceneRenderer& renderer) {
+        auto work = renderer.count_work(scene.scene());
+        if (!work) {
+            return work.error();
+        }
+        const view::WorkTotals totals = view::totals_of(*work);
+        if (totals.taps > 0) {
+            entry.row.work = totals;
+            if (measured.view) {
+                measured.view->work = std::move(work->pixels);
+            }
+        }
+        return {};
     }
 
     session::SceneRenderer& renderer_of(const Entry& entry, session::SceneRenderer& driver) {
@@ -380,7 +389,7 @@ private:
         for (std::size_t i = 0; i < entries.size(); ++i) {
             Entry& entry = entries[i];
             const std::vector<double>& ms = measurement.ms[i];
-            Timing timing = timing_of(ms, noise_floor);
+            Timing timing = timed(ms, noise_floor);
             if (has_ratios) {
                 timing.ratio_to_texture = timing.ms.median / texture;
             }

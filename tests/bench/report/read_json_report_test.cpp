@@ -90,6 +90,26 @@ TEST_F(ReadJsonReport, run_that_ended_early_still_says_so) {
     EXPECT_EQ(results->stopped->message, "interrupted");
 }
 
+TEST_F(ReadJsonReport, what_skipping_saves_is_read_as_it_was_written) {
+    Results results = test::made_results();
+    results.rows[1].work = view::WorkTotals{.taps = 30, .steps = 20, .rays = 10};
+    RowSkip& skip = results.rows[1].skip.emplace();
+    skip.without = "beams";
+    skip.meaning = "free space";
+    skip.bytes_read = 4096.0;
+    skip.difference = {.pixels = 3, .levels = 1, .hits = 9, .max_px = 1e-4, .tolerance_px = 2e-4};
+    skip.saved.ms = -0.5;
+    skip.saved.taps = 12.0;
+    skip.saved.triangles = 100.0;
+    const std::string text = json_report(results);
+    const auto again = read(text);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(json_report(*again), text);
+    EXPECT_EQ(again->rows[1].skip->saved.ms, -0.5);
+    EXPECT_FALSE(again->rows[1].skip->saved.bytes_read.has_value());
+    EXPECT_FALSE(again->rows[0].skip.has_value());
+}
+
 // The first files of the schema lacked these keys.
 TEST_F(ReadJsonReport, results_without_the_newer_keys_are_read) {
     json report = json::parse(json_report(test::made_source_results()));
@@ -98,7 +118,8 @@ TEST_F(ReadJsonReport, results_without_the_newer_keys_are_read) {
     }
     report["complete"] = false;
     for (json& row : report["rows"]) {
-        for (const char* key : {"gpu_ms", "taps"}) {
+        for (const char* key :
+             {"gpu_ms", "taps", "work", "skip", "bytes_uploaded", "state_changes"}) {
             row.erase(key);
         }
     }

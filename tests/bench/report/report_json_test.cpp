@@ -58,6 +58,14 @@ TEST(JsonReport, row_says_what_was_drawn_how_and_how_fast) {
     EXPECT_TRUE(row.at("source").is_null());
 }
 
+TEST(JsonReport, work_is_that_of_the_picture_and_taps_those_of_a_pixel) {
+    Results results = test::made_results();
+    results.rows[1].work = view::WorkTotals{.taps = 1024 * 768 * 3 / 2, .steps = 7, .rays = 5};
+    const json row = json::parse(json_report(results)).at("rows").at(1);
+    EXPECT_EQ(row.at("taps"), 1.5);
+    EXPECT_EQ(row.at("work"), json({{"taps", 1024 * 768 * 3 / 2}, {"steps", 7}, {"rays", 5}}));
+}
+
 TEST(JsonReport, time_of_the_gpu_is_told_where_it_was_measured) {
     Results results = test::made_results();
     results.rows[1].timing.gpu_ms = 7.5;
