@@ -176,20 +176,18 @@ private:
         return is_under && is_open_nearby(from_sun, line) ? CertainSun::lit : CertainSun::unknown;
     }
 
-    // Of the heights of a cell and its neighbours, metres.
+    // The largest difference of heights within a cell or one of its neighbours, metres.
     [[nodiscard]] double variation_around(int from_sun, int line) const {
-        double high = none;
-        double low = std::numeric_limits<double>::infinity();
+        double largest = 0.0;
         for (int cell = std::max(from_sun - 1, 0);
              cell <= std::min(from_sun + 1, cells_.along() - 1); ++cell) {
             for (int other = std::max(line - 1, 0);
                  other <= std::min(line + 1, cells_.across() - 1); ++other) {
                 const SunwardCells::Corners corners = cells_.corners(cell, other);
-                high = std::max(high, corners.high());
-                low = std::min(low, corners.low());
+                largest = std::max(largest, corners.high() - corners.low());
             }
         }
-        return high - low;
+        return largest;
     }
 
     // Whether no ray meets the surface in its own cells and the next ones.

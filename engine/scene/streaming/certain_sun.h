@@ -23,8 +23,8 @@ enum class CertainSun : std::uint8_t {
 struct SunRays {
     glm::dvec3 to_sun{0.0, 0.0, 1.0}; ///< samples (col, row) and metres; it rises
     double max_lift = 0.0;            ///< metres above the surface at which rays begin at most
-    /// Rounded rays from cells whose heights, with those of their neighbours, differ by more metres
-    /// may begin below the surface. Nothing is certain of these cells.
+    /// Metres. Where the heights within a cell differ by more, rounded rays may begin below the
+    /// surface: nothing is certain of it and its neighbours.
     double max_variation = 0.0;
 };
 
