@@ -22,6 +22,8 @@ namespace {
 
 constexpr double ns_a_ms = 1e6;
 constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
+// Both must promise to save a tenth: views that change between plans cut tiles again.
+constexpr double max_share_of_both = 0.9;
 
 bool is_automatic(const scene::TerrainNode& terrain) {
     return terrain.material.technique.id() == scene::TechniqueId::automatic;
@@ -188,10 +190,16 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
 }
 
 ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs) {
-    ViewPlan best = plan_up_to(-1, view, costs);
+    const ViewPlan rays = plan_up_to(-1, view, costs);
+    const ViewPlan triangles = plan_up_to(view.rings.back().ring, view, costs);
+    ViewPlan best = triangles.ms <= rays.ms ? triangles : rays;
+    double limit = max_share_of_both * best.ms;
     for (const RingCost& last : view.rings) {
         const ViewPlan plan = plan_up_to(last.ring, view, costs);
-        best = plan.ms <= best.ms ? plan : best;
+        if (plan.ms < limit) {
+            best = plan;
+            limit = plan.ms;
+        }
     }
     return best;
 }
