@@ -392,6 +392,7 @@ private:
             return {};
         }
         std::vector<DrawFrame> frames;
+        frames.reserve(variants.size());
         for (SkipVariant& variant : variants) {
             frames.push_back(frame_of(variant, scene));
         }

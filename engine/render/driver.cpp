@@ -195,7 +195,7 @@ Result<void> Driver::draw_work(const view::DrawList& list, const gl::Framebuffer
                              .residency = residency_,
                              .hits = false,
                              .features = scene_features(list, false, 1, options_.skips.features) |
-                                         feature_count,
+                                         feature_counting,
                              .picture = picture,
                              .beams = counted_beams_.framebuffer(),
                              .no_vertices = no_vertices_,

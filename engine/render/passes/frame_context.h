@@ -24,7 +24,7 @@ struct FrameContext {
     DrawState& state;
 
     /// Whether fragments add their work to the picture instead of their colours.
-    [[nodiscard]] bool counts() const { return (features & feature_count) != 0; }
+    [[nodiscard]] bool counts() const { return (features & feature_counting) != 0; }
 };
 
 /// The features that all programs of the list share, see Skips::features. `samples`: per pixel of

@@ -176,8 +176,8 @@ void set_heights(gl::Program& program, const FrameContext& frame, const view::Te
 Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw) {
     DrawState& state = frame.state;
     state.set_adding(false);
-    auto program =
-        state.use({ShaderKind::beams, surface_features(draw) | (frame.features & feature_count)});
+    auto program = state.use(
+        {ShaderKind::beams, surface_features(draw) | (frame.features & feature_counting)});
     if (!program) {
         return program.error();
     }

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 27> feature_names{
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED",
     "STREAMED",    "CURVED",       "COUNT"};
-static_assert(std::bit_width(std::uint32_t{feature_count}) == feature_names.size());
+static_assert(std::bit_width(std::uint32_t{feature_counting}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -247,14 +247,14 @@ bool counts_work(ShaderVariant variant) {
     const bool is_terrain = variant.kind == ShaderKind::terrain ||
                             variant.kind == ShaderKind::relief || variant.kind == ShaderKind::beams;
     return is_terrain && (variant.features & feature_hit) == 0 &&
-           (variant.features & feature_count) != 0;
+           (variant.features & feature_counting) != 0;
 }
 
 ShaderVariant counting_variant(ShaderVariant variant) {
     constexpr std::uint32_t looks =
-        feature_count | feature_fog | feature_write_depth | feature_multisampled;
+        feature_counting | feature_fog | feature_write_depth | feature_multisampled;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
-    variant.features |= feature_count;
+    variant.features |= feature_counting;
     return variant;
 }
 

@@ -64,7 +64,7 @@ enum ShaderFeature : std::uint32_t {
     feature_multisampled = 1U << 23U,
     feature_streamed = 1U << 24U, ///< relief over the tiles of a stream
     feature_curved = 1U << 25U,   ///< relief on the ellipsoid: view rays are bent
-    feature_count = 1U << 26U,    ///< of a terrain: writes its work instead of colours
+    feature_counting = 1U << 26U, ///< of a terrain: writes its work instead of colours
 };
 
 struct ShaderVariant {

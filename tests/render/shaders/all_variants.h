@@ -18,14 +18,14 @@ inline std::uint32_t possible_features(ShaderKind kind) {
                                      feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
-        return any | feature_warped | feature_multisampled | feature_count;
+        return any | feature_warped | feature_multisampled | feature_counting;
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
-               feature_curved | feature_count;
+               feature_curved | feature_counting;
     case ShaderKind::beams:
-        return any | feature_streamed | feature_curved | feature_count;
+        return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled;
     case ShaderKind::textured_mesh:

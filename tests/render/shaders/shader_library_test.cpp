@@ -26,7 +26,7 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
           ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
           ShaderKind::relief_terrain, ShaderKind::sky, ShaderKind::average}) {
-        for (std::uint32_t features = 0; features < feature_count << 1U; features += 121U) {
+        for (std::uint32_t features = 0; features < feature_counting << 1U; features += 121U) {
             const ShaderVariant variant = canonical_variant({kind, features});
             ASSERT_EQ(variant.kind, kind);
             ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
@@ -44,7 +44,7 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~looks) != 0);
         const bool is_multisampled = (variant.features & feature_multisampled) != 0;
-        const bool counts = (variant.features & feature_count) != 0;
+        const bool counts = (variant.features & feature_counting) != 0;
         counted += counts ? 1U : 0U;
         EXPECT_FALSE(counts && (hit || is_multisampled || (variant.features & feature_fog) != 0));
         const bool has_color = !hit && !counts && variant.kind != ShaderKind::sky &&
