@@ -130,9 +130,9 @@ float near_level(float level, float distance_to_hit) {
 
 #ifndef HIT
 #ifdef SHADOW
-#if defined(EXACT) && defined(HARD_SHADOW) && !defined(STREAMED) && !defined(CURVED)
+#if defined(EXACT) && defined(HARD_SHADOW)
 #define CERTAIN_SUN
-layout(binding = certain_sun_unit) uniform sampler2D certain_sun; // of cells: 1 lit, 2 dark, 0 neither
+layout(binding = certain_sun_unit) uniform sampler2D certain_sun; // of cells, where has_certain_sun: 1 lit, 2 dark, 0 neither
 uniform int has_certain_sun;
 #endif
 
