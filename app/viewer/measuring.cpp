@@ -30,8 +30,8 @@ Result<std::string> Measuring::pick(const std::optional<glm::dvec3>& world) {
         return Error{"measuring: the sky found, a place on the ground was expected"};
     }
     points_.push_back(*world);
-    std::string text =
-        fmt::format("{}  {}\n", points_.size(), session::point_text(terrain_, *world));
+    texts_.push_back(session::point_text(terrain_, *world));
+    std::string text = fmt::format("{}  {}\n", points_.size(), texts_.back());
     if (points_.size() < 2) {
         return text;
     }
@@ -43,6 +43,7 @@ Result<std::string> Measuring::pick(const std::optional<glm::dvec3>& world) {
     profile_ = std::move(*profile);
     text += distance_text(profile_);
     const auto hidden = session::hidden_by(terrain_, from, *world, eye_height);
+    is_in_sight_ = !hidden;
     return text +
            (hidden ? fmt::format("  hidden from each other by {}\n",
                                  session::point_text(terrain_, *hidden))
@@ -51,6 +52,7 @@ Result<std::string> Measuring::pick(const std::optional<glm::dvec3>& world) {
 
 void Measuring::clear() {
     points_.clear();
+    texts_.clear();
     profile_.clear();
 }
 

@@ -36,6 +36,10 @@ public:
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
     /// Between the last two points; empty before.
     [[nodiscard]] std::span<const terrain::ProfilePoint> profile() const { return profile_; }
+    /// Whether the last two points see each other, eye_height above the ground.
+    [[nodiscard]] bool is_in_sight() const { return is_in_sight_; }
+    /// Of each point: its place, height, slope and aspect.
+    [[nodiscard]] std::span<const std::string> texts() const { return texts_; }
     void clear();
 
     /// Writes "distance,height" lines. Fails without a profile.
@@ -60,6 +64,8 @@ private:
     const scene::TerrainNode& terrain_;
     bool is_on_ = false;
     std::vector<glm::dvec3> points_;
+    std::vector<std::string> texts_; // of the points
+    bool is_in_sight_ = false;
     std::vector<terrain::ProfilePoint> profile_;
     std::unique_ptr<Viewshed> viewshed_;
 };

@@ -101,9 +101,17 @@ public:
     void seek(double seconds);
     void toggle_recording();
     Result<void> save_path();
+    // Edits of the path, as the panel's actions. Times since its beginning, seconds.
+    Result<void> edit(const InsertPathKey& insert);
+    Result<void> edit(const MovePathKey& move);
+    Result<void> edit(const RetimePathKey& retime);
+    Result<void> edit(const RemovePathKey& remove);
+    Result<void> edit(const SetPathDuration& set);
 
     /// Whether the scene changed since the last call; true at first.
     bool take_redraw() { return std::exchange(redraw_, false); }
+    /// Whether the panels show something new of a scene that is as it was.
+    bool take_content_change() { return std::exchange(content_changed_, false); }
     /// Whether the view moves by itself or is steered.
     [[nodiscard]] bool is_moving() const;
 
@@ -166,6 +174,7 @@ private:
     void show_path(); // at path_time_
     bool receive_mouse(const Event& event);
     void steer(const scene::Camera& camera);
+    Result<void> set_path(Result<scene::CameraPath> path);
     void report(const Result<void>& result);
     void receive_click();
     void toggle_measuring();
@@ -237,6 +246,7 @@ private:
     bool rested_ = true; // nothing moved at the last advance()
     bool mouse_look_ = false;
     bool redraw_ = true;
+    bool content_changed_ = false;
     bool screenshot_ = false;
     bool video_ = false;
     bool command_ = false;

@@ -115,10 +115,12 @@ void Viewer::receive_click() {
     auto picked = measuring_.pick(navigation_.ground_at(camera(), *pixel));
     report(picked ? Result<void>() : picked.error());
     output_ += picked ? *picked : std::string();
+    content_changed_ = true;
 }
 
 void Viewer::toggle_measuring() {
     measuring_.set_on(!measuring_.is_on());
+    content_changed_ = true;
     if (measuring_.is_on()) {
         measuring_.clear();
     }
@@ -155,6 +157,37 @@ void Viewer::toggle_recording() {
     const auto ended = desk_.end_recording();
     report(ended ? save_path() : ended);
     path_time_ = 0.0;
+}
+
+Result<void> Viewer::set_path(Result<scene::CameraPath> path) {
+    auto set = desk_.set(std::move(path));
+    path_time_ = std::min(path_time_, desk_.path().duration());
+    content_changed_ = true;
+    return set;
+}
+
+Result<void> Viewer::edit(const InsertPathKey& insert) {
+    const scene::Camera& view = flight_.camera();
+    return set_path(scene::with_key(
+        desk_.path(), {desk_.path().begin() + insert.seconds, view.eye, view.target}));
+}
+
+Result<void> Viewer::edit(const MovePathKey& move) {
+    const scene::Camera& view = flight_.camera();
+    return set_path(scene::with_moved_key(desk_.path(), move.key, {0.0, view.eye, view.target}));
+}
+
+Result<void> Viewer::edit(const RetimePathKey& retime) {
+    return set_path(scene::with_retimed_key(desk_.path(), retime.key,
+                                            desk_.path().begin() + retime.seconds));
+}
+
+Result<void> Viewer::edit(const RemovePathKey& remove) {
+    return set_path(scene::without_key(desk_.path(), remove.key));
+}
+
+Result<void> Viewer::edit(const SetPathDuration& set) {
+    return set_path(scene::with_duration(desk_.path(), set.seconds));
 }
 
 void Viewer::append_key() {
@@ -214,7 +247,7 @@ void Viewer::swap_techniques() {
 
 void Viewer::select_parameter(int steps) {
     techniques_.select_next_parameter(steps);
-    redraw_ = true; // the panels show it
+    content_changed_ = true;
 }
 
 Result<void> Viewer::request(const ChooseTechnique& choice) {

@@ -1,7 +1,13 @@
 #include "app/viewer/viewer_content.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
 #include "engine/session/ground.h"
 #include "engine/terrain/field/tint.h"
+#include "engine/terrain/measure/profile.h"
 
 namespace reljef::app {
 namespace {
@@ -30,6 +36,60 @@ AppearanceContent appearance_of(const Viewer& viewer) {
     appearance.plays_path = viewer.is_playing();
     appearance.follows_ground = viewer.follows_ground();
     return appearance;
+}
+
+constexpr std::size_t plotted_heights = 256;
+
+std::optional<ProfileContent> profile_of(const Measuring& measuring) {
+    const auto points = measuring.profile();
+    if (points.empty()) {
+        return std::nullopt;
+    }
+    const terrain::ProfileSummary summary = terrain::summarize(points);
+    ProfileContent profile;
+    profile.distance = summary.distance;
+    profile.over_ground = summary.over_ground;
+    profile.climb = summary.climb;
+    profile.descent = summary.descent;
+    profile.lowest = summary.lowest;
+    profile.highest = summary.highest;
+    profile.in_sight = measuring.is_in_sight();
+    for (std::size_t i = 0; i < plotted_heights; ++i) {
+        const double height = points[i * (points.size() - 1) / (plotted_heights - 1)].height;
+        profile.heights.push_back(static_cast<float>(std::isnan(height) ? summary.lowest : height));
+    }
+    return profile;
+}
+
+MeasureContent measure_of(const Viewer& viewer, const scene::Camera& camera, glm::ivec2 window) {
+    const Measuring& measuring = viewer.measuring();
+    MeasureContent measure;
+    measure.is_on = measuring.is_on();
+    for (std::size_t i = 0; i < measuring.points().size(); ++i) {
+        const scene::Projected at =
+            scene::project(camera, glm::max(window, glm::ivec2(1)), measuring.points()[i]);
+        const bool is_before =
+            at.depth > 0.0 || camera.projection == scene::ProjectionKind::orthographic;
+        const std::string& line = measuring.texts()[i]; // "place: ground"
+        const std::size_t colon = std::min(line.find(": "), line.size());
+        measure.points.push_back({line.substr(0, colon),
+                                  line.substr(std::min(colon + 2, line.size())),
+                                  is_before ? std::optional(at.pixel) : std::nullopt});
+    }
+    measure.profile = profile_of(measuring);
+    return measure;
+}
+
+PathContent path_of(const Viewer& viewer) {
+    const scene::CameraPath& path = viewer.path_desk().path();
+    PathContent content;
+    for (const scene::Keyframe& key : path.keys()) {
+        content.keys.push_back(key.time - path.begin());
+    }
+    content.time = viewer.path_time();
+    content.is_playing = viewer.is_playing();
+    content.is_recording = viewer.path_desk().is_recording();
+    return content;
 }
 
 } // namespace
@@ -71,6 +131,8 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.frame.window = window;
     content.technique = viewer.techniques().content();
     content.appearance = appearance_of(viewer);
+    content.measure = measure_of(viewer, camera, window);
+    content.path = path_of(viewer);
     content.compare = viewer.comparison().content(viewer.technique());
     content.eye = place_of(scene, viewer.is_map() ? camera.target : camera.eye);
     if (!viewer.is_map() && scene.models.empty()) {

@@ -116,7 +116,9 @@ private:
     void receive(const std::vector<Event>& events) {
         for (const Event& event : events) {
             if (filming_.is_on()) {
-                filming_.receive(event);
+                if (!is_for_panels(event)) {
+                    filming_.receive(event);
+                }
                 continue;
             }
             if (const auto* move = std::get_if<MouseMoveEvent>(&event)) {
@@ -148,6 +150,7 @@ private:
             return !session::awaits_tiles(scene_.scene);
         };
         filming_.film(draw, [this] { return renderer_.read_color(); });
+        act(); // its panel may cancel it
         window_.set_title(
             fmt::format("reljef - video {:.0f} % - Esc cancels", 100.0 * filming_.progress()));
         title_.clear();
@@ -187,6 +190,9 @@ private:
         }
         content.compare.left_ms = left_ms_;
         content.cursor = place_under_pointer(size);
+        if (filming_.is_on()) {
+            content.path.video = filming_.progress();
+        }
         content.legend = legend_;
         content.messages = messages_.messages();
         return content;
@@ -194,8 +200,13 @@ private:
 
     // Precondition: the picture is in the back buffer.
     void draw_panels(glm::ivec2 size) {
-        if (shows_panels()) {
+        if (!shows_panels()) {
+            return;
+        }
+        if (panels_->is_due(size, since_panels_.seconds())) {
             actions_ += panels_->draw(content(size), size, since_panels_.restart());
+        } else {
+            panels_->show_again();
         }
     }
 
@@ -220,6 +231,9 @@ private:
              viewer_.comparison().is_busy()) &&
             since_panels_.seconds() > seconds_between_panels;
         const glm::ivec2 size = window_.framebuffer_size();
+        if (viewer_.take_content_change() && panels_ != nullptr) {
+            panels_->refresh();
+        }
         const bool is_stale = panels_ != nullptr && panels_->is_stale();
         if (drawn_ == 0 || !(is_stale || is_busy || is_compared_anew) || size.x == 0 ||
             size.y == 0) {
@@ -275,6 +289,14 @@ private:
     }
     void act_on(const SetWipe& set) { viewer_.comparison().set_share(set.share); }
     void act_on(const SwapTechniques& /*action*/) { viewer_.swap_techniques(); }
+    void act_on(const SeekPath& seek) { viewer_.seek(seek.seconds); }
+    void act_on(const CancelVideo& /*action*/) { filming_.cancel(); }
+    void act_on(const ClearPoints& /*action*/) { viewer_.measuring().clear(); } // panels are stale
+    template <class Edit> void act_on(const Edit& edit) { // of the path
+        if (const auto edited = viewer_.edit(edit); !edited) {
+            messages_.note(edited.error().message);
+        }
+    }
 
     void copy_command() {
         const auto command = render_command(options_.start, scene_,

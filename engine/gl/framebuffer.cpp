@@ -187,6 +187,14 @@ void Framebuffer::blit_to_window(glm::ivec2 window_size, FirstRow first) const {
                            window_size == size_ ? GL_NEAREST : GL_LINEAR);
 }
 
+void Framebuffer::blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glDisable(GL_FRAMEBUFFER_SRGB); // plain bytes, as above
+    const glm::ivec2 high = low + size;
+    glBlitNamedFramebuffer(id(), 0, low.x, low.y, high.x, high.y, low.x, low.y, high.x, high.y,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Framebuffer::resolve_to(const Framebuffer& target) const {
     check(size_ == target.size_ && target.samples_ == 1, "resolved to another kind of framebuffer");
     // With conversion the driver averages decoded samples.

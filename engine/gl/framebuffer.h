@@ -45,6 +45,8 @@ public:
     void clear_depth(float depth = 0.0F) const;
     /// Copies the encoded bytes onto the window's back buffer; scales when the sizes differ.
     void blit_to_window(glm::ivec2 window_size, FirstRow first = FirstRow::bottom) const;
+    /// The same of a rectangle, without scaling: its lower left corner and size, pixels of both.
+    void blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const;
     /// Replaces the colours. Preconditions: rgba8 or rgba8_srgb, one sample, equal sizes.
     void upload(const Grid<Rgba8>& texels) { color_.upload(0, texels); }
 

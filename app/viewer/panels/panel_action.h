@@ -58,6 +58,41 @@ struct SetWipe {
 /// The technique on the right comes to the left, and the other way round.
 struct SwapTechniques {};
 
+/// Shows the path's view at a time since its beginning, and stops there.
+struct SeekPath {
+    double seconds = 0.0;
+};
+
+/// Inserts the view as a keyframe at a time since the path's beginning.
+struct InsertPathKey {
+    double seconds = 0.0;
+};
+
+/// Gives a keyframe the view.
+struct MovePathKey {
+    std::size_t key = 0;
+};
+
+/// Moves a keyframe to another time since the path's beginning.
+struct RetimePathKey {
+    std::size_t key = 0;
+    double seconds = 0.0;
+};
+
+struct RemovePathKey {
+    std::size_t key = 0;
+};
+
+/// Stretches the path.
+struct SetPathDuration {
+    double seconds = 0.0; ///< > 0
+};
+
+struct CancelVideo {};
+
+/// Forgets the measured points.
+struct ClearPoints {};
+
 /// Does what the key does.
 struct PressKey {
     Key key = Key::unknown;
@@ -68,7 +103,9 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetExaggeration, SetSamples,
-                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques>;
+                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey,
+                                 MovePathKey, RetimePathKey, RemovePathKey, SetPathDuration,
+                                 CancelVideo, ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

@@ -88,6 +88,39 @@ struct CompareContent {
     std::vector<LegendStop> colors;     ///< of errors: the heights are pixels, by their logarithm
 };
 
+/// A picked point of the ground.
+struct MeasuredPoint {
+    std::string place;               ///< "46.12345, 8.12345"
+    std::string ground;              ///< its height, slope and aspect
+    std::optional<glm::dvec2> pixel; ///< in the window; absent: behind the eye
+};
+
+/// The ground between the last two points.
+struct ProfileContent {
+    std::vector<float> heights; ///< at equal distances, metres; without voids
+    double distance = 0.0;      ///< horizontal, metres
+    double over_ground = 0.0;   ///< metres
+    double climb = 0.0;         ///< metres
+    double descent = 0.0;       ///< metres
+    double lowest = 0.0;        ///< metres
+    double highest = 0.0;       ///< metres
+    bool in_sight = false;      ///< the ends see each other
+};
+
+struct MeasureContent {
+    bool is_on = false; ///< clicks pick points
+    std::vector<MeasuredPoint> points;
+    std::optional<ProfileContent> profile;
+};
+
+struct PathContent {
+    std::vector<double> keys; ///< times since the beginning, seconds, ascending
+    double time = 0.0;        ///< of the flight, seconds since the beginning
+    bool is_playing = false;
+    bool is_recording = false;
+    std::optional<double> video; ///< progress of the video that is rendered, [0, 1]
+};
+
 struct CrsPlace {
     glm::dvec2 at{0.0};
     std::string name; ///< "WGS 84 / UTM zone 10N"
@@ -128,6 +161,8 @@ struct PanelContent {
     TechniqueContent technique;
     AppearanceContent appearance;
     CompareContent compare;
+    MeasureContent measure;
+    PathContent path;
     PlaceContent eye;
     std::optional<PlaceContent> cursor;     ///< the ground under the pointer
     std::optional<double> heading;          ///< degrees clockwise from north

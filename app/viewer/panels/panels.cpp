@@ -10,6 +10,7 @@
 #include "app/viewer/panels/compass_panel.h"
 #include "app/viewer/panels/help_panel.h"
 #include "app/viewer/panels/legend_panel.h"
+#include "app/viewer/panels/measure_panel.h"
 #include "app/viewer/panels/message_panel.h"
 #include "app/viewer/panels/panel_layout.h"
 #include "app/viewer/panels/status_panel.h"
@@ -23,8 +24,8 @@ constexpr double tabs_height = 72.0; // units of text
 constexpr double footer_height = 34.0;
 constexpr double border_height = 14.0;
 
-enum class Tab : std::size_t { technique, view, compare, notes };
-constexpr std::array tab_names{"Technique", "View", "Compare", "Notes"};
+enum class Tab : std::size_t { technique, view, compare, measure, path, notes };
+constexpr std::array tab_names{"Technique", "View", "Compare", "Measure", "Path", "Notes"};
 constexpr std::size_t tabs_in_a_row = 3;
 
 // The key without modifiers, when it goes down.
@@ -98,6 +99,7 @@ PanelActions Panels::draw(const PanelContent& content, glm::ivec2 window, double
     if (layout.has_room) {
         follow(content);
         draw_wipe(content, layout.view, fonts);
+        draw_points(content, fonts);
         draw_status(content, layout.status, fonts);
         if (layout.legend.size() != glm::dvec2(0.0)) {
             draw_legend(content, layout.legend, fonts);
@@ -145,6 +147,10 @@ PanelActions Panels::draw_tab(const PanelContent& content) {
         return draw_appearance(content, fonts);
     case Tab::compare:
         return draw_compare(content, fonts);
+    case Tab::measure:
+        return draw_measure(content, fonts);
+    case Tab::path:
+        return path_.draw(content, fonts);
     case Tab::notes:
         draw_log(content, fonts);
         return {};
@@ -154,11 +160,16 @@ PanelActions Panels::draw_tab(const PanelContent& content) {
 
 // The tab of what has begun comes to the front.
 void Panels::follow(const PanelContent& content) {
-    const bool compares = content.compare.with != CompareWith::nothing;
-    if (compares && !std::exchange(compares_, compares)) {
-        tab_ = static_cast<std::size_t>(Tab::compare);
+    const std::array shown{std::pair(content.compare.with != CompareWith::nothing, Tab::compare),
+                           std::pair(content.measure.is_on, Tab::measure),
+                           std::pair(content.path.is_recording || content.path.video, Tab::path)};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const auto& [is_on, tab] = shown.at(i);
+        if (is_on && !was_on_.at(i)) {
+            tab_ = static_cast<std::size_t>(tab);
+        }
+        was_on_.at(i) = is_on;
     }
-    compares_ = compares;
 }
 
 } // namespace reljef::app

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "app/viewer/panels/panel_action.h"
 #include "app/viewer/panels/panel_content.h"
+#include "app/viewer/panels/path_panel.h"
 #include "app/viewer/panels/place_panel.h"
 #include "app/viewer/panels/toolkit/interface.h"
 #include "engine/core/event.h"
@@ -23,6 +25,15 @@ public:
     bool receive(const Event& event);
     /// Whether the next frame differs from the last one, whatever the content.
     [[nodiscard]] bool is_stale() const { return is_visible_ ? interface_.is_stale() : is_hiding_; }
+    /// Whether a frame `seconds` after the last one of the panels needs them drawn anew. While
+    /// nothing is done to them, they are drawn ten times a second.
+    [[nodiscard]] bool is_due(glm::ivec2 window, double seconds) const {
+        return is_stale() || seconds >= max_age || !interface_.is_kept(window);
+    }
+    /// Shows them as they were drawn last. Precondition: not due.
+    void show_again() const { interface_.show_again(); }
+    /// Has the panels drawn in the next frame.
+    void refresh() { interface_.refresh(); }
     /// A sentence about fonts that are not installed, or empty.
     [[nodiscard]] const std::string& note() const { return interface_.fonts().note; }
     [[nodiscard]] bool is_visible() const { return is_visible_; }
@@ -44,11 +55,14 @@ private:
     PanelActions draw_tab(const PanelContent& content);
     void follow(const PanelContent& content);
 
+    static constexpr double max_age = 0.1; // seconds
+
     Interface interface_;
     PlacePanel place_;
+    PathPanel path_;
     double inspector_content_ = 0.0; // height in the last frame, pixels
     std::size_t tab_ = 0;            // that the inspector shows
-    bool compares_ = false;          // in the last frame
+    std::array<bool, 3> was_on_{};   // what has a tab, in the last frame
     bool is_visible_ = true;
     bool is_hiding_ = false; // since the last frame
     bool shows_help_ = false;

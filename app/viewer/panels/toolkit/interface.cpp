@@ -11,9 +11,11 @@
 #include <vector>
 
 #include <backends/imgui_impl_opengl3.h>
+#include <glm/common.hpp>
 #include <imgui.h>
 #include <imgui_internal.h> // the areas of windows
 
+#include "app/viewer/panels/toolkit/kept_picture.h"
 #include "engine/gl/texture.h"
 
 namespace reljef::app {
@@ -107,6 +109,8 @@ struct Interface::State {
     std::deque<Event> events; // that no frame has seen
     int frames_due = frames_after_event;
     std::vector<Area> areas; // of the panels in the last frame
+    KeptPicture picture;
+    bool is_kept = false;    // the last frame, in the picture
     bool types_text = false;
     bool opens_list = false;
     bool closes_list = false; // in the next frame
@@ -142,6 +146,33 @@ struct Interface::State {
             }
             pass_to(io, events.front());
             events.pop_front();
+        }
+    }
+
+    // Windows without a parent, which contain all others. What is drawn below them is not kept.
+    [[nodiscard]] std::vector<RoundedArea> shown_areas() const {
+        std::vector<RoundedArea> shown;
+        for (const ImGuiWindow* const window : context->Windows) {
+            if (window->Active && !window->Hidden && window->ParentWindow == nullptr &&
+                !window->IsFallbackWindow) {
+                const glm::dvec2 low(window->Pos.x, window->Pos.y);
+                const glm::dvec2 size(window->Size.x, window->Size.y);
+                shown.push_back({glm::ivec2(glm::floor(low)), glm::ivec2(glm::ceil(low + size)),
+                                 static_cast<int>(window->WindowRounding)});
+            }
+        }
+        return shown;
+    }
+
+    void draw_frame() {
+        ImDrawData* const data = ImGui::GetDrawData();
+        const glm::ivec2 size(static_cast<int>(data->DisplaySize.x),
+                              static_cast<int>(data->DisplaySize.y));
+        const bool has_marks = ImGui::GetBackgroundDrawList()->VtxBuffer.Size > 0;
+        const auto draw = [data] { ImGui_ImplOpenGL3_RenderDrawData(data); };
+        is_kept = !has_marks && picture.draw(size, shown_areas(), draw);
+        if (!is_kept) {
+            draw();
         }
     }
 
@@ -205,7 +236,8 @@ bool Interface::receive(const Event& event) {
     const auto* const key = std::get_if<KeyEvent>(&event);
     state_->closes_list = state_->closes_list || (state_->opens_list && key != nullptr &&
                                                   key->pressed && key->key == Key::escape);
-    if (receiver != PointerFocus::Receiver::view) {
+    const bool is_held = key != nullptr && key->repeat && !state_->types_text;
+    if (receiver != PointerFocus::Receiver::view && !is_held) {
         state_->events.push_back(event);
         state_->frames_due = frames_after_event;
     }
@@ -214,6 +246,18 @@ bool Interface::receive(const Event& event) {
 
 bool Interface::is_stale() const {
     return state_->frames_due > 0 || !state_->events.empty();
+}
+
+void Interface::refresh() {
+    state_->frames_due = frames_after_event;
+}
+
+bool Interface::is_kept(glm::ivec2 size) const {
+    return state_->is_kept && state_->picture.is_of(size);
+}
+
+void Interface::show_again() const {
+    state_->picture.show();
 }
 
 bool Interface::types_text() const {
@@ -231,6 +275,7 @@ void Interface::forget() {
     std::fill(std::begin(io.MouseDown), std::end(io.MouseDown), false);
     state_->events.clear();
     state_->areas.clear();
+    state_->is_kept = false;
     state_->focus = {};
     state_->types_text = false;
     state_->opens_list = false;
@@ -257,7 +302,7 @@ void Interface::begin(glm::ivec2 size, double seconds) {
 void Interface::end() {
     ImGui::Render();
     if (state_->options.draws) {
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+        state_->draw_frame();
     }
     const ImGuiIO& io = ImGui::GetIO();
     state_->types_text = io.WantTextInput;

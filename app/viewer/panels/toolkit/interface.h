@@ -45,10 +45,16 @@ public:
     bool receive(const Event& event);
     /// Whether received events change what the next frame shows.
     [[nodiscard]] bool is_stale() const;
+    /// Whether the last frame was kept and can be shown again in a window of that size, pixels.
+    [[nodiscard]] bool is_kept(glm::ivec2 size) const;
+    /// Copies the kept frame over the window's back buffer. Precondition: is_kept().
+    void show_again() const;
     /// Whether a text field has the keyboard.
     [[nodiscard]] bool types_text() const;
     /// The pointer, if it is over the view and not over a panel.
     [[nodiscard]] bool is_over_panel(glm::dvec2 pixel) const;
+    /// Makes it stale: the content has changed.
+    void refresh();
     /// Releases keys and buttons, and the areas of the last frame.
     void forget();
 

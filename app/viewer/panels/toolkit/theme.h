@@ -19,8 +19,8 @@ struct Fonts {
 
 /// Colours of the panels, sRGB.
 namespace palette {
-inline constexpr Rgba8 surface{20, 24, 29, 222}; ///< behind text; readable over snow
-inline constexpr Rgba8 raised{29, 34, 41, 250};  ///< lists and tips
+inline constexpr Rgba8 surface{31, 36, 42, 255}; ///< behind text; opaque, see KeptPicture
+inline constexpr Rgba8 raised{42, 48, 56, 255};  ///< lists and tips
 inline constexpr Rgba8 field{255, 255, 255, 18};
 inline constexpr Rgba8 field_hovered{255, 255, 255, 34};
 inline constexpr Rgba8 line{255, 255, 255, 26};

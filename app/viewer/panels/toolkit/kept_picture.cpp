@@ -1,0 +1,75 @@
+#include "app/viewer/panels/toolkit/kept_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+
+namespace reljef::app {
+namespace {
+
+// How far a row of a rounded corner begins from the side; rows count from the edge.
+int inset(int row, int radius) {
+    const double up = radius - row - 0.5;
+    return row >= radius ? 0
+                         : static_cast<int>(std::ceil(
+                               radius - std::sqrt(std::max(double(radius) * radius - up * up, 0.0)) -
+                               0.5));
+}
+
+} // namespace
+
+std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window) {
+    const glm::ivec2 low = glm::max(area.low, glm::ivec2(0));
+    const glm::ivec2 high = glm::min(area.high, window);
+    std::vector<PixelArea> strips;
+    for (int row = low.y; row < high.y;) {
+        const auto inset_at = [&](int y) {
+            return inset(std::min(y - area.low.y, area.high.y - 1 - y), area.radius);
+        };
+        const int begin = row;
+        const int beside = inset_at(row);
+        while (row < high.y && inset_at(row) == beside) {
+            ++row;
+        }
+        const int left = std::max(low.x, area.low.x + beside);
+        const int right = std::min(high.x, area.high.x - beside);
+        if (left < right) {
+            strips.push_back({{left, begin}, {right - left, row - begin}});
+        }
+    }
+    return strips;
+}
+
+bool KeptPicture::draw(glm::ivec2 window, std::vector<RoundedArea> areas,
+                       const std::function<void()>& draw_panels) {
+    if (!is_of(window)) {
+        auto made = gl::Framebuffer::create(
+            {.size = window, .color = gl::Format::rgba8, .depth = false});
+        if (!made) {
+            target_ = gl::Framebuffer();
+            return false;
+        }
+        target_ = std::move(*made);
+    }
+    target_.bind();
+    draw_panels();
+    strips_.clear();
+    for (const RoundedArea& area : areas) {
+        for (PixelArea strip : strips_of(area, window)) {
+            strip.low.y = window.y - strip.low.y - strip.size.y;
+            strips_.push_back(strip);
+        }
+    }
+    show();
+    return true;
+}
+
+void KeptPicture::show() const {
+    for (const PixelArea& strip : strips_) {
+        target_.blit_area_to_window(strip.low, strip.size);
+    }
+}
+
+} // namespace reljef::app
