@@ -78,16 +78,16 @@ void add_detail(CommandText& command, const session::SceneOptions& options) {
     }
 }
 
-// Sky, air and colours do not change in flight.
-void add_surroundings(CommandText& command, const StartOptions& start) {
-    if (start.source.ramp) {
+void add_surroundings(CommandText& command, const session::TerrainScene& scene,
+                      const StartOptions& start, const ShownState& shown) {
+    if (!shown.ramp.empty()) {
+        command.add("--ramp", shown.ramp);
+    } else if (start.source.ramp) {
         command.add("--ramp", *start.source.ramp);
     }
-    if (start.scene.turbidity) {
-        command.add("--turbidity", fmt::format("{}", *start.scene.turbidity));
-    }
-    if (start.scene.visibility) {
-        command.add("--visibility", fmt::format("{}", *start.scene.visibility));
+    command.add("--turbidity", fmt::format("{}", scene.surroundings.turbidity));
+    if (scene.surroundings.visibility) {
+        command.add("--visibility", fmt::format("{}", *scene.surroundings.visibility));
     }
     if (start.scene.base) {
         command.add("--base", session::to_string(*start.scene.base));
@@ -185,7 +185,7 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
         return added.error();
     }
     add_detail(command, start.scene);
-    add_surroundings(command, start);
+    add_surroundings(command, scene, start, shown);
     if (scene.materials().front()->wireframe) {
         command.add("--wireframe");
     }

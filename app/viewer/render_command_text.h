@@ -29,6 +29,7 @@ struct ShownState {
     glm::ivec2 size{0};              ///< of the window, pixels
     std::optional<int> samples = {}; ///< absent: automatic
     bool keeps_techniques = false;   ///< models have those of the start
+    std::string ramp = {};           ///< a built-in one; empty: that of the start
     std::string compare = {};        ///< as --compare; empty: nothing is compared
     double wipe = 0.5;               ///< as --wipe
 };

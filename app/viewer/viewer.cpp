@@ -88,7 +88,7 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
                const ViewerOptions& options)
     : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       switch_(scene, options.maps), techniques_(scene, switch_, material().technique),
-      exaggeration_(scene, options.maps.threads, options.maps.largest_side),
+      surface_switch_(scene, options.maps.threads, options.maps.largest_side),
       flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)),
       measuring_(*scene.terrain->get<scene::TerrainNode>()), comparison_(scene, options.maps),
@@ -192,7 +192,7 @@ void Viewer::update_appearance() {
     redraw_ = switch_.update() || redraw_;
     redraw_ = comparison_.take_redraw() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
-    if (exaggeration_.update(switch_.technique(), switch_.light())) {
+    if (surface_switch_.update(switch_.technique(), switch_.light())) {
         measuring_.clear(); // its places are no longer on the ground
         show_camera(camera());
         if (!map_) { // the ground may have risen above it
@@ -255,7 +255,7 @@ void Viewer::show_path() {
 void Viewer::relay_to(session::Log& log) {
     notes_.relay_to(log);
     switch_.relay_to(log);
-    exaggeration_.relay_to(log);
+    surface_switch_.relay_to(log);
     comparison_.relay_to(log);
     if (proofs_) {
         proofs_->relay_to(log);
@@ -264,7 +264,7 @@ void Viewer::relay_to(session::Log& log) {
 
 std::shared_ptr<const view::PreparedLight> Viewer::take_light() {
     auto light = switch_.take_light();
-    light = light == nullptr ? exaggeration_.take_light() : light;
+    light = light == nullptr ? surface_switch_.take_light() : light;
     return light == nullptr && proofs_ ? proofs_->take_light() : light;
 }
 

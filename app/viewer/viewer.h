@@ -11,8 +11,8 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance/appearance_switch.h"
-#include "app/viewer/appearance/exaggeration_switch.h"
 #include "app/viewer/appearance/proof_switch.h"
+#include "app/viewer/appearance/surface_switch.h"
 #include "app/viewer/appearance/technique_editor.h"
 #include "app/viewer/bookmarks.h"
 #include "app/viewer/comparing/comparison.h"
@@ -101,12 +101,26 @@ public:
     void seek(double seconds);
     void toggle_recording();
     Result<void> save_path();
-    // Edits of the path, as the panel's actions. Times since its beginning, seconds.
-    Result<void> edit(const InsertPathKey& insert);
-    Result<void> edit(const MovePathKey& move);
-    Result<void> edit(const RetimePathKey& retime);
-    Result<void> edit(const RemovePathKey& remove);
-    Result<void> edit(const SetPathDuration& set);
+    // What panels ask for. Failures change nothing.
+    Result<void> act(const ChooseTechnique& choice) { return request(choice); }
+    Result<void> act(const SelectModel& choice);
+    Result<void> act(const SelectParameter& choice);
+    Result<void> act(const SetSun& sun);
+    Result<void> act(const SetTurbidity& set);
+    Result<void> act(const SetVisibility& set);
+    Result<void> act(const SetRamp& set);
+    Result<void> act(const SetExaggeration& set);
+    Result<void> act(const SetComparison& set) { return comparison_.set(set.with); }
+    Result<void> act(const SetOtherTechnique& set) { return comparison_.choose(set.technique); }
+    Result<void> act(const SetWipe& set);
+    Result<void> act(const SwapTechniques& action);
+    Result<void> act(const SeekPath& seek);
+    Result<void> act(const InsertPathKey& insert);
+    Result<void> act(const MovePathKey& move);
+    Result<void> act(const RetimePathKey& retime);
+    Result<void> act(const RemovePathKey& remove);
+    Result<void> act(const SetPathDuration& set);
+    Result<void> act(const ClearPoints& action);
 
     /// Whether the scene changed since the last call; true at first.
     bool take_redraw() { return std::exchange(redraw_, false); }
@@ -118,17 +132,16 @@ public:
     bool take_video_request() { return std::exchange(video_, false); }
     /// Fails if the technique cannot draw what it is chosen for.
     Result<void> request(const ChooseTechnique& choice);
-    /// Exchanges the technique and the one that it is compared with.
-    void swap_techniques();
     void set_sun(const SetSun& sun);
-    /// See ExaggerationSwitch::request(). The eye stays unless the ground rises above it.
-    void set_exaggeration(double factor) { exaggeration_.request(factor); }
+    [[nodiscard]] const terrain::ColorRamp& ramp() const { return surface_switch_.ramp(); }
+    /// See SurfaceSwitch::request(). The eye stays unless the ground rises above it.
+    void set_exaggeration(double factor) { surface_switch_.request(factor); }
     [[nodiscard]] TechniqueEditor& techniques() { return techniques_; }
     [[nodiscard]] const TechniqueEditor& techniques() const { return techniques_; }
     [[nodiscard]] const scene::Technique& technique() const { return switch_.technique(); }
     [[nodiscard]] const scene::Light& light() const { return switch_.light(); }
-    [[nodiscard]] double exaggeration() const { return exaggeration_.factor(); }
-    [[nodiscard]] std::string exaggeration_obstacle() const { return exaggeration_.obstacle(); }
+    [[nodiscard]] double exaggeration() const { return surface_switch_.factor(); }
+    [[nodiscard]] std::string exaggeration_obstacle() const { return surface_switch_.obstacle(); }
     /// Whether the models have the techniques with which the scene was opened.
     [[nodiscard]] bool keeps_techniques() const;
     /// The ground that a pixel shows, world metres; empty over the sky and in the gallery.
@@ -155,7 +168,7 @@ public:
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
     // As in AppearanceSwitch.
     [[nodiscard]] bool is_preparing() const {
-        return switch_.is_preparing() || exaggeration_.is_preparing();
+        return switch_.is_preparing() || surface_switch_.is_preparing();
     }
     void relay_to(session::Log& log);
     bool undo_technique();
@@ -225,7 +238,7 @@ private:
     std::vector<scene::Technique> start_techniques_; // of the materials
     AppearanceSwitch switch_;
     TechniqueEditor techniques_; // uses the switch
-    ExaggerationSwitch exaggeration_;
+    SurfaceSwitch surface_switch_;
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     Navigation navigation_;

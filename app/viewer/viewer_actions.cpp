@@ -6,7 +6,9 @@
 
 #include "app/viewer/camera_text.h"
 #include "app/viewer/viewer.h"
+#include "engine/scene/graph/daylight.h"
 #include "engine/session/ground.h"
+#include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::app {
 namespace {
@@ -166,27 +168,27 @@ Result<void> Viewer::set_path(Result<scene::CameraPath> path) {
     return set;
 }
 
-Result<void> Viewer::edit(const InsertPathKey& insert) {
+Result<void> Viewer::act(const InsertPathKey& insert) {
     const scene::Camera& view = flight_.camera();
     return set_path(scene::with_key(
         desk_.path(), {desk_.path().begin() + insert.seconds, view.eye, view.target}));
 }
 
-Result<void> Viewer::edit(const MovePathKey& move) {
+Result<void> Viewer::act(const MovePathKey& move) {
     const scene::Camera& view = flight_.camera();
     return set_path(scene::with_moved_key(desk_.path(), move.key, {0.0, view.eye, view.target}));
 }
 
-Result<void> Viewer::edit(const RetimePathKey& retime) {
-    return set_path(scene::with_retimed_key(desk_.path(), retime.key,
-                                            desk_.path().begin() + retime.seconds));
+Result<void> Viewer::act(const RetimePathKey& retime) {
+    return set_path(
+        scene::with_retimed_key(desk_.path(), retime.key, desk_.path().begin() + retime.seconds));
 }
 
-Result<void> Viewer::edit(const RemovePathKey& remove) {
+Result<void> Viewer::act(const RemovePathKey& remove) {
     return set_path(scene::without_key(desk_.path(), remove.key));
 }
 
-Result<void> Viewer::edit(const SetPathDuration& set) {
+Result<void> Viewer::act(const SetPathDuration& set) {
     return set_path(scene::with_duration(desk_.path(), set.seconds));
 }
 
@@ -239,10 +241,45 @@ void Viewer::change_technique(const std::function<void()>& change) {
     redraw_ = redraw_ || (before != switch_.technique() && !switch_.is_preparing());
 }
 
-void Viewer::swap_techniques() {
+Result<void> Viewer::act(const SwapTechniques& /*action*/) {
     const scene::Technique left = switch_.technique();
-    report(request(ChooseTechnique{comparison_.technique(), {}}));
-    report(comparison_.choose(left));
+    auto swapped = request(ChooseTechnique{comparison_.technique(), {}});
+    return swapped ? comparison_.choose(left) : swapped;
+}
+
+Result<void> Viewer::act(const SelectModel& choice) {
+    techniques_.select_model(choice.model);
+    return {};
+}
+
+Result<void> Viewer::act(const SelectParameter& choice) {
+    techniques_.select_parameter(choice.index);
+    return {};
+}
+
+Result<void> Viewer::act(const SetWipe& set) {
+    comparison_.set_share(set.share);
+    return {};
+}
+
+Result<void> Viewer::act(const SeekPath& seek) {
+    this->seek(seek.seconds);
+    return {};
+}
+
+Result<void> Viewer::act(const ClearPoints& /*action*/) {
+    measuring_.clear();
+    return {};
+}
+
+Result<void> Viewer::act(const SetExaggeration& set) {
+    set_exaggeration(set.factor);
+    return {};
+}
+
+Result<void> Viewer::act(const SetSun& sun) {
+    set_sun(sun);
+    return {};
 }
 
 void Viewer::select_parameter(int steps) {
@@ -260,16 +297,50 @@ void Viewer::set_sun(const SetSun& sun) {
     scene::Light light = switch_.light();
     light.azimuth = sun.azimuth;
     light.altitude = sun.altitude;
+    // The colours that session::set_daylight() gives it: its maps are prepared with them.
+    const scene::Daylight daylight =
+        scene::daylight_at(light.altitude, scene_.surroundings.turbidity);
+    light.color = daylight.sun;
+    light.ambient = daylight.ambient;
     switch_.follow(light);
     redraw_ = redraw_ || !switch_.is_preparing();
+}
+
+Result<void> Viewer::act(const SetTurbidity& set) {
+    scene_.surroundings.turbidity = set.turbidity;
+    const scene::Light light = switch_.light();
+    set_sun({light.azimuth, light.altitude});
+    return {};
+}
+
+Result<void> Viewer::act(const SetVisibility& set) {
+    if (auto sky = scene_.scene.sky()) {
+        scene_.surroundings.visibility = set.metres;
+        sky->visibility = set.metres;
+        scene_.scene.set_sky(*sky);
+        redraw_ = true;
+    }
+    return {};
+}
+
+Result<void> Viewer::act(const SetRamp& set) {
+    if (const std::string obstacle = exaggeration_obstacle(); !obstacle.empty()) {
+        return Error{obstacle};
+    }
+    auto ramp = terrain::named_ramp(set.name);
+    if (!ramp) {
+        return Error{fmt::format("colours: '{}' found, a built-in ramp was expected", set.name)};
+    }
+    surface_switch_.request(std::move(*ramp));
+    return {};
 }
 
 session::RelayedLog::TaskProgress Viewer::progress() const {
     if (switch_.is_preparing()) {
         return switch_.progress();
     }
-    auto preparing =
-        exaggeration_.is_preparing() || !proofs_ ? exaggeration_.progress() : proofs_->progress();
+    auto preparing = surface_switch_.is_preparing() || !proofs_ ? surface_switch_.progress()
+                                                                : proofs_->progress();
     return preparing.label.empty() ? measuring_.progress() : preparing;
 }
 

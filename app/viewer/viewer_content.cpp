@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "engine/session/ground.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/measure/profile.h"
 
@@ -27,8 +28,20 @@ std::optional<CrsPlace> crs_place(const scene::TerrainSurface& surface, glm::dve
                     georeference->crs_name, georeference->horizontal_unit != "degree"};
 }
 
-AppearanceContent appearance_of(const Viewer& viewer) {
+AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScene& scene) {
     AppearanceContent appearance;
+    appearance.turbidity = scene.surroundings.turbidity;
+    appearance.visibility = scene.scene.sky() ? scene.scene.sky()->visibility : 0.0;
+    if (terrain_of(scene).surface->heightfield().georeference) {
+        appearance.on_earth =
+            terrain_of(scene).surface->placement().geodetic_from_world(scene.bounds.center());
+    }
+    if (scene.models.empty()) {
+        appearance.ramp = viewer.ramp().name;
+        for (const std::string_view name : terrain::ramp_names()) {
+            appearance.ramps.emplace_back(name);
+        }
+    }
     appearance.light = viewer.light();
     appearance.exaggeration = viewer.exaggeration();
     appearance.fixed_exaggeration = viewer.exaggeration_obstacle();
@@ -130,7 +143,7 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.terrain = terrain_of(scene).surface->terrain().name;
     content.frame.window = window;
     content.technique = viewer.techniques().content();
-    content.appearance = appearance_of(viewer);
+    content.appearance = appearance_of(viewer, scene);
     content.measure = measure_of(viewer, camera, window);
     content.path = path_of(viewer);
     content.compare = viewer.comparison().content(viewer.technique());

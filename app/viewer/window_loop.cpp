@@ -19,6 +19,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/io/image/image.h"
 #include "engine/session/streaming.h"
+#include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::app {
 namespace {
@@ -257,17 +258,11 @@ private:
         }
     }
 
-    void act_on(const ChooseTechnique& choice) {
-        if (const auto requested = viewer_.request(choice); !requested) {
-            messages_.note(requested.error().message);
+    template <class Action> void act_on(const Action& action) {
+        if (const auto done = viewer_.act(action); !done) {
+            messages_.note(done.error().message);
         }
     }
-    void act_on(const SelectModel& choice) { viewer_.techniques().select_model(choice.model); }
-    void act_on(const SelectParameter& choice) {
-        viewer_.techniques().select_parameter(choice.index);
-    }
-    void act_on(const SetSun& sun) { viewer_.set_sun(sun); }
-    void act_on(const SetExaggeration& set) { viewer_.set_exaggeration(set.factor); }
     void act_on(const SetSamples& set) {
         samples_ = set.samples;
         resamples_ = true;
@@ -277,25 +272,12 @@ private:
         viewer_.receive(KeyEvent{.key = press.key, .pressed = false});
     }
     void act_on(const CopyCommand& /*action*/) { copy_command(); }
-    void act_on(const SetComparison& set) {
-        if (const auto done = viewer_.comparison().set(set.with); !done) {
-            messages_.note(done.error().message);
-        }
-    }
-    void act_on(const SetOtherTechnique& set) {
-        if (const auto done = viewer_.comparison().choose(set.technique); !done) {
-            messages_.note(done.error().message);
-        }
-    }
-    void act_on(const SetWipe& set) { viewer_.comparison().set_share(set.share); }
-    void act_on(const SwapTechniques& /*action*/) { viewer_.swap_techniques(); }
-    void act_on(const SeekPath& seek) { viewer_.seek(seek.seconds); }
     void act_on(const CancelVideo& /*action*/) { filming_.cancel(); }
-    void act_on(const ClearPoints& /*action*/) { viewer_.measuring().clear(); } // panels are stale
-    template <class Edit> void act_on(const Edit& edit) { // of the path
-        if (const auto edited = viewer_.edit(edit); !edited) {
-            messages_.note(edited.error().message);
-        }
+
+    // A ramp of a file keeps the name of --ramp.
+    [[nodiscard]] std::string named_ramp() const {
+        const bool is_built_in = scene_.models.empty() && terrain::named_ramp(viewer_.ramp().name);
+        return is_built_in ? viewer_.ramp().name : std::string();
     }
 
     void copy_command() {
@@ -306,6 +288,7 @@ private:
                                              .size = window_.framebuffer_size(),
                                              .samples = samples_,
                                              .keeps_techniques = viewer_.keeps_techniques(),
+                                             .ramp = named_ramp(),
                                              .compare = viewer_.comparison().option(),
                                              .wipe = viewer_.comparison().share()});
         if (!command) {

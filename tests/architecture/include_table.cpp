@@ -92,7 +92,7 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/scene/technique", "engine/view"}},
         {"app/viewer/appearance",
          {"app/viewer/panels", "engine/core", "engine/scene/graph", "engine/scene/technique",
-          "engine/session", "engine/view"}},
+          "engine/session", "engine/terrain/field", "engine/view"}},
         {"app/viewer/comparing",
          {"app/viewer/appearance", "app/viewer/panels", "engine/core", "engine/scene/graph",
           "engine/scene/technique", "engine/session", "engine/session/comparing"}},

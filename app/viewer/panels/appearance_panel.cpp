@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "app/viewer/panels/toolkit/widgets.h"
+#include "engine/geo/sun_position.h"
+#include "engine/scene/graph/daylight.h"
 
 namespace reljef::app {
 namespace {
@@ -45,6 +47,46 @@ PanelActions draw_sun(const AppearanceContent& appearance) {
         sun.altitude = std::max(std::round(sun.altitude), min_altitude);
     }
     return {sun};
+}
+
+PanelActions draw_air(const AppearanceContent& appearance) {
+    constexpr double nearest = 1e3; // metres, of the slider
+    constexpr double farthest = 1e6;
+    constexpr double kilometre = 1e3;
+    PanelActions actions;
+    double turbidity = appearance.turbidity;
+    if (draw_slider("Turbidity of the air", turbidity, scene::min_turbidity, scene::max_turbidity,
+                    "{:.1f}")) {
+        actions.emplace_back(SetTurbidity{std::round(10.0 * turbidity) / 10.0});
+    }
+    if (appearance.visibility > 0.0) {
+        double visibility = appearance.visibility / kilometre;
+        if (draw_slider("Haze: visibility, km", visibility, nearest / kilometre,
+                        farthest / kilometre, "{:.0f}", ImGuiSliderFlags_Logarithmic)) {
+            actions.emplace_back(SetVisibility{kilometre * visibility});
+        }
+    }
+    return actions;
+}
+
+PanelActions draw_ramps(const AppearanceContent& appearance) {
+    PanelActions actions;
+    if (appearance.ramp.empty()) {
+        return actions;
+    }
+    muted_text("Colours of heights");
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::BeginDisabled(!appearance.fixed_exaggeration.empty());
+    if (ImGui::BeginCombo("##ramp", appearance.ramp.c_str())) {
+        for (const std::string& name : appearance.ramps) {
+            if (ImGui::Selectable(name.c_str(), name == appearance.ramp)) {
+                actions.emplace_back(SetRamp{name});
+            }
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::EndDisabled();
+    return actions;
 }
 
 PanelActions draw_exaggeration(const AppearanceContent& appearance) {
@@ -92,13 +134,52 @@ PanelActions draw_switch(const char* label, bool is_on, Key key) {
 
 } // namespace
 
-PanelActions draw_appearance(const PanelContent& content, const Fonts& fonts) {
+PanelActions AppearancePanel::draw_date(const AppearanceContent& appearance) {
+    constexpr int year = 2026; // the sun's path is nearly that of each year
+    constexpr double days = 365.0;
+    constexpr double last_minute = 24.0 - 1.0 / 60.0;
+    if (!appearance.on_earth) {
+        return {};
+    }
+    geo::UniversalTime time = geo::day_of_year(year, static_cast<int>(std::lround(day_)));
+    const int minutes = static_cast<int>(std::lround(60.0 * hours_));
+    row("Or by date", fmt::format("{:04}-{:02}-{:02}", time.year, time.month, time.day));
+    ImGui::SetNextItemWidth(-1.0F);
+    constexpr double first = 1.0;
+    bool is_moved = ImGui::SliderScalar("##day", ImGuiDataType_Double, &day_, &first, &days, "");
+    row("and time, UTC", fmt::format("{:02}:{:02}", minutes / 60, minutes % 60));
+    ImGui::SetNextItemWidth(-1.0F);
+    constexpr double midnight = 0.0;
+    is_moved = ImGui::SliderScalar("##hours", ImGuiDataType_Double, &hours_, &midnight,
+                                   &last_minute, "") ||
+               is_moved;
+    if (!note_.empty()) {
+        wrapped_muted_text(note_);
+    }
+    if (!is_moved) {
+        return {};
+    }
+    time = geo::day_of_year(year, static_cast<int>(std::lround(day_)));
+    time.hours = hours_;
+    const auto sun =
+        geo::sun_position(time, appearance.on_earth->latitude, appearance.on_earth->longitude);
+    note_ = !sun ? sun.error().message
+            : sun->altitude <= 0
+                ? fmt::format("The sun is {:.1f}\u00b0 below the horizon then.", -sun->altitude)
+                : std::string();
+    return note_.empty() ? PanelActions{SetSun{sun->azimuth, sun->altitude}} : PanelActions();
+}
+
+PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fonts) {
     const AppearanceContent& appearance = content.appearance;
     const FontScope small(fonts.small);
     PanelActions actions;
-    section(fonts.heading, "Sun");
+    section(fonts.heading, "Sun and air");
     actions += draw_sun(appearance);
+    actions += draw_date(appearance);
+    actions += draw_air(appearance);
     section(fonts.heading, "Picture");
+    actions += draw_ramps(appearance);
     actions += draw_exaggeration(appearance);
     actions += draw_samples(appearance);
     actions += draw_switch("Wireframe  (F)", content.technique.wireframe, Key::f);

@@ -61,7 +61,8 @@ PanelActions draw_measure(const PanelContent& content, const Fonts& fonts) {
         actions.emplace_back(PressKey{Key::u});
     }
     ImGui::EndDisabled();
-    tip("What an eye 2 m above the last point sees, by exact rays: a GeoTIFF in the current folder");
+    tip("What an eye 2 m above the last point sees, by exact rays: a GeoTIFF in the current "
+        "folder");
     return actions;
 }
 

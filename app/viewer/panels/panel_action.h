@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -31,6 +32,20 @@ struct SelectParameter {
 struct SetSun {
     double azimuth = 0.0;  ///< degrees clockwise from north
     double altitude = 0.0; ///< degrees above the horizon, (0, 90]
+};
+
+struct SetTurbidity {
+    double turbidity = 1.0; ///< [scene::min_turbidity, scene::max_turbidity]
+};
+
+/// How far one sees through haze.
+struct SetVisibility {
+    double metres = 0.0; ///< > 0
+};
+
+/// Colours of heights.
+struct SetRamp {
+    std::string name; ///< of a built-in ramp
 };
 
 struct SetExaggeration {
@@ -102,10 +117,10 @@ struct PressKey {
 struct CopyCommand {};
 
 using PanelAction =
-    std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetExaggeration, SetSamples,
-                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey,
-                                 MovePathKey, RetimePathKey, RemovePathKey, SetPathDuration,
-                                 CancelVideo, ClearPoints>;
+    std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
+                 SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand, SetComparison,
+                 SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey, MovePathKey,
+                 RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo, ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

@@ -49,10 +49,15 @@ struct TechniqueContent {
 };
 
 struct AppearanceContent {
-    scene::Light light;             ///< requested
-    double exaggeration = 1.0;      ///< requested
-    std::string fixed_exaggeration; ///< why it cannot change; empty: it can
-    std::optional<int> samples;     ///< absent: chosen for each frame
+    scene::Light light; ///< requested
+    double turbidity = 1.0;
+    double visibility = 0.0;               ///< metres; 0: no haze
+    std::optional<geo::Geodetic> on_earth; ///< of the terrain's middle
+    std::string ramp;                      ///< requested; empty: heights have no colours
+    std::vector<std::string> ramps;        ///< the built-in ones
+    double exaggeration = 1.0;             ///< requested
+    std::string fixed_exaggeration;        ///< why it cannot change; empty: it can
+    std::optional<int> samples;            ///< absent: chosen for each frame
     bool shows_map = false;
     bool plays_path = false;
     bool follows_ground = false;

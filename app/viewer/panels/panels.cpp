@@ -144,7 +144,7 @@ PanelActions Panels::draw_tab(const PanelContent& content) {
     case Tab::technique:
         return draw_technique(content, fonts);
     case Tab::view:
-        return draw_appearance(content, fonts);
+        return appearance_.draw(content, fonts);
     case Tab::compare:
         return draw_compare(content, fonts);
     case Tab::measure:

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/viewer/panels/appearance_panel.h"
 #include "app/viewer/panels/panel_action.h"
 #include "app/viewer/panels/panel_content.h"
 #include "app/viewer/panels/path_panel.h"
@@ -58,6 +59,7 @@ private:
     static constexpr double max_age = 0.1; // seconds
 
     Interface interface_;
+    AppearancePanel appearance_;
     PlacePanel place_;
     PathPanel path_;
     double inspector_content_ = 0.0; // height in the last frame, pixels

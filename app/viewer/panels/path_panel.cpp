@@ -11,10 +11,10 @@ namespace reljef::app {
 namespace {
 
 constexpr float timeline_height = 34.0F; // pixels
-constexpr float line_margin = 8.0F;           // of the timeline, for the first and the last keyframe
+constexpr float line_margin = 8.0F;      // of the timeline, for the first and the last keyframe
 constexpr float key_size = 6.0F;
-constexpr double reach = 8.0;  // of a keyframe, pixels
-constexpr double step = 0.05;  // of times, seconds
+constexpr double reach = 8.0; // of a keyframe, pixels
+constexpr double step = 0.05; // of times, seconds
 constexpr double min_duration = 1.0;
 constexpr double max_duration = 600.0;
 
@@ -144,8 +144,8 @@ PanelActions PathPanel::draw_timeline(const PathContent& path) {
         std::clamp(0.4F * scale.width / static_cast<float>(path.keys.size() + 1), 1.0F, key_size);
     for (std::size_t i = 0; i < path.keys.size(); ++i) {
         const bool is_dragged = drag_ && drag_->has_moved && drag_->key == i;
-        draw_diamond({scale.x_of(is_dragged ? drag_->seconds : path.keys[i]), middle},
-                     half, i == key_ ? palette::accent : palette::muted);
+        draw_diamond({scale.x_of(is_dragged ? drag_->seconds : path.keys[i]), middle}, half,
+                     i == key_ ? palette::accent : palette::muted);
     }
     return actions;
 }

@@ -35,9 +35,9 @@ float upper_edge(std::vector<float> times) {
     if (times.empty()) {
         return min_plotted_ms;
     }
-    const auto most = times.begin() + static_cast<std::ptrdiff_t>((times.size() - 1) * 9 / 10);
-    std::nth_element(times.begin(), most, times.end());
-    return std::max(min_plotted_ms, 2.0F * *most);
+    const auto slow = times.begin() + static_cast<std::ptrdiff_t>((times.size() - 1) * 9 / 10);
+    std::nth_element(times.begin(), slow, times.end());
+    return std::max(min_plotted_ms, 2.0F * *slow);
 }
 
 void draw_plot(const FrameContent& frame, float scale) {

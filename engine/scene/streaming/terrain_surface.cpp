@@ -61,6 +61,12 @@ Result<TerrainSurface> TerrainSurface::exaggerated(double factor) const {
                   {.placement = placement_.kind(), .exaggeration = factor, .ramp = ramp_});
 }
 
+Result<TerrainSurface> TerrainSurface::colored(terrain::ColorRamp ramp) const {
+    return create(terrain_, {.placement = placement_.kind(),
+                             .exaggeration = placement_.exaggeration(),
+                             .ramp = std::move(ramp)});
+}
+
 std::optional<double> TerrainSurface::height_at(double x, double y) const {
     const Grid<float>& heights = heightfield().heights;
     // On a curved Earth the vertical through (x, y) is not parallel to z. Each round looks up the

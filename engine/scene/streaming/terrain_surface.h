@@ -31,6 +31,8 @@ public:
 
     /// The same terrain with another exaggeration. Fails if the factor is out of range.
     [[nodiscard]] Result<TerrainSurface> exaggerated(double factor) const;
+    /// The same terrain with other colours where no image lies.
+    [[nodiscard]] Result<TerrainSurface> colored(terrain::ColorRamp ramp) const;
 
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }

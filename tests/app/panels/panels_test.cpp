@@ -182,5 +182,51 @@ TEST_F(PanelsTest, EveryTechniqueOfTheCatalogueHasItsPanel) {
     }
 }
 
+TEST_F(PanelsTest, ComparingBringsItsTabToTheFrontAndMovesTheLine) {
+    content.compare.with = CompareWith::truth;
+    content.compare.figures = {{"Wrong pixels", "0 %", "1 %"}};
+    draw();
+    draw();
+    EXPECT_TRUE(found_in<SetComparison>(layout.inspector));
+    const auto wipe = found_in<SetWipe>(layout.inspector);
+    ASSERT_TRUE(wipe);
+    EXPECT_GE(wipe->share, 0.0);
+    EXPECT_LE(wipe->share, 1.0);
+}
+
+TEST_F(PanelsTest, MeasuringShowsItsPointsAndProfile) {
+    content.measure.is_on = true;
+    content.measure.points = {{"46.1, 7.2", "height 3 m", glm::dvec2(500.0, 300.0)},
+                              {"46.2, 7.2", "height 4 m", std::nullopt}};
+    content.measure.profile = ProfileContent{.heights = {3.0F, 5.0F, 4.0F}, .distance = 1000.0};
+    draw();
+    draw();
+    EXPECT_TRUE(found_in<ClearPoints>(layout.inspector));
+    const auto saved = found_in<PressKey>(layout.inspector);
+    ASSERT_TRUE(saved);
+}
+
+TEST_F(PanelsTest, TheTimelineSeeksAndMovesKeyframes) {
+    content.path.keys = {0.0, 5.0, 10.0};
+    content.path.is_recording = true; // its tab comes to the front
+    draw();
+    draw();
+    const auto seek = found_in<SeekPath>(layout.inspector, 6.0);
+    ASSERT_TRUE(seek);
+    EXPECT_GE(seek->seconds, 0.0);
+    EXPECT_LE(seek->seconds, 10.0);
+    EXPECT_TRUE(found_in<InsertPathKey>(layout.inspector, 6.0));
+    EXPECT_TRUE(found_in<MovePathKey>(layout.inspector, 6.0));
+    EXPECT_TRUE(found_in<RemovePathKey>(layout.inspector, 6.0));
+    EXPECT_TRUE(found_in<SetPathDuration>(layout.inspector, 6.0));
+}
+
+TEST_F(PanelsTest, AVideoCanBeCancelled) {
+    content.path.video = 0.5;
+    draw();
+    draw();
+    EXPECT_TRUE(found_in<CancelVideo>(layout.inspector, 6.0));
+}
+
 } // namespace
 } // namespace reljef::app

@@ -110,7 +110,7 @@ struct Interface::State {
     int frames_due = frames_after_event;
     std::vector<Area> areas; // of the panels in the last frame
     KeptPicture picture;
-    bool is_kept = false;    // the last frame, in the picture
+    bool is_kept = false; // the last frame, in the picture
     bool types_text = false;
     bool opens_list = false;
     bool closes_list = false; // in the next frame

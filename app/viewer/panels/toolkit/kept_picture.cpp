@@ -12,10 +12,10 @@ namespace {
 // How far a row of a rounded corner begins from the side; rows count from the edge.
 int inset(int row, int radius) {
     const double up = radius - row - 0.5;
-    return row >= radius ? 0
-                         : static_cast<int>(std::ceil(
-                               radius - std::sqrt(std::max(double(radius) * radius - up * up, 0.0)) -
-                               0.5));
+    return row >= radius
+               ? 0
+               : static_cast<int>(std::ceil(
+                     radius - std::sqrt(std::max(double(radius) * radius - up * up, 0.0)) - 0.5));
 }
 
 } // namespace
@@ -45,8 +45,8 @@ std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window) {
 bool KeptPicture::draw(glm::ivec2 window, std::vector<RoundedArea> areas,
                        const std::function<void()>& draw_panels) {
     if (!is_of(window)) {
-        auto made = gl::Framebuffer::create(
-            {.size = window, .color = gl::Format::rgba8, .depth = false});
+        auto made =
+            gl::Framebuffer::create({.size = window, .color = gl::Format::rgba8, .depth = false});
         if (!made) {
             target_ = gl::Framebuffer();
             return false;

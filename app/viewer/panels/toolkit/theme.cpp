@@ -115,10 +115,10 @@ Fonts apply_theme(float scale) {
     style.FramePadding = {8.0F, 3.0F};
     style.ItemSpacing = {8.0F, 6.0F};
     style.ItemInnerSpacing = {6.0F, 4.0F};
-    style.WindowRounding = 8.0F;
+    style.WindowRounding = 0.0F; // a copy for each panel, see KeptPicture
     style.ChildRounding = 6.0F;
     style.FrameRounding = 5.0F;
-    style.PopupRounding = 6.0F;
+    style.PopupRounding = 0.0F;
     style.GrabRounding = 5.0F;
     style.TabRounding = 5.0F;
     style.ScrollbarRounding = 4.0F;

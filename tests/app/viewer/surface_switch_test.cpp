@@ -1,4 +1,4 @@
-#include "app/viewer/appearance/exaggeration_switch.h"
+#include "app/viewer/appearance/surface_switch.h"
 
 #include <algorithm>
 #include <thread>
@@ -103,6 +103,39 @@ TEST_F(ExaggerationTest, TheLastOfManySunsIsShown) {
     EXPECT_EQ(light.azimuth, 179.0);
     EXPECT_EQ(light.altitude, 30.0);
     EXPECT_EQ(viewer.light(), light);
+}
+
+TEST_F(ExaggerationTest, ColoursChangeAndTheHeightsStay) {
+    const double height = *surface().height_at(0.0, 0.0);
+    ASSERT_TRUE(viewer.act(SetRamp{"swiss"}));
+    EXPECT_EQ(viewer.ramp().name, "swiss");
+    viewer.set_exaggeration(2.0); // keeps the colours
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().ramp().name, "swiss");
+    EXPECT_NEAR(*surface().height_at(0.0, 0.0), 2.0 * height, 1e-6); // of float heights
+    EXPECT_FALSE(viewer.act(SetRamp{"mauve"}));
+    EXPECT_EQ(viewer.ramp().name, "swiss");
+}
+
+TEST_F(ExaggerationTest, ALowSunIsWarmAndItsSkyFollows) {
+    const auto warmth = [](glm::vec3 color) { return color.r / color.b; };
+    ASSERT_TRUE(viewer.act(SetSun{200.0, 60.0}));
+    wait_for_maps(viewer);
+    const scene::Light high = *scene.light->get<scene::Light>();
+    const scene::Sky noon = *scene.scene.sky();
+    ASSERT_TRUE(viewer.act(SetSun{200.0, 5.0}));
+    wait_for_maps(viewer);
+    const scene::Light low = *scene.light->get<scene::Light>();
+    EXPECT_GT(warmth(low.color), warmth(high.color));
+    EXPECT_NE(scene.scene.sky()->horizon, noon.horizon);
+    EXPECT_EQ(scene.scene.sky()->visibility, noon.visibility);
+    EXPECT_EQ(low.is_sky_hidden, high.is_sky_hidden);
+    ASSERT_TRUE(viewer.act(SetVisibility{1234.0}));
+    ASSERT_TRUE(viewer.act(SetTurbidity{6.0}));
+    wait_for_maps(viewer);
+    EXPECT_EQ(scene.surroundings.turbidity, 6.0);
+    EXPECT_EQ(scene.scene.sky()->visibility, 1234.0);
+    EXPECT_NE(scene.light->get<scene::Light>()->color, low.color);
 }
 
 } // namespace

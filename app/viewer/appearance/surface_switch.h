@@ -9,28 +9,33 @@
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_setup.h"
+#include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::app {
 
-/// Changes the vertical exaggeration of a terrain in memory. The surface and its maps are made in
-/// the background; the scene changes when they are ready.
-class ExaggerationSwitch {
+/// Changes the vertical exaggeration of a terrain in memory, and its colours by height. The surface
+/// and its maps are made in the background; the scene changes when they are ready.
+class SurfaceSwitch {
 public:
     /// The scene outlives this. `largest_side`: as in AppearanceSwitchOptions.
-    ExaggerationSwitch(session::TerrainScene& scene, int threads, int largest_side)
+    SurfaceSwitch(session::TerrainScene& scene, int threads, int largest_side)
         : scene_(scene), threads_(threads), largest_side_(largest_side) {}
 
-    /// Why the exaggeration cannot change; empty: it can.
+    /// Why neither can change; empty: both can.
     [[nodiscard]] std::string obstacle() const;
     /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
     /// is in (0, terrain::max_exaggeration].
-    void request(double factor) { next_ = factor; }
+    void request(double factor) { next_ = Shape{factor, ramp()}; }
+    /// The same with other colours.
+    void request(terrain::ColorRamp ramp) { next_ = Shape{factor(), std::move(ramp)}; }
     /// Begins and ends the work, for a scene with this technique and light. Returns whether the
     /// scene changed.
     bool update(const scene::Technique& technique, const scene::Light& light);
 
     /// The requested factor, else the current one.
     [[nodiscard]] double factor() const;
+    /// The requested colours, else the current ones.
+    [[nodiscard]] const terrain::ColorRamp& ramp() const;
     [[nodiscard]] bool is_preparing() const { return work_.has_value() || next_.has_value(); }
     /// The current task; its label is empty if there is none.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const { return log_.progress(); }
@@ -41,18 +46,25 @@ public:
     }
 
 private:
+    struct Shape {
+        double factor = 1.0;
+        terrain::ColorRamp ramp;
+    };
     struct Exaggerated {
         std::shared_ptr<const scene::TerrainSurface> surface;
         session::PreparedMaps maps;
     };
-    void begin(double factor, const scene::Technique& technique, const scene::Light& light);
+    void begin(Shape shape, const scene::Technique& technique, const scene::Light& light);
+    [[nodiscard]] const scene::TerrainSurface& surface() const {
+        return *scene_.terrain->get<scene::TerrainNode>()->surface;
+    }
     bool show();
 
     session::TerrainScene& scene_;
     int threads_;
     int largest_side_;
-    std::optional<double> next_;
-    double preparing_ = 1.0; // the factor of the work
+    std::optional<Shape> next_;
+    Shape preparing_; // of the work
     session::RelayedLog log_;
     std::shared_ptr<const view::PreparedLight> light_;
     std::optional<session::Background<Exaggerated>> work_; // uses the log

@@ -1,8 +1,8 @@
-#include "app/viewer/appearance/exaggeration_switch.h"
+#include "app/viewer/appearance/surface_switch.h"
 
 namespace reljef::app {
 
-std::string ExaggerationSwitch::obstacle() const {
+std::string SurfaceSwitch::obstacle() const {
     if (!scene_.models.empty()) {
         return "models have no vertical exaggeration; a terrain has";
     }
@@ -12,15 +12,21 @@ std::string ExaggerationSwitch::obstacle() const {
                : "";
 }
 
-double ExaggerationSwitch::factor() const {
+double SurfaceSwitch::factor() const {
     if (next_) {
-        return *next_;
+        return next_->factor;
     }
-    return work_ ? preparing_
-                 : scene_.terrain->get<scene::TerrainNode>()->surface->placement().exaggeration();
+    return work_ ? preparing_.factor : surface().placement().exaggeration();
 }
 
-bool ExaggerationSwitch::update(const scene::Technique& technique, const scene::Light& light) {
+const terrain::ColorRamp& SurfaceSwitch::ramp() const {
+    if (next_) {
+        return next_->ramp;
+    }
+    return work_ ? preparing_.ramp : surface().ramp();
+}
+
+bool SurfaceSwitch::update(const scene::Technique& technique, const scene::Light& light) {
     if (work_ && work_->is_done()) {
         return show();
     }
@@ -30,16 +36,19 @@ bool ExaggerationSwitch::update(const scene::Technique& technique, const scene::
     return false;
 }
 
-void ExaggerationSwitch::begin(double factor, const scene::Technique& technique,
-                               const scene::Light& light) {
+void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
+                          const scene::Light& light) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
     session::MissingMaps missing;
     missing.bisection = node.bisection != nullptr; // its errors depend on the heights
     missing.light = session::light_request(scene_, light, technique, largest_side_);
-    preparing_ = factor;
-    work_.emplace([surface = node.surface, missing = std::move(missing), factor, threads = threads_,
-                   this](const std::stop_token& stop) -> Result<Exaggerated> {
-        auto exaggerated = surface->exaggerated(factor);
+    preparing_ = std::move(shape);
+    work_.emplace([surface = node.surface, missing = std::move(missing), shape = preparing_,
+                   threads = threads_, this](const std::stop_token& stop) -> Result<Exaggerated> {
+        auto exaggerated = surface->exaggerated(shape.factor);
+        if (exaggerated && shape.ramp != surface->ramp()) {
+            exaggerated = exaggerated->colored(shape.ramp);
+        }
         if (!exaggerated) {
             return exaggerated.error();
         }
@@ -59,7 +68,7 @@ void ExaggerationSwitch::begin(double factor, const scene::Technique& technique,
     });
 }
 
-bool ExaggerationSwitch::show() {
+bool SurfaceSwitch::show() {
     const auto made = work_->take();
     work_.reset();
     if (!made) {
