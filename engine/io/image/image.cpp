@@ -41,6 +41,21 @@ void store_row(std::span<const float> values, int channels, bool linear, std::sp
     }
 }
 
+// OpenImageIO 2.4 divides by zero where it reads scanlines of a TIFF with tiles.
+// `values`: the rows of the picture, all of its columns.
+bool read_rows(OIIO::ImageInput& input, int first_row, int channels, std::span<float> values) {
+    const OIIO::ImageSpec& spec = input.spec();
+    const std::size_t row_values =
+        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
+    const int begin = spec.y + first_row;
+    const int end = begin + static_cast<int>(values.size() / row_values);
+    return spec.tile_width > 0
+               ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1,
+                                  0, channels, OIIO::TypeDesc::FLOAT, values.data())
+               : input.read_scanlines(0, 0, begin, end, 0, 0, channels, OIIO::TypeDesc::FLOAT,
+                                      values.data());
+}
+
 Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
     Image image(spec.width, spec.height);
@@ -48,11 +63,12 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     const int channels = std::min(spec.nchannels, 4);
     const std::size_t row_values =
         static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
-    std::vector<float> values(row_values * rows_at_a_time);
-    for (int begin = 0; begin < spec.height; begin += rows_at_a_time) {
-        const int end = std::min(begin + rows_at_a_time, spec.height);
-        if (!input.read_scanlines(0, 0, spec.y + begin, spec.y + end, 0, 0, channels,
-                                  OIIO::TypeDesc::FLOAT, values.data())) {
+    const int step = std::min(spec.tile_width > 0 ? spec.tile_height : rows_at_a_time, spec.height);
+    std::vector<float> values(row_values * static_cast<std::size_t>(step));
+    for (int begin = 0; begin < spec.height; begin += step) {
+        const int end = std::min(begin + step, spec.height);
+        const auto rows = static_cast<std::size_t>(end - begin);
+        if (!read_rows(input, begin, channels, std::span(values).first(rows * row_values))) {
             return Error{
                 fmt::format("{}: cannot be read at row {} ({}), a whole picture was expected",
                             path.string(), begin, input.geterror())};
