@@ -100,20 +100,30 @@ int run(const Program& program, int argc, char** argv) {
     }
 }
 
-} // namespace
-
-std::string version_text() {
-    return "reljef " RELJEF_VERSION;
-}
-
-int run_program(const Program& program, int argc, char** argv) noexcept {
-    keep_streams_open();
+int run_made(const Program& program, int argc, char** argv) {
     try {
         return run(program, argc, argv);
     } catch (const std::bad_alloc&) {
         return fail(program, "there is not enough memory for this");
     } catch (const std::exception& error) {
         return std::ferror(stdout) != 0 ? report_lost_output(program) : fail(program, error.what());
+    }
+}
+
+} // namespace
+
+std::string version_text() {
+    return "reljef " RELJEF_VERSION;
+}
+
+int run_program(Program (*make)(), int argc, char** argv) noexcept {
+    keep_streams_open();
+    try {
+        return run_made(make(), argc, argv);
+    } catch (const std::exception&) { // there was no memory for the program, or for the message
+        write_stderr(::program_invocation_short_name);
+        write_stderr(": there is not enough memory for this\n");
+        return failed;
     }
 }
 

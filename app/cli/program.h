@@ -21,6 +21,6 @@ std::string version_text();
 /// Parses the arguments and runs their verb. Errors are one line on stderr. Returns the exit
 /// status: 0, 1 if the verb failed, was interrupted or could not write its output, 2 after wrong
 /// arguments.
-int run_program(const Program& program, int argc, char** argv) noexcept;
+int run_program(Program (*make)(), int argc, char** argv) noexcept;
 
 } // namespace reljef::cli

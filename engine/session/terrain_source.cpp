@@ -163,30 +163,34 @@ Result<TerrainSource> read_tiles(SetToRead set, const SourceOptions& choice,
 
 // A single file is streamed as a set if it, or its imagery, does not fit in memory. Otherwise
 // returns the white point of its imagery.
-SetOrImagery set_to_stream(const SourceOptions& choice, const io::SceneDescription& description,
-                           const std::stop_token& stop) {
+Result<SetOrImagery> set_to_stream(const SourceOptions& choice,
+                                   const io::SceneDescription& description,
+                                   const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
-        return {};
+        return SetOrImagery();
     }
     const auto info = io::read_raster_info(description.heights);
-    if (!info || info->crs_name.empty()) {
-        return {};
+    if (!info) {
+        return info.error();
+    }
+    if (info->crs_name.empty()) {
+        return SetOrImagery();
     }
     const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
                       static_cast<double>(choice.memory_megabytes) * (1U << 20U);
     const io::TileTerrainOptions options = tile_options(choice, description, stop);
     if (fits && (options.raster.imagery.empty() || !choice.pictures_streamed)) {
-        return {};
+        return SetOrImagery();
     }
     auto tiles = open_set(choice, description, stop);
     if (!tiles) {
-        return {};
+        return SetOrImagery();
     }
     OpenImagery imagery = open_imagery(*tiles, choice, options);
     if (fits && !has_finer_pictures(*tiles, options, imagery)) {
-        return {{}, imagery.white()};
+        return SetOrImagery{{}, imagery.white()};
     }
-    return {SetToRead{std::move(*tiles), std::move(imagery)}, {}};
+    return SetOrImagery{SetToRead{std::move(*tiles), std::move(imagery)}, {}};
 }
 
 Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescription& description,
@@ -230,12 +234,15 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
     if (auto fits = check_folder_options(choice, description); !fits) {
         return fits.error();
     }
-    SetOrImagery found = set_to_stream(choice, description, stop);
-    if (found.set) {
-        return read_tiles(std::move(*found.set), choice, std::move(description), log, stop);
+    auto found = set_to_stream(choice, description, stop);
+    if (!found) {
+        return found.error();
+    }
+    if (found->set) {
+        return read_tiles(std::move(*found->set), choice, std::move(description), log, stop);
     }
     auto terrain = description.generator.empty()
-                       ? read(choice, description, found.imagery_white, log, stop)
+                       ? read(choice, description, found->imagery_white, log, stop)
                        : generate(choice, description, log, stop);
     return terrain ? Result<TerrainSource>(
                          TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})

@@ -14,7 +14,7 @@ namespace reljef::test {
 namespace {
 
 int reljef_main(int argc, char** argv) {
-    return cli::run_program(app::reljef_program(), argc, argv);
+    return cli::run_program(app::reljef_program, argc, argv);
 }
 
 } // namespace

@@ -7,7 +7,7 @@ namespace reljef::test {
 namespace {
 
 int reljef_bench_main(int argc, char** argv) {
-    return cli::run_program(bench::reljef_bench_program(), argc, argv);
+    return cli::run_program(bench::reljef_bench_program, argc, argv);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "engine/io/files/dataset_pool.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "engine/io/remote/remote_files.h"
 
@@ -30,8 +31,13 @@ void DatasetPool::Loan::discard() {
 }
 
 DatasetPool::Loan::~Loan() {
-    if (dataset_ != nullptr) {
+    if (dataset_ == nullptr) {
+        return;
+    }
+    try {
         pool_->give_back({std::move(path_), opened_, std::move(dataset_)});
+    } catch (const std::exception&) {
+        // Without memory for the list of idle datasets this one is closed.
     }
 }
 

@@ -1,7 +1,9 @@
 #include "engine/scene/streaming/tile_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
 #include <system_error>
 #include <utility>
 
@@ -33,6 +35,18 @@ std::size_t texels_shown(const Image& texels) {
     const auto samples = texels.samples();
     return static_cast<std::size_t>(
         std::count_if(samples.begin(), samples.end(), [](Rgba8 texel) { return texel.a != 0; }));
+}
+
+constexpr const char* no_memory = "tiles cannot be made: there is not enough memory";
+
+// A thread that does not catch std::bad_alloc ends the process.
+template <class Call> bool has_memory_for(const Call& call) {
+    try {
+        call();
+        return true;
+    } catch (const std::exception&) {
+        return false;
+    }
 }
 
 } // namespace
@@ -284,7 +298,13 @@ void TileStream::work(const std::stop_token& stop) {
             }
             continue;
         }
-        load(*tile, lock);
+        if (!has_memory_for([&] { load(*tile, lock); })) { // as a file that cannot be read
+            if (!lock.owns_lock()) {
+                lock.lock();
+            }
+            in_flight_.erase(*tile);
+            has_memory_for([&] { note_failure(*tile, std::array{FileError{"tiles", no_memory}}); });
+        }
         changed_.notify_all();
     }
 }
@@ -426,43 +446,6 @@ void TileStream::keep(terrain::TreeTile tile, Made made) {
     ++revision_;
     evict();
     stats_.max_bytes = std::max(stats_.max_bytes, stats_.bytes);
-}
-
-// All tiles of a bad file wait together: it delays a flight once, not for each new tile.
-void TileStream::note_failure(terrain::TreeTile tile, std::span<const FileError> errors) {
-    ++stats_.failed;
-    const auto now = Clock::now();
-    TileFailure failure;
-    for (const FileError& error : errors) {
-        BackOff& file = file_failures_.try_emplace(error.file, options_.first_pause).first->second;
-        file.fail(now);
-        if (failure.files.empty() || failure.latest.again() < file.again()) {
-            failure.latest = file;
-        }
-        failure.files.push_back(error.file);
-    }
-    revision_ += failure.latest.has_failed_for_good() ? 1U : 0U; // has_given_up() changes
-    failures_[tile] = std::move(failure);
-    record_errors(errors);
-}
-
-void TileStream::forget_failure(terrain::TreeTile tile) {
-    const auto found = failures_.find(tile);
-    if (found != failures_.end()) {
-        for (const std::filesystem::path& file : found->second.files) {
-            file_failures_.erase(file);
-        }
-        revision_ += found->second.latest.has_failed_for_good() ? 1U : 0U;
-        failures_.erase(found);
-    }
-}
-
-void TileStream::record_errors(std::span<const FileError> errors) {
-    for (const FileError& error : errors) {
-        if (failed_files_.insert(error.file).second) {
-            new_errors_.push_back(error.message);
-        }
-    }
 }
 
 // Keeps the tiles of this view.
