@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/video_encoder.h"
 #include "engine/io/image/image.h"
@@ -104,6 +105,19 @@ Result<void> make_folder(const fs::path& pattern) {
 
 bool is_standard_output(const fs::path& output) {
     return output == "-";
+}
+
+Result<void> check_standard_output(std::string_view other) {
+    if (!other.empty()) {
+        return Error{fmt::format("-o: - found beside {}, which writes to standard output, too; a "
+                                 "file was expected",
+                                 other)};
+    }
+    if (::isatty(STDOUT_FILENO) == 1) {
+        return Error{"-o: - found, and standard output is a terminal; a pipe or a file was "
+                     "expected"};
+    }
+    return {};
 }
 
 bool is_numbered(const fs::path& output) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -29,6 +30,9 @@ bool is_video(const std::filesystem::path& path);
 Result<void> check_output_name(const std::filesystem::path& output, int frames);
 
 bool is_standard_output(const std::filesystem::path& output);
+
+/// Fails if standard output is a terminal, or `other`, an option, also writes to it; empty: none.
+Result<void> check_standard_output(std::string_view other);
 
 /// Whether the name contains a number pattern.
 bool is_numbered(const std::filesystem::path& output);

@@ -1,9 +1,9 @@
+#include <algorithm>
 #include <set>
 #include <span>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "app/choice/calibration.h"
 #include "app/choice/show_option.h"
@@ -21,7 +21,9 @@
 #include "app/finished_frames.h"
 #include "app/frame_sink.h"
 #include "engine/io/image/image.h"
+#include "engine/io/image/picture_writer.h"
 #include "engine/session/frame_maker.h"
+#include "engine/session/picture/picture_parts.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 
@@ -43,6 +45,17 @@ struct RenderChoice {
     CompareChoice compare;
 };
 
+// One picture of many pixels, drawn in parts.
+bool is_large(const RenderChoice& choice) {
+    return session::needs_parts(choice.view.size) && io::is_written_in_bands(choice.output) &&
+           !is_numbered(choice.output) && choice.hits.empty() && choice.contact_sheet.empty() &&
+           !choice.truth && !choice.compare.request;
+}
+
+session::PictureParts parts_of(const RenderChoice& choice) {
+    return session::parts_of(choice.view.size, choice.terrain.memory_megabytes);
+}
+
 // Draws frames, by rays on the CPU where it says so.
 struct Maker {
     std::unique_ptr<session::FrameMaker> frames;
@@ -53,14 +66,14 @@ Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
     if (choice.truth) {
         return Maker{std::make_unique<session::TruthFrames>(choice.view.size, choice.rays, log)};
     }
-    auto device =
-        session::Device::create({.context = choice.view.context,
-                                 .prefers_rays = true,
-                                 .size = choice.view.size,
-                                 .shader_dir = choice.view.shader_dir,
-                                 .samples = choice.view.samples.value_or(view::automatic_samples),
-                                 .threads = choice.terrain.threads,
-                                 .simd = choice.view.simd});
+    auto device = session::Device::create(
+        {.context = choice.view.context,
+         .prefers_rays = true,
+         .size = is_large(choice) ? parts_of(choice).frame() : choice.view.size,
+         .shader_dir = choice.view.shader_dir,
+         .samples = choice.view.samples.value_or(view::automatic_samples),
+         .threads = choice.terrain.threads,
+         .simd = choice.view.simd});
     if (!device) {
         return device.error();
     }
@@ -164,6 +177,17 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
     return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
 }
 
+// As draw_frames().
+Result<void> draw_large(const RenderChoice& choice, session::TerrainScene& scene,
+                        session::FrameMaker& maker, std::vector<AtomicFile>& outputs,
+                        const cli::Interrupt& interrupt) {
+    cli::ProgressLine line("drawing", choice.terrain.quiet);
+    auto drawn = session::draw_large_picture({choice.output, parts_of(choice)}, scene, maker,
+                                             frame_options(choice, interrupt, line.callback()));
+    print_stats(choice, maker, drawn ? 1 : 0);
+    return add_output(std::move(drawn), outputs);
+}
+
 // Throws CLI::ParseError: parts of a flight are numbered pictures.
 void expect_parts(const RenderChoice& choice) {
     const bool has_parts = !choice.shard.is_whole();
@@ -179,18 +203,6 @@ void expect_parts(const RenderChoice& choice) {
     if (!choice.hits.empty() || (has_parts && !choice.contact_sheet.empty())) {
         cli::fail_usage(fmt::format("{}: found beside {}, only -o was expected", option,
                                     choice.hits.empty() ? "--contact-sheet" : "--hit"));
-    }
-}
-
-void expect_standard_output(const RenderChoice& choice) {
-    if (choice.stats || choice.compare.request) {
-        cli::fail_usage(fmt::format("-o: - found beside {}, which writes to standard output, too; "
-                                    "a file was expected",
-                                    choice.stats ? "--stats" : "--compare"));
-    }
-    if (::isatty(STDOUT_FILENO) == 1) {
-        cli::fail_usage("-o: - found, and standard output is a terminal; a pipe or a file was "
-                        "expected");
     }
 }
 
@@ -212,14 +224,22 @@ void expect_outputs(const RenderChoice& choice) {
         cli::fail_usage("render: --frames found without a --path to fly along");
     }
     expect_parts(choice);
-    if (is_standard_output(choice.output)) {
-        expect_standard_output(choice);
+    if (const glm::ivec2 size = choice.view.size;
+        std::max(size.x, size.y) > session::max_frame_side && !is_large(choice)) {
+        cli::fail_usage(fmt::format("--size: {}x{} found; more than {} pixels a side need one .png "
+                                    "or .tif picture alone",
+                                    size.x, size.y, session::max_frame_side));
     }
     const auto expect_good = [&](const Result<void>& named) {
         if (!named) {
             cli::fail_usage(named.error().message);
         }
     };
+    if (is_standard_output(choice.output)) {
+        expect_good(check_standard_output(choice.stats             ? "--stats"
+                                          : choice.compare.request ? "--compare"
+                                                                   : ""));
+    }
     if (!choice.output.empty()) {
         expect_good(check_output_name(choice.output, choice.view.frames));
     }
@@ -335,7 +355,11 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
             return prepared;
         }
     }
-    if (!choice.output.empty()) {
+    if (is_large(choice)) {
+        if (auto drawn = draw_large(choice, scene, maker, outputs, interrupt); !drawn) {
+            return drawn;
+        }
+    } else if (!choice.output.empty()) {
         auto drawn = draw_frames(choice, scene, maker, *path, outputs, interrupt);
         if (!drawn) {
             return drawn.error();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,7 @@
 #include "app/viewer/window_loop.h"
 #include "engine/platform/window.h"
 #include "engine/session/ground.h"
+#include "engine/session/picture/picture_parts.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 
@@ -203,6 +205,12 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
                         "hide the panels until Tab shows them");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
+        const glm::ivec2 size = choice->view.size;
+        if (std::max(size.x, size.y) > session::max_frame_side) {
+            throw CLI::ValidationError(
+                fmt::format("--size: {}x{} found, at most {} a side was expected", size.x, size.y,
+                            session::max_frame_side));
+        }
         const auto context = choice->view.context;
         const bool has_window = !context || *context == session::BackendKind::glfw ||
                                 *context == session::BackendKind::cpu;

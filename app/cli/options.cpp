@@ -18,7 +18,7 @@
 namespace reljef::cli {
 namespace {
 
-constexpr int max_picture_side = 16384;
+constexpr int max_picture_side = 1'000'000; // of a PNG, see io/image/picture_writer.h
 
 auto point_of(const char* option) {
     return [=](const std::string& text) -> Result<glm::dvec3> {
@@ -188,8 +188,12 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                     "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
                     "fastest of the machine)")
         ->type_name("TARGET");
-    add_parsed(command, "--size", choice.size, parse_size, "size of the picture, pixels (1024x768)",
-               "WxH");
+    add_parsed(
+        command, "--size", choice.size,
+        [](const std::string& text) { return parse_size(text, max_picture_side); },
+        "size of the picture, pixels (1024x768); more than 16384 a side need one .png or .tif "
+        "picture",
+        "WxH");
     add_parsed(
         command, "--technique", choice.technique,
         [&choice](const std::string& text) -> Result<std::optional<scene::Technique>> {
@@ -309,17 +313,17 @@ Result<scene::Pose> parse_pose(std::string_view text) {
     return *pose;
 }
 
-Result<glm::ivec2> parse_size(std::string_view text) {
+Result<glm::ivec2> parse_size(std::string_view text, int max_side) {
     const auto cross = text.find('x');
     const auto width = number_from<int>(text.substr(0, cross));
     const auto height =
         cross == std::string_view::npos ? std::nullopt : number_from<int>(text.substr(cross + 1));
-    const auto fits = [](std::optional<int> side) {
-        return side && *side >= 1 && *side <= max_picture_side;
+    const auto fits = [&](std::optional<int> side) {
+        return side && *side >= 1 && *side <= max_side;
     };
     if (!fits(width) || !fits(height)) {
         return Error{fmt::format("--size: '{}' found, WxH with each from 1 to {} was expected",
-                                 text, max_picture_side)};
+                                 text, max_side)};
     }
     return glm::ivec2(*width, *height);
 }

@@ -35,8 +35,8 @@ struct ViewChoice : session::SceneOptions {
 
 /// A pose by its name; the error names the option --pose.
 Result<scene::Pose> parse_pose(std::string_view text);
-/// Parses "1024x768". Each side is 1 to 16384 pixels.
-Result<glm::ivec2> parse_size(std::string_view text);
+/// Parses "1024x768". Each side is 1 to `max_side` pixels.
+Result<glm::ivec2> parse_size(std::string_view text, int max_side = 16384);
 
 /// The functions below add a group of options to a command. Wrong values throw CLI::ParseError.
 void add_terrain_options(CLI::App& command, TerrainChoice& choice);

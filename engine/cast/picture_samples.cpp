@@ -70,6 +70,21 @@ void FirstSamples::resize(glm::ivec2 size) {
         Grid<float>(blocks * block_side + 2, size.y + 2, std::numeric_limits<float>::quiet_NaN());
 }
 
+void FirstSamples::write_nearness(const BlockPixels& pixels, const PixelBlock& block,
+                                  const PixelBlock& of) {
+    const glm::ivec2 low = of.first - block.first;
+    const glm::ivec2 high = low + of.size;
+    for (int row = 0; row < block.size.y; ++row) {
+        const float* const from =
+            pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
+        float* const to = nearness_at(block.first + glm::ivec2(0, row));
+        for (int col = 0; col < block.size.x; ++col) {
+            const bool is_inside = col >= low.x && col < high.x && row >= low.y && row < high.y;
+            to[col] = is_inside ? from[col] : std::numeric_limits<float>::quiet_NaN();
+        }
+    }
+}
+
 void choose_sampled(const FirstSamples& first, const BlockKernel& kernel, const PixelBlock& block,
                     SampledPixels& sampled) {
     sampled.count = 0;

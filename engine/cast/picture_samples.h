@@ -27,6 +27,8 @@ struct FirstSamples {
     bool samples_all = false; ///< all pixels need several samples
 
     void resize(glm::ivec2 size);
+    /// Of a block; pixels beside `of` have none.
+    void write_nearness(const BlockPixels& pixels, const PixelBlock& block, const PixelBlock& of);
     /// Of a pixel; those beside it in its row follow, also beside the picture.
     [[nodiscard]] float* nearness_at(glm::ivec2 pixel) {
         return &nearness(pixel.x + 1, pixel.y + 1);

@@ -44,6 +44,13 @@ glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
     return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
 }
 
+glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size) {
+    constexpr int repeat = 64; // of the pattern, pixels
+    const int height = scene::whole_picture(camera, size).y;
+    const glm::ivec2 corner(camera.first.x, height - camera.first.y - size.y);
+    return glm::vec2((corner % repeat + repeat) % repeat);
+}
+
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance) {
     if (terrain.detail == nullptr ||

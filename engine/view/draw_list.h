@@ -115,6 +115,9 @@ glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
 /// Width of a pixel, metres: x at the eye, plus y per metre of distance.
 glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
 
+/// Where the pattern of dithers begins: of a part of a picture, so that parts continue it; pixels.
+glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size);
+
 /// The level at a distance of at least `distance` metres.
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance);

@@ -86,7 +86,10 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     view.max_error = max_error - rasterizer_error;
     view.perspective = camera.projection == scene::ProjectionKind::perspective;
     view.stretch = max_stretch(axes);
-    view.sides = frustum_sides(scene::clip_from_world(camera, size) * world_from_local);
+    // Those of the whole picture: triangles beside a part divide others in it.
+    view.sides = frustum_sides(scene::clip_from_world(scene::camera_of_whole(camera, size),
+                                                      scene::whole_picture(camera, size)) *
+                               world_from_local);
     view.depth = glm::dvec4(glm::transpose(axes) * forward, glm::dot(forward, offset));
     view.near = camera.near;
     const glm::dvec3 metre_up = axes[2];
@@ -109,6 +112,7 @@ WiderPicture wider_picture(scene::Camera camera, glm::ivec2 size, double margin)
     const glm::ivec2 wider = size + 2 * static_cast<int>(std::ceil(margin));
     const double growth = static_cast<double>(wider.y) / size.y;
     camera.view_height *= growth;
+    camera.whole += camera.whole == glm::ivec2(0) ? glm::ivec2(0) : wider - size;
     camera.vertical_fov =
         glm::degrees(2.0 * std::atan(growth * std::tan(0.5 * glm::radians(camera.vertical_fov))));
     return {camera, wider};
@@ -124,7 +128,9 @@ PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
         return;
     }
     const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
-    corner_angle_ = std::atan(half_height * glm::length(glm::dvec2(size)) / size.y);
+    // That of the whole picture: all parts select the same.
+    const glm::dvec2 whole(scene::whole_picture(camera, size));
+    corner_angle_ = std::atan(half_height * glm::length(whole) / size.y);
     pixels_per_metre_ = 0.5 * size.y / half_height;
 }
 
@@ -180,11 +186,12 @@ std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, gl
     }
     const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
     const double focal = 0.5 * size.y / half_height; // pixels per radian, at least
-    const double half_width = half_height * size.x / size.y;
+    const glm::dvec2 half_sides =
+        half_height / size.y * glm::dvec2(scene::whole_picture(camera, size));
     constexpr double rasterized = 1.0; // pixels between a pixel's ray and its corners
     terrain::HorizonView view;
     view.eye = glm::dvec3(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
-    view.near = camera.near * std::sqrt(1.0 + half_height * half_height + half_width * half_width);
+    view.near = camera.near * std::sqrt(1.0 + glm::dot(half_sides, half_sides));
     view.margin = (error + rasterized) / focal;
     return view;
 }

@@ -75,8 +75,11 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
                  const PainterOptions& options, FirstSamples& first)
     : placed_(placed), skips_(options.skips),
       kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)), shared_(backdrop_of(list)),
-      view_(view_of(list)), walls_(base_walls(list)), first_(first),
-      jobs_(static_cast<std::size_t>(block_count(list.size))) {
+      view_(view_of(list)), walls_(base_walls(list)),
+      corner_(view::dither_origin(list.camera, list.size)), picture_{-list.camera.first,
+                                                                     scene::whole_picture(
+                                                                         list.camera, list.size)},
+      first_(first), jobs_(static_cast<std::size_t>(block_count(list.size))) {
     shared_.anchor =
         placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
     const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
@@ -93,7 +96,7 @@ void Painter::paint(const PixelBlock& block, std::size_t index) {
     kernel_.paint({jobs, placed_.has_walls}, paint_of(block, index), pixels);
     write_block(pixels, block, first_.picture);
     if (samples_.samples > 1) {
-        write_nearness(pixels, block);
+        first_.write_nearness(pixels, block, picture_);
         jobs_[index] = std::move(jobs);
     }
 }
@@ -141,16 +144,8 @@ BlockPaint Painter::paint_of(const PixelBlock& block, std::size_t index) const {
     }
     const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
     paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
-    paint.from_corner = glm::vec2(middle.x, first_.picture.rows() - middle.y);
+    paint.from_corner = corner_ + glm::vec2(middle.x, first_.picture.rows() - middle.y);
     return paint;
-}
-
-void Painter::write_nearness(const BlockPixels& pixels, const PixelBlock& block) {
-    for (int row = 0; row < block.size.y; ++row) {
-        const float* const from =
-            pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
-        std::copy_n(from, block.size.x, first_.nearness_at(block.first + glm::ivec2(0, row)));
-    }
 }
 
 } // namespace reljef::cast

@@ -41,7 +41,6 @@ public:
 
 private:
     [[nodiscard]] BlockPaint paint_of(const PixelBlock& block, std::size_t index) const;
-    void write_nearness(const BlockPixels& pixels, const PixelBlock& block);
 
     const PlacedTiles& placed_;
     RaySkips skips_;
@@ -49,6 +48,8 @@ private:
     BlockPaint shared_;
     PictureRays::Vectors view_;
     std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
+    glm::vec2 corner_;                             // see view::dither_origin()
+    PixelBlock picture_;                           // a part may reach beyond its picture
     FirstSamples& first_;
     std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
     SampledPixels samples_;

@@ -19,7 +19,8 @@ void set_rays(FrameBlock& block, const view::DrawList& list) {
     block.ray_right = glm::vec4(glm::vec3(right - corner), 0.0F);
     block.ray_up = glm::vec4(glm::vec3(up - corner), 0.0F);
     block.ray_from_pixel = ray_from_pixel(list.camera, list.size);
-    block.pixel_share = glm::vec4(1.0F / glm::vec2(list.size), 0.0F, 0.0F);
+    block.pixel_share =
+        glm::vec4(1.0F / glm::vec2(list.size), view::dither_origin(list.camera, list.size));
 }
 
 } // namespace

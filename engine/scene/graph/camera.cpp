@@ -66,6 +66,36 @@ glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size) {
     return clip;
 }
 
+namespace {
+
+// Makes the picture `factor` times as high, around its middle.
+Camera with_height(Camera camera, double factor) {
+    const double half = std::tan(0.5 * glm::radians(camera.vertical_fov));
+    camera.vertical_fov = 2.0 * glm::degrees(std::atan(half * factor));
+    camera.view_height *= factor;
+    return camera;
+}
+
+} // namespace
+
+Camera part_camera(Camera camera, glm::ivec2 picture, const PicturePart& part) {
+    camera = with_height(camera, static_cast<double>(part.size.y) / picture.y);
+    camera.shift += glm::dvec2(part.first) + 0.5 * glm::dvec2(part.size - picture);
+    camera.whole = picture;
+    camera.first = part.first;
+    return camera;
+}
+
+Camera camera_of_whole(Camera camera, glm::ivec2 size) {
+    if (camera.whole == glm::ivec2(0)) {
+        return camera;
+    }
+    camera.shift -= glm::dvec2(camera.first) + 0.5 * glm::dvec2(size - camera.whole);
+    camera = with_height(camera, static_cast<double>(camera.whole.y) / size.y);
+    camera.whole = camera.first = glm::ivec2(0);
+    return camera;
+}
+
 Camera with_fitted_depth(Camera camera, const Box& bounds) {
     if (!bounds.empty()) {
         const glm::dvec3 forward = view_axes(camera).forward;

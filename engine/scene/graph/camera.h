@@ -20,6 +20,8 @@ struct Camera {
     double view_height = 1.0;        ///< metres from the bottom to the top edge, orthographic
     double near = 0.1;               ///< depth of the near plane, metres, perspective
     glm::dvec2 shift{0.0};           ///< offset of the sample in each pixel, pixels right and down
+    glm::ivec2 whole{0};             ///< size of the picture that this is a part of; 0: it is none
+    glm::ivec2 first{0};             ///< upper left pixel of the part
     double orthographic_near = -1e7; ///< depth of the near plane, metres, orthographic
     double orthographic_far = 1e7;
 
@@ -41,6 +43,21 @@ glm::dmat4 view_from_world_rotation(const Camera& camera);
 /// Reversed depth: 1 at the near plane, 0 at infinity (perspective) or at the far plane
 /// (orthographic). `size`: of the picture, pixels.
 glm::dmat4 clip_from_view(const Camera& camera, glm::ivec2 size);
+
+/// The size of all of the picture that a picture of `size` pixels is a part of.
+inline glm::ivec2 whole_picture(const Camera& camera, glm::ivec2 size) {
+    return camera.whole == glm::ivec2(0) ? size : camera.whole;
+}
+
+struct PicturePart {
+    glm::ivec2 first{0}; ///< its upper left pixel in the picture
+    glm::ivec2 size{0};  ///< pixels; it may reach beyond the picture
+};
+/// The camera of a part of its picture: rays through the part's pixels are those of the picture.
+Camera part_camera(Camera camera, glm::ivec2 picture, const PicturePart& part);
+
+/// The camera of the picture that a part of `size` pixels belongs to; of no part, the same camera.
+Camera camera_of_whole(Camera camera, glm::ivec2 size);
 
 /// Fits the orthographic depth range to `bounds` (world metres); an empty box changes nothing.
 Camera with_fitted_depth(Camera camera, const Box& bounds);

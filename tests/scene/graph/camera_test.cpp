@@ -80,6 +80,27 @@ TEST(Camera, LooksAlongTheAxesAsTheSceneFrameSays) {
     EXPECT_DOUBLE_EQ(above.depth, 10.0);
 }
 
+TEST(Camera, APartOfAPictureHasItsRays) {
+    Chance chance(8);
+    for (int i = 0; i < 10000; ++i) {
+        const auto kind = i % 2 == 0 ? ProjectionKind::perspective : ProjectionKind::orthographic;
+        const Camera camera = chance.camera(kind);
+        const glm::ivec2 size = chance.size();
+        const PicturePart part{{static_cast<int>(chance.between(0.0, size.x)),
+                                static_cast<int>(chance.between(0.0, size.y))},
+                               chance.size()};
+        const glm::dvec2 pixel(chance.between(0.0, part.size.x), chance.between(0.0, part.size.y));
+        const Camera of_part = part_camera(camera, size, part);
+        const Ray ray = view_ray(of_part, part.size, pixel);
+        const Ray other = view_ray(camera, size, pixel + glm::dvec2(part.first));
+        // Doubles of rays up to a few thousand long, or of an eye at 1000 and 1000 wide.
+        ASSERT_LE(glm::distance(ray.origin, other.origin), 1e-9);
+        ASSERT_LE(glm::distance(ray.direction, other.direction),
+                  1e-12 * glm::length(other.direction));
+        EXPECT_EQ(whole_picture(of_part, part.size), size);
+    }
+}
+
 TEST(Camera, AShiftedPictureShowsWhatLiesBesideInTheOther) {
     Chance chance(7);
     for (int i = 0; i < 10000; ++i) {
