@@ -93,8 +93,10 @@ cli::Command add_calibrate_command(CLI::App& program, cli::Interrupt& interrupt)
                     "what draws: egl (GPU without a window) or osmesa (CPU); auto: the first that "
                     "works (auto)",
                     "KIND");
-    cli::add_parsed(*arguments, "--size", choice->size, cli::parse_size,
-                    "size of the pictures, pixels (1024x768)", "WxH");
+    cli::add_parsed(
+        *arguments, "--size", choice->size,
+        [](const std::string& text) { return cli::parse_size(text); },
+        "size of the pictures, pixels (1024x768)", "WxH");
     cli::add_parsed(*arguments, "--threads", choice->threads,
                     cli::number_in<int>("--threads", 0, 1024),
                     "number of threads; 0: one per processor (0)", "N");
