@@ -38,8 +38,7 @@ Result<std::shared_ptr<GlfwLibrary>> GlfwLibrary::acquire() {
         return library;
     }
     if (glfwInit() == GLFW_FALSE) {
-        return Error{
-            fmt::format("no display found ({}), one in DISPLAY was expected", glfw_error())};
+        return Error{fmt::format("no display ({}), one in DISPLAY was expected", glfw_error())};
     }
     std::shared_ptr<GlfwLibrary> library(new GlfwLibrary);
     shared = library;

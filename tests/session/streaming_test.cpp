@@ -200,7 +200,8 @@ TEST_F(Streaming, whether_a_replaced_file_can_be_shown_is_told_and_in_the_exit_s
                                     if (pictures.names().size() < 2) {
                                         return false;
                                     }
-                                    folder_.write("tiles/N44E006.hgt", text);
+                                    std::filesystem::rename(folder_.write("new", text),
+                                                            path("tiles/N44E006.hgt"));
                                     return true;
                                 }};
         return test::reljef({"render", path("tiles"), "-o", (pictures.path() / "%02d.png").string(),

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::io {

@@ -62,8 +62,9 @@ TEST(SourceTests, relief_4_asks_for_all_its_techniques_by_our_names) {
     for (const Candidate& candidate : relief_4->candidates) {
         techniques.push_back(setting_of(candidate.technique).technique);
     }
-    EXPECT_THAT(techniques, testing::ElementsAre("texture", "polygons", "polygons", "polygons",
-                                                 "parallax", "relief", "polygons", "exact"));
+    EXPECT_THAT(techniques,
+                testing::ElementsAre("texture", "polygons", "polygons", "polygons", "parallax",
+                                     "relief", "polygons", "exact", "auto"));
     EXPECT_EQ(relief_4->candidates[1].source->fps, 5.0);
     EXPECT_EQ(scene::to_string(relief_4->candidates[1].technique), "polygons:lods=1");
 }
