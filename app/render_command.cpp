@@ -118,6 +118,18 @@ void print_stats(const RenderChoice& choice, const session::FrameMaker& maker, i
     }
 }
 
+// One frame, divided by --compare. `progress` gets the part of it that is drawn.
+Result<Image> draw_frame(const RenderChoice& choice, session::TerrainScene& scene,
+                         session::FrameMaker& maker, const cli::Interrupt& interrupt,
+                         const std::function<void(double)>& progress) {
+    auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, progress));
+    if (picture && !interrupt.requested()) {
+        picture = compared_frame(choice.compare, scene, maker, std::move(*picture),
+                                 frame_options(choice, interrupt));
+    }
+    return interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
+}
+
 // Adds the files that are to be committed. Returns the frames whose cameras were lifted above the
 // ground.
 Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::TerrainScene& scene,
@@ -148,17 +160,9 @@ Result<cli::LiftedFrames> draw_frames(const RenderChoice& choice, session::Terra
             lifted.add(session::fly_above_ground(scene, *path, index, frames, maker,
                                                  interrupt.token(), underground(choice)));
         }
-        auto picture = maker.draw(scene.scene, frame_options(choice, interrupt, [&](double part) {
-                                      line.update((static_cast<double>(i) + part) /
-                                                  static_cast<double>(own.size()));
-                                  }));
-        if (picture && !interrupt.requested()) {
-            picture = compared_frame(choice.compare, scene, maker, std::move(*picture),
-                                     frame_options(choice, interrupt));
-        }
-        if (interrupt.requested()) { // while it was drawn
-            return Error{"interrupted"};
-        }
+        auto picture = draw_frame(choice, scene, maker, interrupt, [&](double part) {
+            line.update((static_cast<double>(i) + part) / static_cast<double>(own.size()));
+        });
         if (!picture) {
             return picture.error();
         }
@@ -206,8 +210,8 @@ void expect_parts(const RenderChoice& choice) {
     }
 }
 
-// Throws CLI::ParseError for wrong or contradicting outputs.
-void expect_outputs(const RenderChoice& choice) {
+// Throws CLI::ParseError for outputs and frames that do not go together.
+void expect_fitting_outputs(const RenderChoice& choice) {
     if (choice.output.empty() && choice.hits.empty()) {
         cli::fail_usage("render: no output found, -o FILE or --hit FILE was expected");
     }
@@ -223,13 +227,18 @@ void expect_outputs(const RenderChoice& choice) {
     if (choice.view.frames > 1 && choice.view.path.empty()) {
         cli::fail_usage("render: --frames found without a --path to fly along");
     }
-    expect_parts(choice);
     if (const glm::ivec2 size = choice.view.size;
         std::max(size.x, size.y) > session::max_frame_side && !is_large(choice)) {
         cli::fail_usage(fmt::format("--size: {}x{} found; more than {} pixels a side need one .png "
                                     "or .tif picture alone",
                                     size.x, size.y, session::max_frame_side));
     }
+}
+
+// Throws CLI::ParseError for wrong or contradicting outputs.
+void expect_outputs(const RenderChoice& choice) {
+    expect_fitting_outputs(choice);
+    expect_parts(choice);
     const auto expect_good = [&](const Result<void>& named) {
         if (!named) {
             cli::fail_usage(named.error().message);
@@ -249,28 +258,6 @@ void expect_outputs(const RenderChoice& choice) {
     if (!choice.contact_sheet.empty()) {
         expect_good(io::check_image_name(choice.contact_sheet));
     }
-}
-
-std::vector<cli::NamedFile> inputs_of(const RenderChoice& choice,
-                                      const io::SceneDescription& description) {
-    std::vector<cli::NamedFile> files{
-        {"TERRAIN", choice.terrain.terrain},
-        {"the terrain's heights", description.heights},
-        {"--textures", choice.terrain.textures.value_or("")},
-        {"the gallery's textures", description.gallery_textures},
-        {"--detail", choice.view.detail.value_or(session::DetailChoice{}).textures},
-        {"the detail texture", description.detail.value_or(io::DetailDescription{}).textures},
-        {"--path", choice.view.path},
-        {"--ramp", choice.terrain.ramp.value_or("")},
-        {"the scene's ramp", description.ramp},
-        {"--geoid", choice.terrain.geoid}};
-    for (const std::filesystem::path& image : description.imagery) {
-        files.push_back({"the terrain's imagery", image});
-    }
-    for (const std::filesystem::path& image : choice.terrain.imagery) {
-        files.push_back({"--imagery", image});
-    }
-    return files;
 }
 
 // The files that will be written. Numbered pictures are included if they exist or have an input's
@@ -331,6 +318,17 @@ Result<std::optional<scene::CameraPath>> path_of(const session::TerrainScene& sc
     return path ? Result<Path>(Path(std::move(*path))) : path.error();
 }
 
+Result<void> prepare_found_hits(const RenderChoice& choice, session::TerrainScene& scene,
+                                session::FrameMaker& maker, std::vector<AtomicFile>& outputs,
+                                const cli::Interrupt& interrupt) {
+    if (choice.hits.empty()) {
+        return {};
+    }
+    const auto found = find_hits(choice, scene, maker, interrupt);
+    return found ? add_output(io::prepare_hits(choice.hits, *found), outputs)
+                 : Result<void>(found.error());
+}
+
 Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& scene,
                           bool has_camera_of_file, session::FrameMaker& maker, session::Log& log,
                           const cli::Interrupt& interrupt) {
@@ -347,13 +345,8 @@ Result<void> draw_outputs(const RenderChoice& choice, session::TerrainScene& sce
         lift = session::stand_above_ground(scene, maker, interrupt.token(), underground(choice));
     }
     std::vector<AtomicFile> outputs;
-    if (!choice.hits.empty()) {
-        const auto found = find_hits(choice, scene, maker, interrupt);
-        auto prepared =
-            found ? add_output(io::prepare_hits(choice.hits, *found), outputs) : found.error();
-        if (!prepared) {
-            return prepared;
-        }
+    if (auto prepared = prepare_found_hits(choice, scene, maker, outputs, interrupt); !prepared) {
+        return prepared;
     }
     if (is_large(choice)) {
         if (auto drawn = draw_large(choice, scene, maker, outputs, interrupt); !drawn) {
@@ -396,7 +389,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                                        choice.truth ? "--truth" : "--compare",
                                        choice.terrain.terrain));
     }
-    const auto inputs = inputs_of(choice, *description);
+    const auto inputs = cli::input_files(choice.terrain, choice.view, *description);
     cli::check_distinct(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;

@@ -176,7 +176,7 @@ CLI::Validator existing_folder() {
             ""};
 }
 
-void add_picture_options(CLI::App& command, ViewChoice& choice) {
+void add_backend_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--context", choice.context, parse_context,
         "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); cpu: "
@@ -188,6 +188,20 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                     "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
                     "fastest of the machine)")
         ->type_name("TARGET");
+    command
+        .add_option("--calibration", choice.calibration,
+                    "auto: costs of triangles and rays by 'reljef calibrate' on this machine "
+                    "(those of a software renderer)")
+        ->type_name("FILE");
+    command
+        .add_option("--shader-dir", choice.shader_dir,
+                    "use shader files of this folder instead of the built-in ones")
+        ->type_name("FOLDER")
+        ->check(existing_folder());
+}
+
+void add_picture_options(CLI::App& command, ViewChoice& choice) {
+    add_backend_options(command, choice);
     add_parsed(
         command, "--size", choice.size,
         [](const std::string& text) { return parse_size(text, max_picture_side); },
@@ -228,16 +242,6 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
                "perspective or orthographic; orthographic without a camera draws a map "
                "(perspective)",
                "KIND");
-    command
-        .add_option("--calibration", choice.calibration,
-                    "auto: costs of triangles and rays by 'reljef calibrate' on this machine "
-                    "(those of a software renderer)")
-        ->type_name("FILE");
-    command
-        .add_option("--shader-dir", choice.shader_dir,
-                    "use shader files of this folder instead of the built-in ones")
-        ->type_name("FOLDER")
-        ->check(existing_folder());
 }
 
 void add_daylight_options(CLI::App& command, ViewChoice& choice) {

@@ -3,8 +3,11 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "app/cli/options.h"
 #include "engine/core/result.h"
+#include "engine/io/formats/scene_file.h"
 
 namespace reljef::cli {
 
@@ -12,6 +15,10 @@ struct NamedFile {
     std::string option; ///< for messages: "-o", "TERRAIN"
     std::filesystem::path path;
 };
+
+/// All that is read for a picture of a terrain.
+std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoice& view,
+                                   const io::SceneDescription& description);
 
 /// Throws CLI::ParseError if an output would replace an input, a file in an input folder or another
 /// output, also under another name. Empty paths are ignored.

@@ -17,7 +17,7 @@ void add_compare_option(CLI::App& command, CompareChoice& choice) {
             if (!request) {
                 throw CLI::ValidationError(request.error().message);
             }
-            choice.request = std::move(*request);
+            choice.request = *request;
             choice.text = text;
         },
         "divide the picture by a line: the technique on the left; on the right 'truth', 'errors' "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -104,6 +105,31 @@ PanelActions draw_video(const PathContent& path) {
     return actions;
 }
 
+// Where a key is dragged, its time there.
+struct ShownKeys {
+    std::vector<double> times;
+    std::size_t selected = 0;
+};
+
+void draw_line(const Scale& scale, float top, double time, const ShownKeys& keys) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float middle = top + 0.5F * timeline_height;
+    const float right = scale.left + scale.width;
+    list.AddRectFilled({scale.left - line_margin, top},
+                       {right + line_margin, top + timeline_height}, in_imgui(palette::field),
+                       5.0F);
+    list.AddLine({scale.left, middle}, {right, middle}, in_imgui(palette::muted));
+    const float now = scale.x_of(time);
+    list.AddLine({now, top + 3.0F}, {now, top + timeline_height - 3.0F}, in_imgui(palette::text),
+                 2.0F);
+    const float half = // narrower where there are many
+        std::clamp(0.4F * scale.width / static_cast<float>(keys.times.size() + 1), 1.0F, key_size);
+    for (std::size_t i = 0; i < keys.times.size(); ++i) {
+        draw_diamond({scale.x_of(keys.times[i]), middle}, half,
+                     i == keys.selected ? palette::accent : palette::muted);
+    }
+}
+
 } // namespace
 
 PanelActions PathPanel::draw_timeline(const PathContent& path) {
@@ -131,22 +157,11 @@ PanelActions PathPanel::draw_timeline(const PathContent& path) {
         }
         drag_.reset();
     }
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float middle = low.y + 0.5F * timeline_height;
-    list.AddRectFilled(low, {low.x + width, low.y + timeline_height}, in_imgui(palette::field),
-                       5.0F);
-    list.AddLine({scale.left, middle}, {scale.left + scale.width, middle},
-                 in_imgui(palette::muted));
-    const float now = scale.x_of(path.time);
-    list.AddLine({now, low.y + 3.0F}, {now, low.y + timeline_height - 3.0F},
-                 in_imgui(palette::text), 2.0F);
-    const float half = // narrower where there are many
-        std::clamp(0.4F * scale.width / static_cast<float>(path.keys.size() + 1), 1.0F, key_size);
-    for (std::size_t i = 0; i < path.keys.size(); ++i) {
-        const bool is_dragged = drag_ && drag_->has_moved && drag_->key == i;
-        draw_diamond({scale.x_of(is_dragged ? drag_->seconds : path.keys[i]), middle}, half,
-                     i == key_ ? palette::accent : palette::muted);
+    ShownKeys keys{path.keys, key_};
+    if (drag_ && drag_->has_moved && drag_->key) {
+        keys.times[*drag_->key] = drag_->seconds;
     }
+    draw_line(scale, low.y, path.time, keys);
     return actions;
 }
 

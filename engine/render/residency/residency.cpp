@@ -84,14 +84,25 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     }
     done = done ? prepare_warped(list, stats) : done;
     done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;
-    for (const view::TerrainDraw& draw : list.reliefs) {
-        done = done && draw.tiles.empty() ? prepare_relief(draw, stats) : done;
-        done =
-            done && with_maps && draw.tiles.empty() ? prepare_certain_sun(list, draw, stats) : done;
-    }
+    done = done ? prepare_reliefs(list, with_maps, stats) : done;
     std::vector<view::MeshDraw> meshes = list.meshes;
     meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
     return done ? meshes_.prepare(meshes, list.camera, stats) : done;
+}
+
+Result<void> Residency::prepare_reliefs(const view::DrawList& list, bool with_maps,
+                                        view::FrameStats& stats) {
+    for (const view::TerrainDraw& draw : list.reliefs) {
+        if (!draw.tiles.empty()) { // of a stream: relief_tiles_ has them
+            continue;
+        }
+        auto done = prepare_relief(draw, stats);
+        done = done && with_maps ? prepare_certain_sun(list, draw, stats) : done;
+        if (!done) {
+            return done;
+        }
+    }
+    return {};
 }
 
 Result<void> Residency::add_light(const view::PreparedLight& prepared) {

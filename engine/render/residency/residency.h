@@ -83,6 +83,8 @@ private:
     Result<std::shared_ptr<const ResidentMaps>>
     maps_for(const scene::TerrainNode& terrain, const std::optional<scene::TerrainLight>& light,
              view::FrameStats& stats);
+    Result<void> prepare_reliefs(const view::DrawList& list, bool with_maps,
+                                 view::FrameStats& stats);
     Result<void> prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats);
     Result<void> prepare_certain_sun(const view::DrawList& list, const view::TerrainDraw& draw,
                                      view::FrameStats& stats);

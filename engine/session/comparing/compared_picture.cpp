@@ -122,7 +122,7 @@ Result<ComparedPicture> compared_picture(TerrainScene& scene, FrameMaker& maker,
     if (!map) {
         return map.error();
     }
-    Image right = request.errors ? std::move(*map) : exact->image;
+    Image right = request.errors ? *map : exact->image;
     if (request.technique) {
         auto other = other_frame(scene, maker, *request.technique, parallel, log);
         const auto added = other ? errors.add(other->picture, other->hits) : other.error();
