@@ -389,7 +389,10 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                                        choice.truth ? "--truth" : "--compare",
                                        choice.terrain.terrain));
     }
-    const auto inputs = cli::input_files(choice.terrain, choice.view, *description);
+    auto inputs = cli::input_files(choice.terrain, choice.view);
+    for (const auto& [what, file] : io::named_files(*description)) {
+        inputs.push_back({what, file});
+    }
     cli::check_distinct(outputs_of(choice, inputs), inputs);
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;

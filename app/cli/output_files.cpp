@@ -38,23 +38,15 @@ bool would_replace(const fs::path& output, const fs::path& input) {
 
 } // namespace
 
-std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoice& view,
-                                   const io::SceneDescription& description) {
+std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoice& view) {
     std::vector<NamedFile> files{
         {"TERRAIN", terrain.terrain},
-        {"the terrain's heights", description.heights},
         {"--textures", terrain.textures.value_or("")},
-        {"the gallery's textures", description.gallery_textures},
         {"--detail", view.detail.value_or(session::DetailChoice{}).textures},
-        {"the detail texture", description.detail.value_or(io::DetailDescription{}).textures},
         {"--path", view.path},
         {"--ramp", terrain.ramp.value_or("")},
-        {"the scene's ramp", description.ramp},
         {"--geoid", terrain.geoid}};
-    for (const std::filesystem::path& image : description.imagery) {
-        files.push_back({"the terrain's imagery", image});
-    }
-    for (const std::filesystem::path& image : terrain.imagery) {
+    for (const fs::path& image : terrain.imagery) {
         files.push_back({"--imagery", image});
     }
     return files;

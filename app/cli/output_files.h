@@ -7,7 +7,6 @@
 
 #include "app/cli/options.h"
 #include "engine/core/result.h"
-#include "engine/io/formats/scene_file.h"
 
 namespace reljef::cli {
 
@@ -16,9 +15,8 @@ struct NamedFile {
     std::filesystem::path path;
 };
 
-/// All that is read for a picture of a terrain.
-std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoice& view,
-                                   const io::SceneDescription& description);
+/// What the options name that is read.
+std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoice& view);
 
 /// Throws CLI::ParseError if an output would replace an input, a file in an input folder or another
 /// output, also under another name. Empty paths are ignored.

@@ -204,4 +204,17 @@ Result<SceneDescription> read_scene_file(const std::filesystem::path& path) {
     return scene;
 }
 
+std::vector<std::pair<std::string, std::filesystem::path>>
+named_files(const SceneDescription& scene) {
+    std::vector<std::pair<std::string, std::filesystem::path>> files{
+        {"the terrain's heights", scene.heights},
+        {"the gallery's textures", scene.gallery_textures},
+        {"the detail texture", scene.detail.value_or(DetailDescription{}).textures},
+        {"the terrain's ramp", scene.ramp}};
+    for (const std::filesystem::path& image : scene.imagery) {
+        files.emplace_back("the terrain's imagery", image);
+    }
+    return files;
+}
+
 } // namespace reljef::io

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -71,6 +72,10 @@ struct SceneDescription {
 
 /// Unknown keys are errors.
 Result<SceneDescription> read_scene_file(const std::filesystem::path& path);
+
+/// Files and folders that a scene names, after what they are, for messages. Some may be empty.
+std::vector<std::pair<std::string, std::filesystem::path>>
+named_files(const SceneDescription& scene);
 
 /// Parses a text. `name` is the file in messages; paths are relative to `folder`.
 Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
