@@ -49,10 +49,10 @@ void TriangleCounts::add(const terrain::Bisection& bisection, glm::ivec2 twice_p
     constexpr auto half = static_cast<std::int64_t>(terrain::steps_per_sample / 2);
     const terrain::Split split = bisection.split(half * terrain::Steps(twice_place),
                                                  size * terrain::steps_per_sample, on_side);
-    const int bin = static_cast<int>(std::floor(bin_of(split.error)));
-    if (bin >= 0) {
+    const double bin = bin_of(split.error); // infinite for no error, and for one without a bound
+    if (bin >= 0.0) {
         const glm::ivec2 block = glm::min(twice_place / (2 * block_cells), blocks() - 1);
-        ++counts_(block.x, block.y)[static_cast<std::size_t>(std::min(bin, bins - 1))];
+        ++counts_(block.x, block.y)[static_cast<std::size_t>(std::min(bin, bins - 1.0))];
     }
 }
 
