@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 
 #include "app/cli/program.h"
 #include "engine/core/atomic_file.h"
+#include "engine/platform/processor.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::app {
@@ -41,21 +41,10 @@ constexpr std::array place_fields{PlaceField{"machine", &CalibrationPlace::machi
 constexpr const char* remedy = "'reljef calibrate -o FILE' measures this machine, and without "
                                "--calibration built-in costs hold";
 
-std::string processor() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);) {
-        const auto colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
-
 } // namespace
 
 CalibrationPlace place_of(const platform::RendererInfo& info) {
-    return {processor(), cli::version_text(), info.context, info.renderer};
+    return {platform::processor_name(), cli::version_text(), info.context, info.renderer};
 }
 
 std::string to_text(const Calibration& calibration) {

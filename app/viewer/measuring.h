@@ -49,7 +49,6 @@ public:
     Result<void> begin_viewshed(const std::filesystem::path& file);
     /// Writes a finished viewshed. Returns a line on it, or the error; empty: not yet.
     std::optional<Result<std::string>> update();
-    void stop_viewshed() { viewshed_.reset(); }
     /// The label is empty if there is no viewshed.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
 

@@ -40,7 +40,6 @@ public:
     [[nodiscard]] bool is_moving() const { return flight_ || rest_ > 0.0; }
     /// The place of a click since the last call, pixels.
     std::optional<glm::dvec2> take_click() { return std::exchange(click_, std::nullopt); }
-    [[nodiscard]] const std::optional<glm::dvec2>& pointer() const { return pointer_; }
     [[nodiscard]] const scene::GestureWorld& world() const { return options_.world; }
     /// The ground at a place of the picture, world metres.
     [[nodiscard]] std::optional<glm::dvec3> ground_at(const scene::Camera& camera,

@@ -79,8 +79,6 @@ public:
     Result<void> remove_bookmark(const Bookmark& bookmark);
     /// The options that show this view again; fails on the map, which has none.
     [[nodiscard]] Result<std::string> camera_options() const;
-    /// The ground under the pointer, world metres; empty over the sky.
-    [[nodiscard]] std::optional<glm::dvec3> ground_under_pointer() const;
 
     /// Points on the ground; while it is on, each click picks one.
     [[nodiscard]] Measuring& measuring() { return measuring_; }

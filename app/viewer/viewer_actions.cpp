@@ -50,11 +50,6 @@ void Viewer::copy_camera() {
     clipboard_ = std::move(*text);
 }
 
-std::optional<glm::dvec3> Viewer::ground_under_pointer() const {
-    return navigation_.pointer() ? navigation_.ground_at(camera(), *navigation_.pointer())
-                                 : std::nullopt;
-}
-
 Result<Bookmarks::List> Viewer::bookmarks() const {
     return bookmarks_ ? bookmarks_->of(terrain_)
                       : Error{"bookmarks: $XDG_DATA_HOME and $HOME are no absolute paths, one "

@@ -2,24 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 
 #include "app/cli/parsed_option.h"
 #include "engine/core/parallel_for.h"
+#include "engine/platform/processor.h"
 
 namespace reljef::bench {
 namespace {
-
-std::string cpu_name() {
-    std::ifstream info("/proc/cpuinfo");
-    for (std::string line; std::getline(info, line);) {
-        const auto colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) {
-            return line.substr(colon + 2);
-        }
-    }
-    return "unknown";
-}
 
 unsigned renderer_threads(int requested) {
     if (requested > 0) {
@@ -33,8 +22,12 @@ unsigned renderer_threads(int requested) {
 } // namespace
 
 Environment environment_of(const platform::RendererInfo& info, int threads) {
-    return {info.renderer, info.version, info.context, renderer_threads(threads),
-            cpu_name(),    RELJEF_COMMIT};
+    return {info.renderer,
+            info.version,
+            info.context,
+            renderer_threads(threads),
+            platform::processor_name(),
+            RELJEF_COMMIT};
 }
 
 Setting setting_of(const scene::Technique& technique) {

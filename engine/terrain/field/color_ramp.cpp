@@ -273,21 +273,4 @@ glm::vec3 RampColors::at(double height, glm::vec2 gradient) const {
     return glm::mix(glm::mix(plain, rock, rocky), snow, snowy);
 }
 
-std::vector<LegendEntry> legend(const RampColors& colors, const HeightRange& range,
-                                std::size_t count) {
-    const double extent = range.high - range.low;
-    if (count == 0 || !(extent > 0.0)) {
-        return {{range.low, rgba8(colors.at(range.low))}};
-    }
-    const double rough = extent / static_cast<double>(count);
-    const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-    const double part = rough / decade;
-    const double step = decade * (part <= 1.0 ? 1.0 : part <= 2.0 ? 2.0 : part <= 5.0 ? 5.0 : 10.0);
-    std::vector<LegendEntry> entries;
-    for (double at = std::ceil(range.low / step); at * step <= range.high; at += 1.0) {
-        entries.push_back({at * step, rgba8(colors.at(at * step))});
-    }
-    return entries;
-}
-
 } // namespace reljef::terrain

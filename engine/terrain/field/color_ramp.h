@@ -69,13 +69,4 @@ private:
     double poleward_; // 1 in the north, -1 in the south
 };
 
-struct LegendEntry {
-    double height = 0.0; ///< metres
-    Rgba8 color;
-};
-
-/// About `count` round heights of a range with their colours, from low to high.
-std::vector<LegendEntry> legend(const RampColors& colors, const HeightRange& range,
-                                std::size_t count);
-
 } // namespace reljef::terrain

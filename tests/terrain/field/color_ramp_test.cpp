@@ -83,16 +83,5 @@ TEST(ColorRamp, SnowLinesFallToThePoles) {
     }
 }
 
-TEST(Legend, HasRoundHeightsOfTheRange) {
-    const RampColors colors(*named_ramp(default_ramp), land(128.0F, 4672.0F));
-    const auto entries = legend(colors, {128.0, 4672.0}, 6);
-    ASSERT_GE(entries.size(), 4U);
-    EXPECT_LE(entries.size(), 8U);
-    EXPECT_EQ(entries.front().height, 1000.0);
-    EXPECT_EQ(entries.back().height, 4000.0);
-    EXPECT_EQ(entries[1].color, rgba8(colors.at(2000.0)));
-    EXPECT_EQ(legend(colors, {5.0, 5.0}, 6).size(), 1U);
-}
-
 } // namespace
 } // namespace reljef::terrain
