@@ -73,7 +73,7 @@ std::optional<scene::Camera> on_earth(const scene::TerrainSurface& surface,
                : std::nullopt;
 }
 
-std::string point_text(glm::dvec3 point) {
+std::string rounded_text(glm::dvec3 point) {
     return fmt::format("{:.4f},{:.4f},{:.4f}", point.x, point.y, point.z);
 }
 
@@ -85,7 +85,7 @@ std::string camera_text(const scene::TerrainSurface& surface, const scene::Camer
                            : std::nullopt;
     if (!place) {
         const glm::dvec3 target = camera.eye + target_distance * scene::view_axes(camera).forward;
-        return fmt::format("--eye {} --look {}", point_text(camera.eye), point_text(target));
+        return fmt::format("--eye {} --look {}", rounded_text(camera.eye), rounded_text(target));
     }
     const scene::ViewAngles angles = scene::angles_of(camera, world_of(surface));
     const double heading = angles.heading - 360.0 * std::floor(angles.heading / 360.0);

@@ -48,11 +48,6 @@ scene::Material material_of(const truth::DetailSquare& square) {
     return material;
 }
 
-bool has_terrain(const HitBuffer& hits) {
-    const auto pixels = hits.samples();
-    return std::any_of(pixels.begin(), pixels.end(), truth::shows_terrain);
-}
-
 std::optional<RowError::Geometric> geometric_of(const truth::PixelErrors& errors) {
     return errors.distribution
                ? std::optional(RowError::Geometric{*errors.distribution, errors.unbounded})
@@ -236,7 +231,7 @@ Result<MeasuredError> BenchmarkScene::measure_error(const scene::Technique& tech
     if (!exact) {
         return exact.error();
     }
-    if (!has_terrain(*hits) && !has_terrain((*exact)->hits)) {
+    if (!truth::has_terrain(*hits) && !truth::has_terrain((*exact)->hits)) {
         return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
                                  "expected",
                                  name(), scene::to_string((*exact)->pose))};

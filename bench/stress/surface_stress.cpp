@@ -68,7 +68,7 @@ Result<bool> shows_ground(StressRun& run, StressStage& stage,
         if (!hits) {
             return hits.error();
         }
-        if (std::any_of(hits->samples().begin(), hits->samples().end(), truth::shows_terrain)) {
+        if (truth::has_terrain(*hits)) {
             return true;
         }
     }

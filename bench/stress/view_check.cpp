@@ -1,18 +1,12 @@
 #include "bench/stress/view_check.h"
 
-#include <algorithm>
-
 namespace reljef::bench {
 namespace {
-
-bool has_terrain(const HitBuffer& hits) {
-    return std::any_of(hits.samples().begin(), hits.samples().end(), truth::shows_terrain);
-}
 
 // Pixels that show another place than the exact hits by more than a sample, percent.
 Result<double> wrong_percent(const StressStage& stage, const HitBuffer& shown,
                              const HitBuffer& truth) {
-    if (!has_terrain(shown) && !has_terrain(truth)) {
+    if (!truth::has_terrain(shown) && !truth::has_terrain(truth)) {
         return 0.0;
     }
     const auto errors = truth::geometric_errors(stage.surface_view(), shown, truth);

@@ -27,16 +27,12 @@ bool is_before_eye(const scene::Camera& camera, double depth) {
     return camera.projection == scene::ProjectionKind::orthographic || depth > 0.0;
 }
 
-bool any_terrain(const HitBuffer& hits) {
-    return std::any_of(hits.samples().begin(), hits.samples().end(), shows_terrain);
-}
-
 Result<void> check_frames(const HitBuffer& shown, const HitBuffer& truth) {
     if (shown.cols() != truth.cols() || shown.rows() != truth.rows()) {
         return Error{fmt::format("a frame of {}x{} pixels: {}x{} as in the true frame was expected",
                                  shown.cols(), shown.rows(), truth.cols(), truth.rows())};
     }
-    if (!any_terrain(shown) && !any_terrain(truth)) {
+    if (!has_terrain(shown) && !has_terrain(truth)) {
         return Error{fmt::format("a frame of {}x{} pixels without terrain, true or shown: terrain "
                                  "at one pixel at least was expected",
                                  shown.cols(), shown.rows())};
@@ -118,6 +114,10 @@ void count_verdicts(GeometricErrors& errors) {
 
 bool shows_terrain(const Hit& hit) {
     return !hit.is_sky() && !(hit.col == -1.0F && hit.row == -1.0F);
+}
+
+bool has_terrain(const HitBuffer& hits) {
+    return std::any_of(hits.samples().begin(), hits.samples().end(), shows_terrain);
 }
 
 double reprojection_error(const SurfaceView& view, glm::ivec2 size, glm::ivec2 pixel,

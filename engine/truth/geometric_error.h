@@ -59,6 +59,9 @@ struct GeometricErrors {
 /// or row that is not finite counts as terrain.
 bool shows_terrain(const Hit& hit);
 
+/// Whether any pixel shows the heightfield.
+bool has_terrain(const HitBuffer& hits);
+
 /// Distance in pixels between the pixel's centre and the projection of its hit: the texel
 /// (hit.col, hit.row) at its bilinear height (clamped at the border). Infinity behind the eye and
 /// for values that are not finite. Ignores the hit's height and depth. Precondition:

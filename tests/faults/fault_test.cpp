@@ -122,7 +122,7 @@ TEST(Faults, OfMemoryWhileAPictureIsDrawnLoseNothing) {
 }
 
 TEST(Faults, OfFilesInAFlightLoseNothing) {
-    expect_clean_faults(short_flight(), false, 16);
+    expect_clean_faults(short_flight(), false, 8);
 }
 
 TEST(Faults, OfMemoryInAFlightLoseNothing) {
