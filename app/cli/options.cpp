@@ -55,8 +55,13 @@ Result<session::GeodeticView> parse_geodetic_view(const std::string& text) {
     return session::GeodeticView{latitude, longitude, height, heading, pitch};
 }
 
-Result<glm::dvec2> parse_sun(const std::string& text) {
-    const auto numbers = parse_numbers<2>("--sun", text, "AZIMUTH,ALTITUDE in degrees");
+Result<session::SunChoice> parse_sun(const std::string& text) {
+    if (text.find('T') != std::string::npos) {
+        const auto time = geo::universal_time(text);
+        return time ? Result<session::SunChoice>(*time) : Error{"--sun: " + time.error().message};
+    }
+    const auto numbers = parse_numbers<2>(
+        "--sun", text, "AZIMUTH,ALTITUDE in degrees, or a time in UTC as 2026-06-21T12:00,");
     if (!numbers) {
         return numbers.error();
     }
@@ -67,7 +72,7 @@ Result<glm::dvec2> parse_sun(const std::string& text) {
     if (!(altitude > 0.0 && altitude <= 90.0)) {
         return Error{fmt::format("--sun: altitude {} found, over 0 to 90 was expected", altitude)};
     }
-    return glm::dvec2(azimuth, altitude);
+    return session::SunChoice(glm::dvec2(azimuth, altitude));
 }
 
 Result<geo::GeodeticArea> parse_area(const std::string& text) {
@@ -246,8 +251,9 @@ void add_picture_options(CLI::App& command, ViewChoice& choice) {
 
 void add_daylight_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
-               "direction of the sun, degrees: clockwise from north, above the horizon (300,40)",
-               "AZIMUTH,ALTITUDE");
+               "direction of the sun, degrees: clockwise from north, above the horizon; or a time "
+               "in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40)",
+               "AZIMUTH,ALTITUDE|TIME");
     add_parsed(command, "--turbidity", choice.turbidity,
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),
                "haze of the air, 1 (none) to 10: colours of sun, sky and distance (1.4)", "T");

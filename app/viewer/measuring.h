@@ -9,9 +9,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "app/viewer/appearance/background.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/terrain_node.h"
-#include "engine/session/background.h"
 #include "engine/session/log.h"
 #include "engine/session/measuring/terrain_viewshed.h"
 #include "engine/terrain/measure/profile.h"
@@ -57,7 +57,7 @@ private:
         std::filesystem::path file;
         std::shared_ptr<const scene::TerrainSurface> surface;
         session::RelayedLog log;
-        std::optional<session::Background<session::TerrainViewshed>> work; // uses the others
+        std::optional<Background<session::TerrainViewshed>> work; // uses the others
     };
 
     const scene::TerrainNode& terrain_;

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "app/viewer/appearance/background.h"
 #include "app/viewer/viewer.h"
-#include "engine/session/background.h"
 
 namespace reljef::app {
 namespace {
@@ -77,7 +77,7 @@ Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
     session::SceneOptions options = view;
     options.prepares_maps = false; // the viewer makes them and shows a coarser picture first
     session::RelayedLog relayed;
-    session::Background<OpenedScene> opening([&](const std::stop_token& stopped) {
+    Background<OpenedScene> opening([&](const std::stop_token& stopped) {
         return open(source, options, largest_side, relayed, stopped);
     });
     ProgressDisplay display(window, log);

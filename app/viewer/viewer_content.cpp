@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 
 #include "engine/session/ground.h"
+#include "engine/session/scene_daylight.h"
 #include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/measure/profile.h"
@@ -35,6 +36,7 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
     if (terrain_of(scene).surface->heightfield().georeference) {
         appearance.on_earth =
             terrain_of(scene).surface->placement().geodetic_from_world(scene.bounds.center());
+        appearance.true_north = session::true_north(scene).value_or(0.0);
     }
     if (scene.models.empty()) {
         appearance.ramp = viewer.ramp().name;

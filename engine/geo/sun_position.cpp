@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <regex>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -80,6 +82,29 @@ Result<SunPosition> sun_position(const UniversalTime& time, double latitude, dou
                                              std::tan(sun.declination) * std::cos(place));
     return SunPosition{std::fmod(from_south / degree + 540.0, 360.0),
                        std::asin(std::fmin(std::fmax(sine, -1.0), 1.0)) / degree};
+}
+
+Result<UniversalTime> universal_time(std::string_view text) {
+    static const std::regex form(R"((\d{4})-(\d\d)-(\d\d)T(\d\d):(\d\d)(?::(\d\d))?Z?)");
+    const std::string whole(text);
+    std::smatch parts;
+    if (!std::regex_match(whole, parts, form)) {
+        return Error{
+            fmt::format("'{}' found, a time in UTC was expected, as 2026-06-21T12:00", text)};
+    }
+    const auto number = [&](std::size_t part) {
+        return parts[part].matched ? std::stoi(parts[part].str()) : 0;
+    };
+    const int minutes = number(5);
+    const int seconds = number(6);
+    const UniversalTime time{number(1), number(2), number(3),
+                             number(4) + minutes / 60.0 + seconds / 3600.0};
+    if (minutes > 59 || seconds > 59) {
+        return Error{fmt::format("'{}' found, at most 59 minutes and seconds were expected", text)};
+    }
+    const auto good = check(time);
+    return good ? Result<UniversalTime>(time)
+                : Error{fmt::format("'{}': {}", text, good.error().message)};
 }
 
 UniversalTime day_of_year(int year, int day) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "engine/core/result.h"
 
 namespace reljef::geo {
@@ -26,6 +28,10 @@ struct SunPosition {
 /// Universal Time). Fails for a year that is not from first_sun_year to last_sun_year, and for a
 /// day or time that does not exist. `latitude`, `longitude`: degrees.
 Result<SunPosition> sun_position(const UniversalTime& time, double latitude, double longitude);
+
+/// Reads ISO 8601 in Universal Time, "2026-06-21T12:00", with or without seconds and a final Z.
+/// Fails for other text, and for a day or time that does not exist. The message names `text`.
+Result<UniversalTime> universal_time(std::string_view text);
 
 /// A day of a year, [1, 366], as month and day of the month. Precondition: it exists.
 UniversalTime day_of_year(int year, int day);

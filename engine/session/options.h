@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -11,6 +12,7 @@
 
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
+#include "engine/geo/sun_position.h"
 #include "engine/io/tile_set.h"
 #include "engine/platform/context.h"
 #include "engine/scene/graph/camera.h"
@@ -84,6 +86,9 @@ std::string_view to_string(BaseKind kind);
 /// The default error bound if no technique is named either, pixels.
 inline constexpr double default_max_error = 1.0;
 
+/// Azimuth and altitude, degrees, or where the sun stands over the terrain's middle at a time.
+using SunChoice = std::variant<glm::dvec2, geo::UniversalTime>;
+
 struct SceneOptions {
     std::optional<scene::Technique> technique; ///< absent: polygons; in the gallery each model's
     bool mixed = false; ///< each model of the gallery has its own, despite the scene file
@@ -100,7 +105,7 @@ struct SceneOptions {
     std::optional<glm::dvec3> target; ///< scene metres
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose;  ///< without any of these, the scene file's, else all is seen
-    std::optional<glm::dvec2> sun;    ///< azimuth, altitude, degrees; absent: the scene file's
+    std::optional<SunChoice> sun;     ///< absent: the scene file's
     std::optional<double> turbidity;  ///< [1, 10]; absent: the scene file's, else clear air
     std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
     std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane

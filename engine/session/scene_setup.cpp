@@ -13,12 +13,12 @@
 #include "engine/cast/frame/driver.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/formats/ramp_file.h"
-#include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
+#include "engine/session/scene_daylight.h"
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"
 #include "engine/terrain/field/tint.h"
@@ -26,9 +26,6 @@
 namespace reljef::session {
 namespace {
 
-// A third of the contrast is gone after one width, at the height of the lowest ground.
-constexpr double visibility_in_widths = 10.0;
-constexpr double min_visibility = 30e3;       // metres: shadows of a city are not blue
 constexpr std::size_t part_for_triangles = 4; // of the memory
 
 // With little memory: a quarter of those of the tiles that are enough for any view.
@@ -235,49 +232,10 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
     return models;
 }
 
-// Whether most of the border is level with the sea.
-bool is_in_sea(const terrain::Heightfield& heightfield) {
-    const Grid<float>& heights = heightfield.heights;
-    std::size_t sea = 0;
-    std::size_t count = 0;
-    const auto add = [&](int col, int row) {
-        sea += heights(col, row) == 0.0F ? 1U : 0U;
-        ++count;
-    };
-    for (int col = 0; col < heights.cols(); ++col) {
-        add(col, 0);
-        add(col, heights.rows() - 1);
-    }
-    for (int row = 0; row < heights.rows(); ++row) {
-        add(0, row);
-        add(heights.cols() - 1, row);
-    }
-    return 2 * sea > count;
-}
-
-// The sea around an island; else pale and of no colour, so that the terrain stands out from it.
-glm::vec3 base_albedo(const scene::TerrainSurface& surface) {
-    return is_in_sea(surface.heightfield()) ? linear_from_rgba8(terrain::HeightTint::water)
-                                            : glm::vec3(0.42F, 0.42F, 0.41F);
-}
-
 BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
     return view.base.value_or(description.base == "none"    ? BaseKind::none
                               : description.base == "solid" ? BaseKind::solid
                                                             : BaseKind::plane);
-}
-
-constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
-constexpr float table_albedo = 0.56F;                  // on which a block lies
-
-std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface) {
-    auto mesh = scene::terrain_base(surface);
-    if (!mesh) {
-        return nullptr;
-    }
-    scene::MeshNode node{std::make_shared<const scene::Mesh>(std::move(*mesh)), {}};
-    node.material.color = wall_albedo;
-    return std::make_shared<const scene::MeshNode>(std::move(node));
 }
 
 // Walls follow all samples of the border; a stream shows coarser ones, too.
@@ -296,51 +254,7 @@ Surroundings surroundings_of(const TerrainScene& scene, const io::SceneDescripti
     return found;
 }
 
-scene::Light chosen_sun(const io::SceneDescription& description, const SceneOptions& view) {
-    scene::Light sun;
-    sun.azimuth = view.sun ? view.sun->x : description.sun_azimuth;
-    sun.altitude = view.sun ? view.sun->y : description.sun_altitude;
-    sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
-    return sun;
-}
-
-// Air gets thinner with the terrain's own heights, or with a part of its width.
-scene::Sky sky_over(const TerrainScene& scene, scene::Sky sky) {
-    const glm::dvec3 size = scene.bounds.size();
-    const double width = std::max(size.x, size.y);
-    sky.visibility = scene.surroundings.visibility.value_or(
-        std::max(visibility_in_widths * std::max(width, size.z), min_visibility));
-    constexpr double in_heights = 1.5;
-    constexpr double in_widths = 0.05;
-    sky.air_height = std::max(in_heights * size.z, in_widths * width);
-    sky.base = scene.bounds.low.z;
-    return sky;
-}
-
 } // namespace
-
-void set_daylight(TerrainScene& scene, scene::Light sun) {
-    const scene::Daylight daylight = scene::daylight_at(sun.altitude, scene.surroundings.turbidity);
-    sun.color = daylight.sun;
-    sun.ambient = daylight.ambient;
-    *scene.light->get<scene::Light>() = sun;
-
-    scene::Sky sky = sky_over(scene, daylight.sky);
-    constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
-    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    const BaseKind base = scene.surroundings.base;
-    const glm::dvec3 size = scene.bounds.size();
-    if (base != BaseKind::none && std::max(size.x, size.y) <= max_plane_width) {
-        const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
-        const glm::vec3 albedo =
-            base == BaseKind::solid ? glm::vec3(table_albedo) : base_albedo(*terrain.surface);
-        sky.plane = albedo * (level * sun.color + sun.ambient);
-    }
-    if (base == BaseKind::solid && !scene.is_gallery) {
-        terrain.base = walls_below(*terrain.surface);
-    }
-    scene.scene.set_sky(sky);
-}
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
                                 const SceneOptions& view, Log& log, const std::stop_token& stop) {
@@ -378,7 +292,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
 
     result.surroundings = surroundings_of(result, source.description, view, log);
     result.light = &result.scene.add_light();
-    set_daylight(result, chosen_sun(source.description, view));
+    const auto sun = chosen_sun(result, source.description, view);
+    if (!sun) {
+        return sun.error();
+    }
+    set_daylight(result, *sun);
 
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {

@@ -48,10 +48,6 @@ struct TerrainScene {
 /// The near plane of cameras over a terrain, metres: cuts nothing away that can be seen.
 double near_distance(const Box& bounds);
 
-/// Shines a sun: sets the light with the colours of its altitude, sky, air, and what lies below the
-/// terrain's edge. Precondition: `bounds` are those of the terrain as it is.
-void set_daylight(TerrainScene& scene, scene::Light sun);
-
 /// Builds the scene. Fails if the placement or the camera does not fit the terrain; wrong options
 /// are usage errors.
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,

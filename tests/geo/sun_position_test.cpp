@@ -51,6 +51,33 @@ TEST(SunPosition, RefusesDaysThatTheFormulaOrTheCalendarLacks) {
     EXPECT_TRUE(sun_position({2024, 2, 29, 0.0}, 0.0, 0.0));
 }
 
+TEST(UniversalTime, IsReadWithAndWithoutSecondsAndZ) {
+    for (const char* const text :
+         {"2026-06-21T12:30", "2026-06-21T12:30Z", "2026-06-21T12:30:00", "2026-06-21T12:30:00Z"}) {
+        const auto time = universal_time(text);
+        ASSERT_TRUE(time) << time.error().message;
+        EXPECT_EQ(time->year, 2026);
+        EXPECT_EQ(time->month, 6);
+        EXPECT_EQ(time->day, 21);
+        EXPECT_EQ(time->hours, 12.5);
+    }
+    EXPECT_EQ(universal_time("2026-06-21T12:30:36")->hours, 12.51);
+}
+
+TEST(UniversalTime, RefusesWhatIsNoTime) {
+    for (const std::string& text :
+         {std::string(), std::string("noon"), std::string("2026-06-21"),
+          std::string("2026-6-21T12:00"), std::string("2026-06-21T12:00+02:00"),
+          std::string("2026-06-21T24:00"), std::string("2026-06-21T12:60"),
+          std::string("2026-06-21T12:00:60"), std::string("2026-02-29T12:00"),
+          std::string("1799-01-01T12:00"), std::string("2026-06-21T12:00 "),
+          std::string(100'000, '1')}) {
+        const auto refused = universal_time(text);
+        ASSERT_FALSE(refused) << text;
+        EXPECT_THAT(refused.error().message, testing::HasSubstr("expected")) << text;
+    }
+}
+
 TEST(SunPosition, DaysOfTheYearAreThoseOfTheCalendar) {
     EXPECT_EQ(day_of_year(2025, 172).month, 6);
     EXPECT_EQ(day_of_year(2025, 172).day, 21);

@@ -125,6 +125,38 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
     }
 }
 
+TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
+    folder_.write("utm.prj", utm_32_prj);
+    session::SourceOptions choice;
+    choice.terrain = folder_
+                         .write("utm.asc", "ncols 3\nnrows 3\nxllcenter 660720.751\n"
+                                           "yllcenter 6653956.720\ncellsize 1000\n"
+                                           "5 5 5 5 5 5 5 5 5 ")
+                         .string();
+    const geo::UniversalTime time{2026, 6, 21, 9.0};
+    const auto sun = geo::sun_position(time, 60.0, 11.9);
+    for (const auto& [placement, convergence] :
+         {std::pair(terrain::PlacementKind::plane, 2.512012476527),
+          std::pair(terrain::PlacementKind::ellipsoid, 0.0)}) {
+        choice.placement = placement;
+        session::SceneOptions view;
+        view.sun = time;
+        auto source = test::open_terrain(choice);
+        ASSERT_TRUE(source) << source.error().message;
+        const auto scene = test::make_scene(std::move(*source), choice, view);
+        ASSERT_TRUE(scene) << scene.error().message;
+        const auto& light = *scene->light->get<scene::Light>();
+        EXPECT_NEAR(light.azimuth, sun->azimuth - convergence, 1e-3);
+        EXPECT_NEAR(light.altitude, sun->altitude, 1e-3);
+    }
+    session::SceneOptions night;
+    night.sun = geo::UniversalTime{2026, 12, 21, 23.0};
+    const auto refused = test::make_scene(*test::open_terrain(choice), choice, night);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("below the horizon"), std::string::npos)
+        << refused.error().message;
+}
+
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const std::string file =
         folder_

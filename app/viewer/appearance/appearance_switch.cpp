@@ -1,5 +1,7 @@
 #include "app/viewer/appearance/appearance_switch.h"
 
+#include "engine/session/scene_daylight.h"
+
 namespace reljef::app {
 
 AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,

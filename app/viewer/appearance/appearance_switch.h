@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/viewer/appearance/background.h"
 #include "engine/scene/technique/technique.h"
-#include "engine/session/background.h"
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 
@@ -65,7 +65,7 @@ private:
     struct Pending {
         Appearance appearance;
         session::RelayedLog log;
-        std::optional<session::Background<session::PreparedMaps>> work; // uses the log
+        std::optional<Background<session::PreparedMaps>> work; // uses the log
     };
 
     [[nodiscard]] session::MissingMaps missing(const Appearance& appearance) const;

@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/session/background.h"
+#include "app/viewer/appearance/background.h"
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/proven_tiles.h"
@@ -42,8 +42,8 @@ private:
     session::RelayedLog log_;
     std::shared_ptr<scene::TileStream> stream_; // with proofs; null: not yet
     Light light_;
-    std::optional<session::Background<Light>> lighting_;
-    std::optional<session::Background<Proofs>> proving_; // uses the log
+    std::optional<Background<Light>> lighting_;
+    std::optional<Background<Proofs>> proving_; // uses the log
 };
 
 } // namespace reljef::app

@@ -1,5 +1,7 @@
 #include "app/viewer/appearance/surface_switch.h"
 
+#include "engine/session/scene_daylight.h"
+
 namespace reljef::app {
 
 std::string SurfaceSwitch::obstacle() const {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/session/background.h"
+#include "app/viewer/appearance/background.h"
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_setup.h"
@@ -67,7 +67,7 @@ private:
     Shape preparing_; // of the work
     session::RelayedLog log_;
     std::shared_ptr<const view::PreparedLight> light_;
-    std::optional<session::Background<Exaggerated>> work_; // uses the log
+    std::optional<Background<Exaggerated>> work_; // uses the log
 };
 
 } // namespace reljef::app

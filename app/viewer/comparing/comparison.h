@@ -10,13 +10,13 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance/appearance_switch.h"
+#include "app/viewer/appearance/background.h"
 #include "app/viewer/comparing/truth_search.h"
 #include "app/viewer/panels/panel_content.h"
 #include "engine/core/color.h"
 #include "engine/core/event.h"
 #include "engine/core/result.h"
 #include "engine/scene/technique/technique.h"
-#include "engine/session/background.h"
 #include "engine/session/scene_setup.h"
 
 namespace reljef::app {
@@ -87,7 +87,7 @@ public:
 private:
     struct Preparing {
         session::RelayedLog log;
-        std::optional<session::Background<session::PreparedMaps>> maps; // uses the log
+        std::optional<Background<session::PreparedMaps>> maps; // uses the log
     };
     void prepare_technique();
     bool update_technique();

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include "app/viewer/appearance/background.h"
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/session/background.h"
 #include "engine/session/comparing/error_figures.h"
 #include "engine/session/comparing/scene_truth.h"
 #include "engine/session/log.h"
@@ -87,7 +87,7 @@ private:
     struct Work {
         Search search;
         session::RelayedLog log;
-        std::optional<session::Background<FoundErrors>> found; // uses the others
+        std::optional<Background<FoundErrors>> found; // uses the others
     };
     static Result<TruePicture> draw_truth(const Search& search, const ParallelOptions& parallel);
     static Result<FoundErrors> find(const Search& search, const ParallelOptions& parallel);

@@ -167,7 +167,9 @@ PanelActions AppearancePanel::draw_date(const AppearanceContent& appearance) {
             : sun->altitude <= 0
                 ? fmt::format("The sun is {:.1f}\u00b0 below the horizon then.", -sun->altitude)
                 : std::string();
-    return note_.empty() ? PanelActions{SetSun{sun->azimuth, sun->altitude}} : PanelActions();
+    const double azimuth =
+        sun ? std::fmod(sun->azimuth + appearance.true_north + 360.0, 360.0) : 0.0;
+    return note_.empty() ? PanelActions{SetSun{azimuth, sun->altitude}} : PanelActions();
 }
 
 PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fonts) {

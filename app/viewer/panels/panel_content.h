@@ -53,6 +53,7 @@ struct AppearanceContent {
     double turbidity = 1.0;
     double visibility = 0.0;               ///< metres; 0: no haze
     std::optional<geo::Geodetic> on_earth; ///< of the terrain's middle
+    double true_north = 0.0;               ///< there, degrees clockwise from the scene's north
     std::string ramp;                      ///< requested; empty: heights have no colours
     std::vector<std::string> ramps;        ///< the built-in ones
     double exaggeration = 1.0;             ///< requested

@@ -154,6 +154,26 @@ void read_detail_keys(TomlTable& table, const std::filesystem::path& folder,
     }
 }
 
+void read_sun_keys(TomlTable& table, SceneDescription& scene) {
+    table.read("azimuth", scene.sun_azimuth, azimuths);
+    table.read("altitude", scene.sun_altitude, altitudes);
+    table.read("occlusion", scene.hides_sky);
+    std::string text;
+    table.read("time", text);
+    if (!table.has("time")) {
+        return;
+    }
+    if (table.has("azimuth") || table.has("altitude")) {
+        table.fail("time", "stands beside azimuth or altitude, one of both was expected");
+    }
+    const auto time = geo::universal_time(text);
+    if (!time) {
+        table.fail("time", "is " + time.error().message);
+        return;
+    }
+    scene.sun_time = *time;
+}
+
 } // namespace
 
 Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
@@ -176,12 +196,10 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     read_area_keys(area, scene);
     read_gallery_keys(gallery, folder, scene);
     read_detail_keys(detail, folder, scene);
-    sun.read("azimuth", scene.sun_azimuth, azimuths);
-    sun.read("altitude", scene.sun_altitude, altitudes);
+    read_sun_keys(sun, scene);
     air.read("visibility", scene.visibility, positive);
     air.read("turbidity", scene.turbidity, turbidities);
     air.read("base", scene.base, bases);
-    sun.read("occlusion", scene.hides_sky);
     read_camera_keys(camera, scene);
     for (const TomlTable* table :
          {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {

@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
+#include "engine/geo/sun_position.h"
 #include "engine/io/tile_set.h"
 
 namespace reljef::io {
@@ -55,7 +56,8 @@ struct SceneDescription {
 
     std::optional<DetailDescription> detail;
 
-    // [sun]: degrees
+    // [sun]: degrees, or a time
+    std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude
     double sun_azimuth = 300.0; ///< of the light source, clockwise from north, [-360, 360]
     double sun_altitude = 40.0; ///< above the horizon, (0, 90]
 

@@ -197,5 +197,34 @@ TEST_F(Shards, MpirunGivesEachProcessItsPart) {
     expect_same_pictures("whole", "parts");
 }
 
+// The third of four workers is killed before it draws.
+TEST_F(Shards, UnderSlurmASecondRunCompletesAKilledWorkersPart) {
+    if (!fs::exists("/usr/sbin/slurmctld") || !fs::exists("/usr/sbin/slurmd")) {
+        GTEST_SKIP() << "slurm-wlm is not installed";
+    }
+    expect_drawn(run(flight("whole")));
+    const auto srun = [&](const std::string& slurm, const std::string& script) {
+        std::vector<std::string> arguments{(folder_.path() / slurm).string(),
+                                           "srun",
+                                           "--kill-on-bad-exit=0",
+                                           "-n",
+                                           "4",
+                                           "sh",
+                                           "-c",
+                                           script,
+                                           RELJEF_BINARY};
+        const auto own = flight("parts", {"--shard", "slurm", "--threads", "1", "--resume"});
+        arguments.insert(arguments.end(), own.begin(), own.end());
+        test::ProgramOptions options;
+        options.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
+        return test::run_program(RELJEF_WITH_SLURM, arguments, options);
+    };
+    const auto killed = srun("s1", R"([ "$SLURM_PROCID" = 2 ] && kill -9 $$; exec "$0" "$@")");
+    EXPECT_NE(killed.exit_code, 0);
+    const auto again = srun("s2", R"(exec "$0" "$@")");
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    expect_same_pictures("whole", "parts");
+}
+
 } // namespace
 } // namespace reljef

@@ -65,6 +65,14 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->target, glm::dvec3(0.0));
 }
 
+TEST(SceneFile, TheSunMayBeThatOfATime) {
+    const auto scene =
+        parse("[terrain]\ngenerator = \"urban\"\n[sun]\ntime = \"2026-06-21T06:15Z\"");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->sun_time);
+    EXPECT_EQ(scene->sun_time->hours, 6.25);
+}
+
 TEST(SceneFile, AGeneratorNeedsNothingElse) {
     const auto scene = parse("[terrain]\ngenerator = \"urban\"");
     ASSERT_TRUE(scene) << scene.error().message;
@@ -177,6 +185,8 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "[sun]\naltitude = 0", "[sun] altitude is 0, a number above 0 and at most 90"},
         {urban + "[sun]\naltitude = 90.5", "altitude is 90.5"},
         {urban + "[sun]\nazimuth = 400", "azimuth is 400, a number from -360 to 360"},
+        {urban + "[sun]\ntime = \"noon\"", "[sun] time is 'noon'"},
+        {urban + "[sun]\ntime = \"2026-06-21T12:00\"\nazimuth = 3", "stands beside azimuth"},
         {urban + "[air]\nvisibility = -1", "[air] visibility is -1"},
         {urban + "[camera]\neye = [1, 2, 3]", "eye stands alone"},
         {urban + "[camera]\neye = [1, 2]\nlook = [1, 2, 3]", "three numbers"},

@@ -1,5 +1,6 @@
 // Relief techniques on the ellipsoid, where view rays are bent in samples.
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,13 @@ using test::EarthStage;
 
 class CurvedReliefGlTest : public DriverGlTest {
 protected:
-    static view::DrawnHits hits(EarthStage& stage, const std::string& technique) {
-        Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
+    view::DrawnHits hits(EarthStage& stage, const std::string& technique) {
         stage.set(test::must(scene::parse_technique(technique)));
-        return test::must(driver.draw_hits(view::select(stage.scene, size)));
+        return test::must(driver_of_all().draw_hits(view::select(stage.scene, size)));
     }
 
-    static Image picture(EarthStage& stage, const std::string& technique) {
-        Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
+    Image picture(EarthStage& stage, const std::string& technique) {
+        Driver& driver = driver_of_all();
         stage.set(test::must(scene::parse_technique(technique)));
         const view::FrameView frame = view::select(stage.scene, size);
         EXPECT_EQ(frame.list.stats.reliefs_as_triangles, 0);
@@ -34,8 +34,8 @@ protected:
         return driver.read_color();
     }
 
-    static void expect_true(EarthStage& stage, const std::string& technique,
-                            const std::string& name, double most = 0.05) {
+    void expect_true(EarthStage& stage, const std::string& technique, const std::string& name,
+                     double most = 0.05) {
         const view::DrawnHits shown = hits(stage, technique);
         ASSERT_EQ(shown.stats.reliefs_as_triangles, 0) << name;
         const truth::GeometricErrors found = stage.errors(shown.hits);
@@ -48,6 +48,17 @@ protected:
             << found.reprojection.unbounded;
         EXPECT_LT(found.reprojection.distribution->p99, most) << name;
     }
+
+private:
+    // One for all stages of a test: programs are compiled once.
+    Driver& driver_of_all() {
+        if (!driver_) {
+            driver_ = test::must(Driver::create({.size = size, .shader_dir = {}}));
+        }
+        return *driver_;
+    }
+
+    std::optional<Driver> driver_;
 };
 
 TEST_F(CurvedReliefGlTest, ExactAndConeShowTheTrueFirstHit) {

@@ -10,7 +10,7 @@
 
 #include "engine/core/result.h"
 
-namespace reljef::session {
+namespace reljef::app {
 
 /// Runs a function on its own thread. The destructor requests a stop and waits.
 template <class T> class Background {
@@ -48,4 +48,4 @@ private:
     std::jthread thread_; // last: it ends before other members are destroyed
 };
 
-} // namespace reljef::session
+} // namespace reljef::app

@@ -1,0 +1,155 @@
+#include "engine/session/scene_daylight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include "engine/scene/graph/terrain_base.h"
+#include "engine/terrain/field/tint.h"
+
+namespace reljef::session {
+namespace {
+
+// A third of the contrast is gone after one width, at the height of the lowest ground.
+constexpr double visibility_in_widths = 10.0;
+constexpr double min_visibility = 30e3; // metres: shadows of a city are not blue
+
+// Whether most of the border is level with the sea.
+bool is_in_sea(const terrain::Heightfield& heightfield) {
+    const Grid<float>& heights = heightfield.heights;
+    std::size_t sea = 0;
+    std::size_t count = 0;
+    const auto add = [&](int col, int row) {
+        sea += heights(col, row) == 0.0F ? 1U : 0U;
+        ++count;
+    };
+    for (int col = 0; col < heights.cols(); ++col) {
+        add(col, 0);
+        add(col, heights.rows() - 1);
+    }
+    for (int row = 0; row < heights.rows(); ++row) {
+        add(0, row);
+        add(heights.cols() - 1, row);
+    }
+    return 2 * sea > count;
+}
+
+// The sea around an island; else pale and of no colour, so that the terrain stands out from it.
+// The gallery's floor, level at 0, is no sea.
+glm::vec3 base_albedo(const TerrainScene& scene) {
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    return !scene.is_gallery && is_in_sea(surface.heightfield())
+               ? linear_from_rgba8(terrain::HeightTint::water)
+               : glm::vec3(0.42F, 0.42F, 0.41F);
+}
+
+constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
+constexpr float table_albedo = 0.56F;                  // on which a block lies
+
+std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface) {
+    auto mesh = scene::terrain_base(surface);
+    if (!mesh) {
+        return nullptr;
+    }
+    scene::MeshNode node{std::make_shared<const scene::Mesh>(std::move(*mesh)), {}};
+    node.material.color = wall_albedo;
+    return std::make_shared<const scene::MeshNode>(std::move(node));
+}
+
+// Air gets thinner with the terrain's own heights, or with a part of its width.
+scene::Sky sky_over(const TerrainScene& scene, scene::Sky sky) {
+    const glm::dvec3 size = scene.bounds.size();
+    const double width = std::max(size.x, size.y);
+    sky.visibility = scene.surroundings.visibility.value_or(
+        std::max(visibility_in_widths * std::max(width, size.z), min_visibility));
+    constexpr double in_heights = 1.5;
+    constexpr double in_widths = 0.05;
+    sky.air_height = std::max(in_heights * size.z, in_widths * width);
+    sky.base = scene.bounds.low.z;
+    return sky;
+}
+
+} // namespace
+
+std::optional<double> true_north(const TerrainScene& scene) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const glm::dvec3 middle = scene.bounds.center();
+    if (!surface.heightfield().georeference || !surface.placement().geodetic_from_world(middle)) {
+        return std::nullopt;
+    }
+    const glm::dvec3 north = surface.placement().north(middle);
+    return glm::degrees(std::atan2(north.x, north.y));
+}
+
+Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto north = true_north(scene);
+    if (!north) {
+        return usage_error(
+            fmt::format("{}: no place on Earth found, which the sun of a time needs; "
+                        "the sun's azimuth and altitude need none",
+                        surface.terrain().name));
+    }
+    const auto middle = surface.placement().geodetic_from_world(scene.bounds.center());
+    const auto sun = geo::sun_position(time, middle->latitude, middle->longitude);
+    if (!sun) {
+        return sun.error();
+    }
+    if (sun->altitude <= 0.0) {
+        return usage_error(fmt::format("the sun is {:.1f} degrees below the horizon of {} at that "
+                                       "time, a time by day was expected",
+                                       -sun->altitude, surface.terrain().name));
+    }
+    return glm::dvec2(std::fmod(sun->azimuth + *north + 360.0, 360.0), sun->altitude);
+}
+
+Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
+                                const SceneOptions& view) {
+    SunChoice choice = glm::dvec2(description.sun_azimuth, description.sun_altitude);
+    if (view.sun) {
+        choice = *view.sun;
+    } else if (description.sun_time) {
+        choice = *description.sun_time;
+    }
+    const auto* const time = std::get_if<geo::UniversalTime>(&choice);
+    const auto angles = time != nullptr ? sun_angles(scene, *time)
+                                        : Result<glm::dvec2>(std::get<glm::dvec2>(choice));
+    if (!angles) {
+        return angles.error();
+    }
+    scene::Light sun;
+    sun.azimuth = angles->x;
+    sun.altitude = angles->y;
+    sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
+    return sun;
+}
+
+void set_daylight(TerrainScene& scene, scene::Light sun) {
+    const scene::Daylight daylight = scene::daylight_at(sun.altitude, scene.surroundings.turbidity);
+    sun.color = daylight.sun;
+    sun.ambient = daylight.ambient;
+    *scene.light->get<scene::Light>() = sun;
+
+    scene::Sky sky = sky_over(scene, daylight.sky);
+    constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const BaseKind base = scene.surroundings.base;
+    const glm::dvec3 size = scene.bounds.size();
+    if (base != BaseKind::none && std::max(size.x, size.y) <= max_plane_width) {
+        const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
+        const glm::vec3 albedo =
+            base == BaseKind::solid ? glm::vec3(table_albedo) : base_albedo(scene);
+        sky.plane = albedo * (level * sun.color + sun.ambient);
+    }
+    if (base == BaseKind::solid && !scene.is_gallery) {
+        terrain.base = walls_below(*terrain.surface);
+    }
+    scene.scene.set_sky(sky);
+}
+
+} // namespace reljef::session

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/result.h"
+#include "engine/geo/sun_position.h"
+#include "engine/io/formats/scene_file.h"
+#include "engine/scene/streaming/light.h"
+#include "engine/session/options.h"
+#include "engine/session/scene_setup.h"
+
+namespace reljef::session {
+
+/// True north at the terrain's middle, degrees clockwise from the scene's north (+y): on a plane,
+/// the convergence of its grid. Empty without a place on Earth.
+std::optional<double> true_north(const TerrainScene& scene);
+
+/// Azimuth, [0, 360), and altitude of the sun over the terrain's middle, degrees. Usage errors: a
+/// terrain without a place on Earth, a sun below the horizon.
+Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time);
+
+/// The sun that the options name, else the scene file's: by its angles, or by a time.
+Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
+                                const SceneOptions& view);
+
+/// Shines a sun: sets the light with the colours of its altitude, sky, air, and what lies below the
+/// terrain's edge. Precondition: `bounds` are those of the terrain as it is.
+void set_daylight(TerrainScene& scene, scene::Light sun);
+
+} // namespace reljef::session
