@@ -79,6 +79,10 @@ Result<void> calibrate(const CalibrateChoice& choice, const cli::Interrupt& inte
         return frames.error();
     }
     const Calibration made{place_of(device->info()), costs_from(*frames)};
+    if (made.costs.triangle_ns == 0.0 || made.costs.ray_pixel_ns == 0.0) {
+        return Error{"calibrate: frames with more triangles or rays took no longer than those with "
+                     "fewer, longer ones were expected: try again while no other program runs"};
+    }
     return write_text_file(choice.output, to_text(made));
 }
 

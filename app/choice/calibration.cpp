@@ -1,7 +1,6 @@
 #include "app/choice/calibration.h"
 
 #include <array>
-#include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "reljef-calibration/1";
+constexpr double max_cost = 1e9; // a second for a pixel
 
 struct CostField {
     const char* name;
@@ -56,7 +56,7 @@ std::string to_text(const Calibration& calibration) {
     for (const CostField& field : cost_fields) {
         costs[field.name] = calibration.costs.*field.member;
     }
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Result<Calibration> parse_calibration(const std::string& text, const std::string& file) {
@@ -79,10 +79,10 @@ Result<Calibration> parse_calibration(const std::string& text, const std::string
         const bool is_number =
             costs.is_object() && costs.contains(field.name) && costs[field.name].is_number();
         const double value = is_number ? costs[field.name].get<double>() : -1.0;
-        if (!std::isfinite(value) || value < 0.0) {
-            return Error{fmt::format("{}: no {} found among its costs, a number from 0 was "
+        if (!(value >= 0.0 && value <= max_cost)) {
+            return Error{fmt::format("{}: no {} found among its costs, a number from 0 to {} was "
                                      "expected; {}",
-                                     file, field.name, remedy)};
+                                     file, field.name, max_cost, remedy)};
         }
         calibration.costs.*field.member = value;
     }

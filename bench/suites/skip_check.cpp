@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 
@@ -49,20 +50,28 @@ public:
           size_(size), far_error_(0x1p-20 * farthest(terrain.world_bounds(), scene.camera().eye) /
                                   view::metres_a_pixel(scene.camera(), size).y) {}
 
-    // Keeps the hit that is the farthest for its tolerance.
+    // Keeps the hit that is the farthest for its tolerance; none is farther than one without place.
     void add(glm::ivec2 pixel, const Hit& hit, bool rounds, RowSkip::Difference& found) const {
         if (!truth::shows_terrain(hit)) {
             return;
         }
         const double px = truth::reprojection_error(view_, size_, pixel, hit);
         const double tolerance = rounds ? far_error_ / hit.depth : 0.0;
-        if (px * found.tolerance_px >= found.max_px * tolerance) {
+        if (is_farther(px, tolerance, found)) {
             found.max_px = px;
             found.tolerance_px = tolerance;
         }
     }
 
 private:
+    static bool is_farther(double px, double tolerance, const RowSkip::Difference& than) {
+        if (!std::isfinite(px) || !std::isfinite(than.max_px)) {
+            return std::isfinite(than.max_px);
+        }
+        return tolerance == 0.0 && than.tolerance_px == 0.0
+                   ? px > than.max_px
+                   : px * than.tolerance_px >= than.max_px * tolerance;
+    }
     static double farthest(const Box& bounds, glm::dvec3 eye) {
         return glm::length(glm::max(glm::abs(bounds.low - eye), glm::abs(bounds.high - eye)));
     }

@@ -167,7 +167,10 @@ Result<void> SceneRenderer::resize(glm::ivec2 size) {
 }
 
 void SceneRenderer::set_samples(int samples) {
-    chooser_->set_samples(samples);
+    if (samples != chooser_->samples()) { // what is cheapest depends on them
+        chooser_->set_samples(samples);
+        selector_.forget();
+    }
     if (opengl_options_) {
         opengl_options_->samples = samples;
     }

@@ -52,7 +52,8 @@ RayError::RayError(const scene::Camera& camera, glm::ivec2 size,
     : surface_(surface), eye_(camera.eye - offset) {
     const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
     const double focal = 0.5 * size.y / half_height;
-    const double to_corner = half_height * glm::length(glm::dvec2(size)) / size.y;
+    const double to_corner =
+        half_height * glm::length(glm::dvec2(scene::whole_picture(camera, size))) / size.y;
     rounding_ = operations * unit * focal * (1.0 + to_corner * to_corner);
     const Box& bounds = surface.bounds();
     const double below_eye = std::abs(eye_.z - bounds.low.z);

@@ -57,6 +57,7 @@ public:
 
     /// Per pixel of later lists, see render::DriverOptions::samples.
     void set_samples(int samples) { samples_ = samples; }
+    [[nodiscard]] int samples() const { return samples_; }
     void set_costs(const TechniqueCosts& costs) { options_.costs = costs; }
     /// Of a texture, texels: rays of OpenGL over larger terrains cannot be drawn.
     void set_max_map_side(int texels) { max_map_side_ = texels; }

@@ -1,5 +1,7 @@
 #include "bench/suites/skip_check.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
 #include "tests/render/made_scene.h"
@@ -51,6 +53,20 @@ TEST(SkipCheck, AnotherColourIsAnotherPicture) {
     EXPECT_FALSE(found.is_allowed());
     found.tolerance_levels = 1;
     EXPECT_TRUE(found.is_allowed());
+}
+
+TEST(SkipCheck, TheFarthestHitIsKeptWhicheverComesFirst) {
+    const Ground ground;
+    DrawnPicture other = ground.picture;
+    other.hits(2, 2).col_low += 0.5F;
+    other.hits(6, 6).col_low += 0.05F;
+    const auto exact = difference_of(ground.scene, *ground.terrain, ground.picture, other, false);
+    EXPECT_GT(exact.max_px, 0.05);
+    other = ground.picture;
+    other.hits(2, 2).col = std::numeric_limits<float>::quiet_NaN();
+    other.hits(6, 6).col_low += 1e-6F;
+    const auto no_place = difference_of(ground.scene, *ground.terrain, ground.picture, other, true);
+    EXPECT_FALSE(no_place.is_allowed());
 }
 
 TEST(SkipCheck, AHitMayMoveByWhatFloatsRoundButNotByMore) {

@@ -189,6 +189,21 @@ TEST(TechniqueChooserTest, CountsTilesOfRaysOnTheCpu) {
     EXPECT_EQ(list.stats.choice->tiles_as_triangles, 0);
 }
 
+// A part in the corner of a picture is as far from its middle as the corner is.
+TEST(RayErrorTest, OfAPartIsThatOfTheWholePicture) {
+    const ChosenView view;
+    const auto& surface = test::surface_of(*view.node);
+    const glm::ivec2 whole{8000, 6000};
+    const glm::ivec2 size{512, 512};
+    const scene::Camera part = scene::part_camera(view.scene.camera(), whole, {{0, 0}, size});
+    const RayError of_part(part, size, surface, steepest(surface), glm::dvec3(0.0));
+    const RayError of_whole(view.scene.camera(), whole, surface, steepest(surface),
+                            glm::dvec3(0.0));
+    for (double distance = 0.1; distance < 1e5; distance *= 3.0) {
+        EXPECT_NEAR(of_part.at(distance) / of_whole.at(distance), 1.0, 1e-9);
+    }
+}
+
 TEST(RayErrorTest, GrowsTowardsTheEye) {
     const ChosenView view;
     const RayError error(view.scene.camera(), chosen_size, test::surface_of(*view.node),
