@@ -127,8 +127,9 @@ endfunction()
 
 find_program(RELJEF_XVFB_RUN xvfb-run)
 
-# SHARDS processes that share a program's tests, with some labels and the caller's `properties`; ./dev
-# adds up what their reports tell. FILTER is GoogleTest's; empty: all tests.
+# SHARDS processes that share a program's tests, with some labels and the caller's `properties` and
+# `launcher` (a command before the program, or none); ./dev adds up what their reports tell. FILTER is
+# GoogleTest's; empty: all tests.
 function(reljef_add_shards NAME PROGRAM SHARDS FILTER)
   if(FILTER)
     set(filter --gtest_filter=${FILTER})
@@ -136,11 +137,7 @@ function(reljef_add_shards NAME PROGRAM SHARDS FILTER)
   math(EXPR last "${SHARDS} - 1")
   foreach(shard RANGE ${last})
     set(test ${NAME}.${shard})
-    set(display)
-    if(NAME MATCHES "\\.alone$" AND RELJEF_XVFB_RUN)
-      set(display ${RELJEF_XVFB_RUN} -a -s "-noreset -screen 0 1280x1024x24")
-    endif()
-    add_test(NAME ${test} COMMAND ${display} ${CMAKE_COMMAND} -E env
+    add_test(NAME ${test} COMMAND ${launcher} ${CMAKE_COMMAND} -E env
              GTEST_TOTAL_SHARDS=${SHARDS} GTEST_SHARD_INDEX=${shard} $<TARGET_FILE:${PROGRAM}>
              --gtest_brief=1 --gtest_output=xml:${PROJECT_BINARY_DIR}/test-reports/${test}.xml ${filter})
     set_tests_properties(${test} PROPERTIES ${properties} LABELS "${ARGN}")
@@ -187,7 +184,11 @@ function(reljef_test ROOM)
     string(APPEND left_out ":${TEST_SANITIZED}")
   endif()
   if(TEST_ALONE)
+    if(RELJEF_XVFB_RUN)
+      set(launcher ${RELJEF_XVFB_RUN} -a -s "-noreset -screen 0 1280x1024x24")
+    endif()
     reljef_add_shards(${ROOM}.alone ${target} 1 "${TEST_ALONE}" ${ROOM} ${label})
+    unset(launcher)
     if(NOT RELJEF_XVFB_RUN)
       set_tests_properties(${ROOM}.alone.0 PROPERTIES RUN_SERIAL ON)
     endif()

@@ -84,6 +84,16 @@ Result<SunPosition> sun_position(const UniversalTime& time, double latitude, dou
                        std::asin(std::fmin(std::fmax(sine, -1.0), 1.0)) / degree};
 }
 
+Result<SunPosition> sun_by_day(const UniversalTime& time, double latitude, double longitude) {
+    const auto sun = sun_position(time, latitude, longitude);
+    return !sun || sun->altitude > 0.0
+               ? sun
+               : Error{
+                     fmt::format("the sun is {:.1f} degrees below the horizon at that time, a time "
+                                 "by day was expected",
+                                 -sun->altitude)};
+}
+
 Result<UniversalTime> universal_time(std::string_view text) {
     static const std::regex form(R"((\d{4})-(\d\d)-(\d\d)T(\d\d):(\d\d)(?::(\d\d))?Z?)");
     const std::string whole(text);

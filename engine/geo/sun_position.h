@@ -29,6 +29,9 @@ struct SunPosition {
 /// day or time that does not exist. `latitude`, `longitude`: degrees.
 Result<SunPosition> sun_position(const UniversalTime& time, double latitude, double longitude);
 
+/// The same by day: fails, too, while the sun's middle is not above the horizon.
+Result<SunPosition> sun_by_day(const UniversalTime& time, double latitude, double longitude);
+
 /// Reads ISO 8601 in Universal Time, "2026-06-21T12:00", with or without seconds and a final Z.
 /// Fails for other text, and for a day or time that does not exist. The message names `text`.
 Result<UniversalTime> universal_time(std::string_view text);

@@ -86,6 +86,9 @@ std::optional<double> true_north(const TerrainScene& scene) {
     return glm::degrees(std::atan2(north.x, north.y));
 }
 
+namespace {
+
+// Azimuth, [0, 360), and altitude over the terrain's middle, degrees.
 Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const auto north = true_north(scene);
@@ -96,17 +99,14 @@ Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTim
                         surface.terrain().name));
     }
     const auto middle = surface.placement().geodetic_from_world(scene.bounds.center());
-    const auto sun = geo::sun_position(time, middle->latitude, middle->longitude);
+    const auto sun = geo::sun_by_day(time, middle->latitude, middle->longitude);
     if (!sun) {
-        return sun.error();
-    }
-    if (sun->altitude <= 0.0) {
-        return usage_error(fmt::format("the sun is {:.1f} degrees below the horizon of {} at that "
-                                       "time, a time by day was expected",
-                                       -sun->altitude, surface.terrain().name));
+        return usage_error(fmt::format("{}: {}", surface.terrain().name, sun.error().message));
     }
     return glm::dvec2(std::fmod(sun->azimuth + *north + 360.0, 360.0), sun->altitude);
 }
+
+} // namespace
 
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view) {

@@ -2,10 +2,7 @@
 
 #include <optional>
 
-#include <glm/vec2.hpp>
-
 #include "engine/core/result.h"
-#include "engine/geo/sun_position.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/scene/streaming/light.h"
 #include "engine/session/options.h"
@@ -17,11 +14,8 @@ namespace reljef::session {
 /// the convergence of its grid. Empty without a place on Earth.
 std::optional<double> true_north(const TerrainScene& scene);
 
-/// Azimuth, [0, 360), and altitude of the sun over the terrain's middle, degrees. Usage errors: a
-/// terrain without a place on Earth, a sun below the horizon.
-Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time);
-
-/// The sun that the options name, else the scene file's: by its angles, or by a time.
+/// The sun that the options name, else the scene file's: by its angles, or by a time. Usage errors
+/// with a time: a terrain without a place on Earth, a sun below the horizon of its middle.
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view);
 

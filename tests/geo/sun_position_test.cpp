@@ -51,6 +51,16 @@ TEST(SunPosition, RefusesDaysThatTheFormulaOrTheCalendarLacks) {
     EXPECT_TRUE(sun_position({2024, 2, 29, 0.0}, 0.0, 0.0));
 }
 
+TEST(SunPosition, ByDayIsThatAboveTheHorizon) {
+    const auto noon = sun_by_day({2026, 6, 21, 12.0}, 45.0, 0.0);
+    ASSERT_TRUE(noon);
+    EXPECT_EQ(noon->altitude, sun_position({2026, 6, 21, 12.0}, 45.0, 0.0)->altitude);
+    const auto midnight = sun_by_day({2026, 6, 21, 0.0}, 45.0, 0.0);
+    ASSERT_FALSE(midnight);
+    EXPECT_THAT(midnight.error().message, testing::HasSubstr("below the horizon"));
+    EXPECT_FALSE(sun_by_day({2500, 6, 21, 12.0}, 45.0, 0.0));
+}
+
 TEST(UniversalTime, IsReadWithAndWithoutSecondsAndZ) {
     for (const char* const text :
          {"2026-06-21T12:30", "2026-06-21T12:30Z", "2026-06-21T12:30:00", "2026-06-21T12:30:00Z"}) {

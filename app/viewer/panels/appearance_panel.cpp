@@ -162,14 +162,13 @@ PanelActions AppearancePanel::draw_date(const AppearanceContent& appearance) {
     time = geo::day_of_year(year, static_cast<int>(std::lround(day_)));
     time.hours = hours_;
     const auto sun =
-        geo::sun_position(time, appearance.on_earth->latitude, appearance.on_earth->longitude);
-    note_ = !sun ? sun.error().message
-            : sun->altitude <= 0
-                ? fmt::format("The sun is {:.1f}\u00b0 below the horizon then.", -sun->altitude)
-                : std::string();
-    const double azimuth =
-        sun ? std::fmod(sun->azimuth + appearance.true_north + 360.0, 360.0) : 0.0;
-    return note_.empty() ? PanelActions{SetSun{azimuth, sun->altitude}} : PanelActions();
+        geo::sun_by_day(time, appearance.on_earth->latitude, appearance.on_earth->longitude);
+    note_ = sun ? std::string() : sun.error().message;
+    if (!sun) {
+        return {};
+    }
+    const double azimuth = std::fmod(sun->azimuth + appearance.true_north + 360.0, 360.0);
+    return {SetSun{azimuth, sun->altitude}};
 }
 
 PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fonts) {
