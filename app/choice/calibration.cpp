@@ -121,8 +121,10 @@ Result<void> use_calibration(const cli::ViewChoice& view, const platform::Render
                                        scene::technique_info(id).name));
     }
     if (renderer.shows_rays()) {
-        return usage_error("--calibration: context cpu found, where rays draw every tile and "
-                           "nothing is chosen; --context osmesa or egl was expected");
+        return usage_error(fmt::format(
+            "--calibration: context {} found, where rays on the CPU draw whatever they can and "
+            "nothing is chosen; --context osmesa or egl (in view: glfw) was expected",
+            view.context == session::BackendKind::cpu ? "cpu" : "auto without a GPU"));
     }
     const auto costs = read_costs(view.calibration, place_of(info));
     if (!costs) {

@@ -53,6 +53,22 @@ struct Samples {
     double pixels = 0.0;
 };
 
+// Pixels that show terrain; `of_box`: those whose rays cross the box around it, and so search.
+double count_pixels(const session::TerrainScene& scene, const HitBuffer& hits, bool of_box) {
+    const Box bounds = scene.terrain->get<scene::TerrainNode>()->surface->bounds();
+    const scene::Camera& camera = scene.scene.camera();
+    const glm::ivec2 size(hits.cols(), hits.rows());
+    double pixels = 0.0;
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+            const Ray ray = scene::view_ray(camera, size, {x + 0.5, y + 0.5});
+            const bool counts = of_box ? intersect(ray, bounds).has_value() : !hits(x, y).is_sky();
+            pixels += counts ? 1.0 : 0.0;
+        }
+    }
+    return pixels;
+}
+
 Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& renderer,
                        const Kind& kind, int index, Samples& samples) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
@@ -65,15 +81,10 @@ Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& ren
     if (!hits) {
         return hits.error();
     }
-    double pixels = 0.0;
-    for (int y = 0; y < hits->rows(); ++y) {
-        for (int x = 0; x < hits->cols(); ++x) {
-            pixels += (*hits)(x, y).is_sky() ? 0.0 : 1.0;
-        }
-    }
+    const bool has_rays = kind.technique.id() == scene::TechniqueId::exact;
     samples.ms.push_back(stats->cpu_ms + stats->gpu_ms);
     samples.triangles += static_cast<double>(stats->triangles) / views;
-    samples.pixels += pixels / views;
+    samples.pixels += count_pixels(scene, *hits, has_rays) / views;
     return {};
 }
 

@@ -13,7 +13,7 @@ namespace reljef::app {
 struct FrameCost {
     double ms = 0.0;
     double triangles = 0.0;
-    double pixels = 0.0; ///< that show terrain
+    double pixels = 0.0; ///< that show terrain; of rays, those that search, as `auto` counts them
 };
 
 /// Measurements from which costs follow. Each is a median.

@@ -141,9 +141,7 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
         return stats.error();
     }
     times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
-    stats_ = *stats;
-    frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
-    note_kept_error(scene);
+    take_stats(*stats, scene);
     Image picture = device_.renderer().read_color();
     return options_.shows_choice ? tinted(std::move(picture)) : Result<Image>(std::move(picture));
 }
@@ -166,10 +164,25 @@ Result<HitBuffer> DeviceFrames::draw_hits(const scene::Scene& scene,
     if (!drawn) {
         return drawn.error();
     }
-    stats_ = drawn->stats;
+    take_stats(drawn->stats, scene);
+    return std::move(drawn->hits);
+}
+
+void DeviceFrames::begin_parts(const scene::Scene& scene, glm::ivec2 picture) {
+    device_.renderer().choose_for_parts(scene, picture);
+    parts_ = 0;
+}
+
+void DeviceFrames::take_stats(const view::FrameStats& stats, const scene::Scene& scene) {
+    stats_ = stats;
     frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
     note_kept_error(scene);
-    return std::move(drawn->hits);
+    if (scene.camera().whole == glm::ivec2(0)) {
+        return;
+    }
+    all_parts_ = parts_ == 0 ? stats : view::together(all_parts_, stats);
+    ++parts_;
+    stats_ = all_parts_;
 }
 
 void DeviceFrames::note_kept_error(const scene::Scene& scene) {

@@ -30,6 +30,9 @@ public:
     virtual Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) = 0;
     virtual Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                         const ParallelOptions& parallel) = 0;
+    /// Before the parts of the picture (scene::Camera::whole) that the scene's camera shows at this
+    /// size are drawn: all are drawn by the same means, and stats() counts them together.
+    virtual void begin_parts(const scene::Scene& /*scene*/, glm::ivec2 /*picture*/) {}
     /// Counts and times of the last frame, one per line.
     [[nodiscard]] virtual std::string stats() const = 0;
     /// Sentences about frames so far that did not keep their error bound, or may not have kept it.
@@ -59,10 +62,11 @@ public:
     Result<Image> draw(const scene::Scene& scene, const ParallelOptions& parallel) override;
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
+    void begin_parts(const scene::Scene& scene, glm::ivec2 picture) override;
     [[nodiscard]] std::string stats() const override;
     [[nodiscard]] std::vector<std::string> error_notes() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }
-    /// Of the last frame, or hits.
+    /// Of the last frame, or hits; of a picture in parts, those of all parts together.
     [[nodiscard]] const view::FrameStats& frame_stats() const { return stats_; }
     [[nodiscard]] platform::RendererInfo info() const { return device_.info(); }
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
@@ -76,6 +80,7 @@ private:
         bool misses_tiles = false;
         bool lacks_triangles = false;
     };
+    void take_stats(const view::FrameStats& stats, const scene::Scene& scene);
     void note_kept_error(const scene::Scene& scene);
     Result<Image> tinted(Image picture);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.
@@ -88,6 +93,8 @@ private:
     std::optional<scene::Camera> ready_for_; // the next view, if its tiles are loaded
     double waited_ms_ = 0.0;                 // for the next view
     view::FrameStats stats_;
+    int parts_ = 0; // since begin_parts()
+    view::FrameStats all_parts_;
     std::optional<FramesOver> over_;
     int max_unproven_ = 0;                             // tiles of a frame with an error bound
     int frames_as_triangles_ = 0;                      // whose technique could not be drawn

@@ -33,14 +33,34 @@ view::SelectOptions with_chooser(view::SelectOptions options,
     return options;
 }
 
+// All parts of a picture are drawn by the same means.
+std::string obstacle_in(const view::DrawList& list, const std::string& of_whole) {
+    const bool is_part = list.camera.whole != glm::ivec2(0);
+    return is_part && !of_whole.empty() ? of_whole : cast::obstacle_of(list);
+}
+
+view::ChoiceOptions choice_options(const SceneRendererOptions& options,
+                                   std::shared_ptr<const std::string> obstacle_of_whole) {
+    view::ChoiceOptions choice{.costs = options.costs};
+    if (options.rays) {
+        choice.rays_draw = [is_alone = !options.opengl,
+                            of_whole = std::move(obstacle_of_whole)](const view::DrawList& list) {
+            return is_alone || obstacle_in(list, *of_whole).empty();
+        };
+    }
+    return choice;
+}
+
 } // namespace
 
 SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
     : opengl_options_(options.opengl), make_context_(options.make_context),
       size_(options.rays ? options.rays->size : options.opengl->size),
       shows_rays_(options.rays.has_value()), expects_rays_(options.expects_rays),
-      chooser_(std::make_shared<view::TechniqueChooser>(
-          view::ChoiceOptions{options.costs, options.rays.has_value()})),
+      obstacle_of_whole_(std::make_shared<std::string>()),
+      chooser_(
+          std::make_shared<view::TechniqueChooser>(choice_options(options, obstacle_of_whole_))),
+      select_options_(options.select),
       selector_(with_chooser(options.select, chooser_), options.selects_always) {
     chooser_->set_samples(options.opengl ? options.opengl->samples : 1);
 }
@@ -81,7 +101,7 @@ Result<void> SceneRenderer::prepare_opengl() {
 
 Result<bool> SceneRenderer::choose_rays() {
     const view::DrawList& list = selector_.selected().list;
-    const std::string obstacle = rays_ ? cast::obstacle_of(list) : "no rays";
+    const std::string obstacle = rays_ ? obstacle_in(list, *obstacle_of_whole_) : "no rays";
     const bool by_rays = obstacle.empty() || !opengl_options_;
     if (!by_rays) {
         if (auto prepared = prepare_opengl(); !prepared) {
@@ -184,6 +204,13 @@ void SceneRenderer::set_samples(int samples) {
 
 void SceneRenderer::set_costs(const Costs& costs) {
     chooser_->set_costs(costs);
+    selector_.forget();
+}
+
+void SceneRenderer::choose_for_parts(const scene::Scene& scene, glm::ivec2 picture) {
+    const view::FrameView whole = view::select(scene, picture, select_options_);
+    *obstacle_of_whole_ = cast::obstacle_of(whole.list);
+    chooser_->choose_for_parts(whole.list);
     selector_.forget();
 }
 

@@ -69,6 +69,10 @@ public:
     /// Selects, and counts what the pixels of draw() cost.
     Result<view::PictureWork> count_work(const scene::Scene& scene);
 
+    /// Later parts of a picture are those of the one that the scene's camera shows at this size:
+    /// what draws the whole draws them, and `auto` chooses once.
+    void choose_for_parts(const scene::Scene& scene, glm::ivec2 picture);
+
     /// Releases the last view, before another scene is opened.
     void forget_scene() { selector_.forget(); }
 
@@ -116,7 +120,10 @@ private:
     bool shows_rays_;
     bool expects_rays_;
     std::string note_;
+    // What keeps rays on the CPU from drawing the picture of later parts.
+    std::shared_ptr<std::string> obstacle_of_whole_;
     std::shared_ptr<view::TechniqueChooser> chooser_; // of the selector
+    view::SelectOptions select_options_;              // without the choice
     view::FrameSelector selector_;
     int drawn_ = 0; // the selection that was drawn last, counted from 1
 };

@@ -63,6 +63,10 @@ struct FrameStats {
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
 };
 
+/// Of two parts of one picture: what was drawn, skipped and spent in both, and the larger kept
+/// error. Tiles that both show count twice; what holds for the scene or the whole picture is a's.
+FrameStats together(const FrameStats& a, const FrameStats& b);
+
 /// What the colour of a pixel costs.
 struct PixelWork {
     std::uint32_t taps = 0;  ///< texels and heights read; of a filtered texture, one tap

@@ -72,6 +72,21 @@ TEST_F(SkipsGlTest, ThePictureIsTheSameWithoutEachKind) {
     }
 }
 
+// Two nodes of one surface, turned against each other, have the sun from two sides.
+TEST_F(SkipsGlTest, CertainLightIsThatOfEachNode) {
+    World world(3.0);
+    use(world, "exact:shadow=hard");
+    const scene::TerrainNode first = *world.terrain->get<scene::TerrainNode>();
+    const glm::dvec3 beside(1.5 * first.surface->bounds().size().x, 0.0, 0.0);
+    world.scene.root()
+        .add("turned", first)
+        .set_parent_from_local(
+            glm::rotate(glm::translate(glm::dmat4(1.0), beside), 2.0, {0.0, 0.0, 1.0}));
+    world.look(pose(scene::Pose::overview, *world.terrain));
+    const Image all = drawn(world, nothing);
+    EXPECT_EQ(drawn(world, [](auto& options) { options.opengl->skips.certain = false; }), all);
+}
+
 // Drivers approximate exp(0).
 TEST_F(SkipsGlTest, AirThatIsNotThereMovesColoursByOneLevelAtMost) {
     World world(3.0);

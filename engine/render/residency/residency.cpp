@@ -92,12 +92,13 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
 
 Result<void> Residency::prepare_reliefs(const view::DrawList& list, bool with_maps,
                                         view::FrameStats& stats) {
+    CertainSuns last = with_maps ? std::exchange(certain_suns_, {}) : CertainSuns();
     for (const view::TerrainDraw& draw : list.reliefs) {
         if (!draw.tiles.empty()) { // of a stream: relief_tiles_ has them
             continue;
         }
         auto done = prepare_relief(draw, stats);
-        done = done && with_maps ? prepare_certain_sun(list, draw, stats) : done;
+        done = done && with_maps ? prepare_certain_sun(list, draw, last, stats) : done;
         if (!done) {
             return done;
         }
@@ -227,15 +228,16 @@ Result<void> Residency::prepare_relief(const view::TerrainDraw& draw, view::Fram
 }
 
 Result<void> Residency::prepare_certain_sun(const view::DrawList& list,
-                                            const view::TerrainDraw& draw,
+                                            const view::TerrainDraw& draw, CertainSuns& last,
                                             view::FrameStats& stats) {
-    Surface& surface = surface_of(draw.terrain->surface);
     const auto light = light_of_certain_sun(list, draw);
     if (!light) {
-        surface.certain_sun.reset();
         return {};
     }
-    if (surface.certain_sun && surface.certain_light == light) {
+    if (const auto kept = last.find(draw.terrain);
+        kept != last.end() && kept->second.light == *light &&
+        kept->second.surface.lock() == draw.terrain->surface) {
+        certain_suns_.insert(last.extract(kept));
         ++stats.skipped.uploads_unchanged;
         return {};
     }
@@ -255,8 +257,8 @@ Result<void> Residency::prepare_certain_sun(const view::DrawList& list,
     if (!texture) {
         return texture.error();
     }
-    surface.certain_light = light;
-    surface.certain_sun = std::move(*texture);
+    certain_suns_.emplace(draw.terrain,
+                          CertainSun{draw.terrain->surface, *light, std::move(*texture)});
     return {};
 }
 
@@ -290,8 +292,8 @@ const ResidentRelief& Residency::relief(const view::TerrainDraw& draw) const {
 }
 
 const gl::Texture2D* Residency::certain_sun(const view::TerrainDraw& draw) const {
-    const Surface& surface = surfaces_.at(draw.terrain->surface.get());
-    return surface.certain_sun ? &*surface.certain_sun : nullptr;
+    const auto found = certain_suns_.find(draw.terrain);
+    return found == certain_suns_.end() ? nullptr : &found->second.cells;
 }
 
 const gl::Texture2D& Residency::warped(const scene::TerrainNode& terrain) const {

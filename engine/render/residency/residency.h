@@ -72,9 +72,14 @@ private:
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::vector<LitMaps> maps; // one per light of the last frame
         std::optional<ResidentRelief> relief;
-        std::optional<scene::TerrainLight> certain_light; // of the map
-        std::optional<gl::Texture2D> certain_sun;
     };
+    // Nodes of one surface may be turned, and have other light.
+    struct CertainSun {
+        std::weak_ptr<const scene::TerrainSurface> surface;
+        scene::TerrainLight light;
+        gl::Texture2D cells;
+    };
+    using CertainSuns = std::map<const scene::TerrainNode*, CertainSun>;
     void forget_unused();
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
     Result<void> prepare_all_maps(const view::DrawList& list, view::FrameStats& stats);
@@ -87,7 +92,7 @@ private:
                                  view::FrameStats& stats);
     Result<void> prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats);
     Result<void> prepare_certain_sun(const view::DrawList& list, const view::TerrainDraw& draw,
-                                     view::FrameStats& stats);
+                                     CertainSuns& last, view::FrameStats& stats);
     Result<void> prepare_warped(const view::DrawList& list, view::FrameStats& stats);
 
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
@@ -96,6 +101,7 @@ private:
     ReliefTiles relief_tiles_;
     std::map<const scene::TerrainNode*, std::shared_ptr<const ResidentMaps>> maps_;
     std::map<const scene::TerrainNode*, gl::Texture2D> warped_; // of the last frame
+    CertainSuns certain_suns_;                                  // of the last picture
     MeshResidency meshes_;
     GroundResidency ground_;
 };

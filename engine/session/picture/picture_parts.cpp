@@ -81,6 +81,7 @@ Result<AtomicFile> draw_large_picture(const LargePicture& picture, TerrainScene&
     if (!writer) {
         return writer.error();
     }
+    maker.begin_parts(scene.scene, whole);
     KeptCamera camera(scene);
     const glm::ivec2 counts(count_of(whole.x, part.x), count_of(whole.y, part.y));
     const double parts = static_cast<double>(counts.x) * counts.y;

@@ -29,6 +29,12 @@ bool is_automatic(const scene::TerrainNode& terrain) {
     return terrain.material.technique.id() == scene::TechniqueId::automatic;
 }
 
+bool is_chosen(const DrawList& list) {
+    return !list.tiles.empty() &&
+           std::any_of(list.terrains.begin(), list.terrains.end(),
+                       [](const TerrainDraw& draw) { return is_automatic(*draw.terrain); });
+}
+
 // Rays write no depth, so nothing else may be in the picture. On the ellipsoid and over streams
 // their error is not proven.
 bool may_have_rays(const DrawList& list, const TerrainDraw& draw, int max_map_side) {
@@ -215,46 +221,62 @@ void TechniqueChooser::know(const scene::TerrainNode& terrain) {
     }
 }
 
+TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds) {
+    Decision decision;
+    const TerrainDraw& draw = list.terrains.front();
+    if (!may_have_rays(list, draw, max_map_side_)) {
+        return decision;
+    }
+    know(*draw.terrain);
+    if (!keep_error(list, draw, steepness_)) {
+        return decision;
+    }
+    const ProbedView probed = probe(list, draw);
+    const double pixels = static_cast<double>(list.size.x) * list.size.y;
+    const bool is_free = samples_ == automatic_samples; // the driver chooses
+    const ViewCosts view{.rings = costs_of_rings(list, draw, counts_, probed),
+                         .box_pixels =
+                             pixels * probed.of_box / (static_cast<double>(probes.x) * probes.y),
+                         .samples_of_rays = is_free ? 1 : samples_,
+                         .samples_of_both = is_free ? samples_of_triangles : samples_};
+    const int last_ring = view.rings.back().ring;
+    const ViewPlan triangles = plan_up_to(last_ring, view, options_.costs);
+    const ViewPlan rays = plan_up_to(-1, view, options_.costs);
+    const ViewPlan cheaper = triangles.ms <= rays.ms ? triangles : rays;
+    const ViewPlan best = kinds == Kinds::both ? cheapest_plan(view, options_.costs) : cheaper;
+    decision.choice.triangles_ms = triangles.ms;
+    decision.choice.rays_ms = rays.ms;
+    decision.choice.estimated_ms = best.ms;
+    decision.choice.ray_pixels = best.ray_pixels / pixels;
+    decision.last_ring = best.last_ring;
+    decision.has_rays = best.last_ring < last_ring;
+    return decision;
+}
+
+void TechniqueChooser::choose_for_parts(const DrawList& whole) {
+    for_parts_.reset();
+    if (is_chosen(whole) && !(options_.rays_draw && options_.rays_draw(whole))) {
+        for_parts_ = decide(whole, Kinds::one);
+    }
+}
+
 void TechniqueChooser::choose(DrawList& list) {
-    const bool is_any =
-        std::any_of(list.terrains.begin(), list.terrains.end(),
-                    [](const TerrainDraw& draw) { return is_automatic(*draw.terrain); });
-    if (!is_any || list.tiles.empty()) {
+    if (!is_chosen(list)) {
         return;
     }
     const auto tiles = static_cast<int>(list.tiles.size());
-    if (options_.rays_draw_all) {
+    if (options_.rays_draw && options_.rays_draw(list)) {
         list.stats.choice = Choice{.tiles_by_rays = tiles, .ray_pixels = 1.0};
         return;
     }
-    Choice choice{.tiles_as_triangles = tiles};
-    const TerrainDraw& draw = list.terrains.front();
-    const bool may_choose = may_have_rays(list, draw, max_map_side_);
-    if (may_choose) {
-        know(*draw.terrain);
+    const bool is_part = list.camera.whole != glm::ivec2(0);
+    Decision decision = is_part && for_parts_ ? *for_parts_ : decide(list, Kinds::both);
+    if (decision.has_rays) {
+        split_at(list, decision.last_ring);
     }
-    if (may_choose && keep_error(list, draw, steepness_)) {
-        const ProbedView probed = probe(list, draw);
-        const double pixels = static_cast<double>(list.size.x) * list.size.y;
-        const bool is_free = samples_ == automatic_samples; // the driver chooses
-        const ViewCosts view{.rings = costs_of_rings(list, draw, counts_, probed),
-                             .box_pixels = pixels * probed.of_box /
-                                           (static_cast<double>(probes.x) * probes.y),
-                             .samples_of_rays = is_free ? 1 : samples_,
-                             .samples_of_both = is_free ? samples_of_triangles : samples_};
-        const ViewPlan best = cheapest_plan(view, options_.costs);
-        const int last_ring = view.rings.back().ring;
-        choice.triangles_ms = plan_up_to(last_ring, view, options_.costs).ms;
-        choice.rays_ms = plan_up_to(-1, view, options_.costs).ms;
-        choice.estimated_ms = best.ms;
-        choice.ray_pixels = best.ray_pixels / pixels;
-        if (best.last_ring < last_ring) {
-            split_at(list, best.last_ring);
-            choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
-            choice.tiles_by_rays = tiles - choice.tiles_as_triangles;
-        }
-    }
-    list.stats.choice = choice;
+    decision.choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
+    decision.choice.tiles_by_rays = tiles - decision.choice.tiles_as_triangles;
+    list.stats.choice = decision.choice;
 }
 
 } // namespace reljef::view

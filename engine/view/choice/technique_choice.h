@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/scene/graph/scene.h"
@@ -42,15 +44,16 @@ ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs);
 
 struct ChoiceOptions {
     TechniqueCosts costs = {};
-    /// Rays on the CPU draw all tiles, each at the coarsest level that keeps the bound: counts
-    /// them.
-    bool rays_draw_all = false;
+    /// Whether rays on the CPU draw a list: all tiles, each at the coarsest level that keeps the
+    /// bound. Its tiles are only counted. Empty: they draw none.
+    std::function<bool(const DrawList&)> rays_draw = {};
 };
 
 /// Chooses what draws the terrain of a list whose technique is `auto`: triangles, exact rays, or
 /// triangles for the tiles around the eye and rays for all pixels that these leave. Tiles around
 /// the eye hide the others, but are hidden by none of them, so what is drawn first is in front. All
 /// candidates keep the error bound. Equal lists get equal choices.
+/// Parts of a picture (scene::Camera::whole) must show one choice, or edges jump between them.
 class TechniqueChooser {
 public:
     explicit TechniqueChooser(const ChoiceOptions& options) : options_(options) {}
@@ -62,13 +65,24 @@ public:
     /// Of a texture, texels: rays of OpenGL over larger terrains cannot be drawn.
     void set_max_map_side(int texels) { max_map_side_ = texels; }
     void choose(DrawList& list);
+    /// The parts of a picture that are chosen later are drawn as is cheapest for this list of the
+    /// whole: triangles alone, or rays alone, so that all have as many samples.
+    void choose_for_parts(const DrawList& whole);
 
 private:
+    struct Decision {
+        Choice choice;
+        int last_ring = 0; ///< of triangles; rays draw the other rings
+        bool has_rays = false;
+    };
+    enum class Kinds { one, both };
     void know(const scene::TerrainNode& terrain);
+    Decision decide(const DrawList& list, Kinds kinds);
 
     ChoiceOptions options_;
     int samples_ = 1;
     int max_map_side_ = 1 << 14;
+    std::optional<Decision> for_parts_;
     std::weak_ptr<const scene::TerrainSurface> surface_; // the known one
     TriangleCounts counts_;
     double steepness_ = 0.0;

@@ -21,11 +21,14 @@ struct PartStage {
     BackendKind backend = BackendKind::cpu;
     int samples = 1;
     TerrainScene scene;
+    Costs costs = {};
 };
 
 DeviceFrames frames_of(const PartStage& stage, glm::ivec2 size, Log& log) {
-    return {std::move(*Device::create(
-                {.context = stage.backend, .size = size, .samples = stage.samples})),
+    return {std::move(*Device::create({.context = stage.backend,
+                                       .size = size,
+                                       .samples = stage.samples,
+                                       .costs = stage.costs})),
             log};
 }
 
@@ -109,6 +112,37 @@ TEST(PicturePartsGl, OpenGlDrawsThePixelsOfOnePiece) {
         const auto [pixels, largest] = differences(in_one_piece(stage), in_parts(stage));
         EXPECT_LE(pixels, whole_size.x * whole_size.y / 1000) << technique << ", by " << largest;
     }
+}
+
+TEST(PicturePartsGl, AutoDrawsAllPartsAlike) {
+    const auto stage_of = [](const char* technique, const Costs& costs) {
+        SceneOptions view;
+        view.technique = scene::parse_technique(technique).value();
+        return PartStage{BackendKind::osmesa, 4, rough_scene(view), costs};
+    };
+    const Costs dear_rays{.ray_pixel_ns = 1e9};
+    const Costs dear_triangles{.triangle_ns = 1e9, .covered_pixel_ns = 1e6};
+    for (const auto& [costs, same] :
+         {std::pair{dear_rays, "polygons:error=1"}, std::pair{dear_triangles, "exact"}}) {
+        PartStage chosen = stage_of("auto:error=1", costs);
+        PartStage expected = stage_of(same, {});
+        EXPECT_EQ(differences(in_parts(chosen), in_parts(expected)).pixels, 0) << same;
+    }
+}
+
+TEST(PicturePartsGl, CountsOfAllPartsAreAdded) {
+    PartStage stage{BackendKind::cpu, 1, rough_scene(with_bound())};
+    Log silent;
+    const test::TemporaryFolder folder;
+    DeviceFrames frames = frames_of(stage, parts.frame(), silent);
+    std::size_t rays = 0;
+    ParallelOptions options;
+    options.progress = [&](double) {
+        EXPECT_GT(frames.frame_stats().rays, rays);
+        rays = frames.frame_stats().rays;
+    };
+    ASSERT_TRUE(draw_large_picture({folder.path() / "a.png", parts}, stage.scene, frames, options));
+    EXPECT_GE(rays, 200U * 150U);
 }
 
 TEST(PicturePartsGl, TheCameraIsThatOfBefore) {

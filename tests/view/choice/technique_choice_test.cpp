@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -184,9 +185,39 @@ TEST(TechniqueChooserTest, DrawsTrianglesWhereRaysHaveNoProof) {
 
 TEST(TechniqueChooserTest, CountsTilesOfRaysOnTheCpu) {
     const ChosenView view;
-    const DrawList list = view.select({.costs = {}, .rays_draw_all = true}).list;
+    bool they_draw = true;
+    const ChoiceOptions options{.costs = {},
+                                .rays_draw = [&](const DrawList&) { return they_draw; }};
+    const DrawList list = view.select(options).list;
     EXPECT_EQ(list.stats.choice->tiles_by_rays, static_cast<int>(list.tiles.size()));
     EXPECT_EQ(list.stats.choice->tiles_as_triangles, 0);
+    they_draw = false; // OpenGL draws, and its triangles and rays are chosen between
+    EXPECT_TRUE(view.select(options).list.stats.choice->rays_ms.has_value());
+}
+
+TEST(TechniqueChooserTest, AllPartsOfAPictureShowOneKind) {
+    ChosenView view;
+    const scene::Camera whole = view.scene.camera();
+    constexpr glm::ivec2 part_size{80, 80};
+    for (const TechniqueCosts& costs : {triangles_only, rays_only, both, TechniqueCosts()}) {
+        TechniqueChooser chooser({.costs = costs});
+        *view.camera->get<scene::Camera>() = whole;
+        chooser.choose_for_parts(view::select(view.scene, chosen_size).list);
+        std::set<bool> kinds;
+        for (int row = 0; row < chosen_size.y; row += part_size.y) {
+            for (int col = 0; col < chosen_size.x; col += part_size.x) {
+                *view.camera->get<scene::Camera>() =
+                    scene::part_camera(whole, chosen_size, {{col, row}, part_size});
+                DrawList list = view::select(view.scene, part_size).list;
+                chooser.choose(list);
+                if (list.stats.choice) {
+                    EXPECT_TRUE(list.tiles.empty() || list.reliefs.empty());
+                    kinds.insert(list.tiles.empty());
+                }
+            }
+        }
+        EXPECT_EQ(kinds.size(), 1U);
+    }
 }
 
 // A part in the corner of a picture is as far from its middle as the corner is.
