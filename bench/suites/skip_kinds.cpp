@@ -50,9 +50,6 @@ constexpr SkipKind ray_blocks{"blocks", "blocks of the maximum mipmap below the 
                               [](Options& options) { options.rays->skips.blocks = false; }};
 constexpr SkipKind ray_cells{"cells", "cells below the ray",
                              [](Options& options) { options.rays->skips.cells = false; }};
-constexpr SkipKind ray_unlit{"unlit", "sun rays from where the sun adds nothing",
-                             [](Options& options) { options.rays->skips.unlit = false; }};
-
 constexpr SkipKind ray_certain{"certain light",
                                "sun rays from cells that are certainly lit or in shadow",
                                [](Options& options) { options.rays->skips.certain = false; }};
@@ -87,8 +84,8 @@ std::vector<SkipTest> skip_tests() {
          {frustum, occlusion, order, selection, cuts, uploads, state}},
         {"polygons, every sample", every_sample, false, day, false, {frustum, occlusion, order}},
         {"exact", exact, false, day, false, {beams, blocks, uploads, state}},
-        {"exact, shadows", shadow, false, day, false, {beams, blocks, unlit, certain}},
-        {"exact, low sun", shadow, false, Daylight::low_sun, false, {unlit, certain}},
+        {"exact, shadows", shadow, false, day, false, {beams, blocks, certain}},
+        {"exact, low sun", shadow, false, Daylight::low_sun, false, {certain}},
         {"exact, shadows, night", shadow, false, Daylight::night, false, {features}},
         {"exact on cpu",
          exact,
@@ -101,15 +98,17 @@ std::vector<SkipTest> skip_tests() {
          true,
          day,
          false,
-         {free_space, packet_beams, ray_blocks, ray_cells, ray_unlit, ray_certain}},
-        {"exact, low sun on cpu", shadow, true, Daylight::low_sun, false, {ray_unlit, ray_certain}},
+         {free_space, packet_beams, ray_blocks, ray_cells, ray_certain}},
+        {"exact, low sun on cpu", shadow, true, Daylight::low_sun, false, {ray_certain}},
         {"streamed polygons", polygons, false, day, true, {occlusion, cuts, uploads}},
         {"streamed on cpu",
          polygons,
          true,
          day,
          true,
-         {occlusion, free_space, packet_beams, content}}};
+         {occlusion, free_space, packet_beams, content}},
+        // On streams no light is certain.
+        {"streamed, low sun", shadow, false, Daylight::low_sun, true, {unlit}}};
 }
 
 } // namespace reljef::bench

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -233,7 +235,9 @@ private:
         if (test.is_streamed || scene_choice_ != choice) {
             scene_.reset();
             scene_choice_.reset();
-            auto opened = BenchmarkScene::open(choice, options_.suite, stop_);
+            SuiteOptions suite = options_.suite;
+            suite.quiet = suite.quiet || !noted_.insert(choice.terrain).second;
+            auto opened = BenchmarkScene::open(choice, suite, stop_);
             if (!opened) {
                 return opened.error();
             }
@@ -428,6 +432,7 @@ private:
     Results& results_;
     const SkipOptions& options_;
     std::stop_token stop_;
+    std::set<std::string> noted_; // terrains whose notes were shown
     cli::ConsoleLog log_;
     cli::ProgressLine line_;
     RowViews views_;

@@ -125,7 +125,6 @@ struct BlockJob {
     bool has_beams = true;    ///< finds later starts for the rays of each beam
     bool skips_blocks = true; ///< rays pass over whole blocks of the maximum mipmap
     bool skips_cells = true;  ///< and over cells whose maximum is below them
-    bool skips_unlit = true;  ///< no sun rays from where the sun adds nothing
     bool has_starts = false;  ///< they are found
     alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
 };

@@ -118,7 +118,6 @@ public:
         job.has_beams = skips_.beams;
         job.skips_blocks = skips_.blocks;
         job.skips_cells = skips_.cells;
-        job.skips_unlit = skips_.unlit;
         if (part.size != glm::ivec2(block_side)) {
             start_beams({part.first - block_.first, part.size}, job);
         }

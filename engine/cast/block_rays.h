@@ -43,7 +43,6 @@ struct RaySkips {
     bool beams = true;      ///< the same for the beams of 8 by 2 pixels
     bool blocks = true;     ///< blocks of the maximum mipmap that are below the ray
     bool cells = true;      ///< cells that are below the ray
-    bool unlit = true;      ///< sun rays from where the sun adds nothing
     bool certain = true;    ///< sun rays from where it is certain whether the sun is seen
 };
 

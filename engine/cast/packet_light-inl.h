@@ -198,10 +198,6 @@ HWY_INLINE void count_texels(const PacketHits& hits, Floats level, Work& work) {
     work.tap(hn::And(hits.found, between), texels_of_level);
 }
 
-HWY_INLINE Lanes adds_light(const Color& color) {
-    return hn::Gt(hn::Max(color.r, hn::Max(color.g, color.b)), hn::Zero(floats));
-}
-
 // Of the hits.
 template <class Mode>
 HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level, Work& work) {
@@ -216,14 +212,10 @@ HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats l
         count_texels(hits, level, work);
     }
     const Color sun = map_color(*job.sun, hits, level);
-    PacketHits sunny = hits;
-    if (job.skips_unlit) {
-        sunny.found = hn::And(hits.found, adds_light(sun));
-    }
-    sunny.found = seen_by_sun<Mode>(job, sunny, work);
-    if (!hn::AllFalse(floats, sunny.found)) {
+    const Lanes sunny = seen_by_sun<Mode>(job, hits, work);
+    if (!hn::AllFalse(floats, sunny)) {
         const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
-            channel = hn::Add(channel, hn::IfThenElseZero(sunny.found, part));
+            channel = hn::Add(channel, hn::IfThenElseZero(sunny, part));
         };
         add(sun.r, lit.r);
         add(sun.g, lit.g);
