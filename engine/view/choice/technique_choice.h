@@ -39,7 +39,7 @@ struct ViewCosts {
 };
 /// Estimates the plan up to a ring.
 ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs);
-/// The cheapest, but both only if they save a tenth. Precondition: there are rings.
+/// The cheapest, but both only if they save a quarter. Precondition: there are rings.
 ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs);
 
 struct ChoiceOptions {

@@ -50,9 +50,24 @@ void TriangleCounts::add(const terrain::Bisection& bisection, glm::ivec2 twice_p
     const terrain::Split split = bisection.split(half * terrain::Steps(twice_place),
                                                  size * terrain::steps_per_sample, on_side);
     const double bin = bin_of(split.error); // infinite for no error, and for one without a bound
-    if (bin >= 0.0) {
-        const glm::ivec2 block = glm::min(twice_place / (2 * block_cells), blocks() - 1);
-        ++counts_(block.x, block.y)[static_cast<std::size_t>(std::min(bin, bins - 1.0))];
+    if (bin < 0.0) {
+        return;
+    }
+    const glm::ivec2 block = glm::min(twice_place / (2 * block_cells), blocks() - 1);
+    Counts& counts = counts_(block.x, block.y);
+    auto at = static_cast<int>(std::min(bin, bins - 1.0));
+    ++counts[static_cast<std::size_t>(at)];
+    if (size > 1 || std::isinf(split.error)) {
+        return;
+    }
+    // Inside a cell, squares of half the side have a quarter of the error: four middles, and two
+    // sides of the square around them.
+    constexpr int bins_of_a_quarter = 2 * bins_an_octave;
+    std::uint32_t splits = 6;
+    for (int halving = 1; halving <= max_halvings && at >= bins_of_a_quarter; ++halving) {
+        at -= bins_of_a_quarter;
+        counts[static_cast<std::size_t>(at)] += splits;
+        splits *= 4;
     }
 }
 

@@ -11,7 +11,7 @@
 namespace reljef::view {
 
 /// Estimates how many triangles a bisection draws with an error, without cutting anything: counts
-/// its splits down to single cells by their errors, for blocks of cells.
+/// its splits by their errors, for blocks of cells.
 class TriangleCounts {
 public:
     static constexpr int block_cells = 32;
@@ -28,6 +28,7 @@ private:
     static constexpr int bins_an_octave = 2;
     static constexpr int lowest_octave = -12; // metres
     static constexpr int bins = 24 * bins_an_octave;
+    static constexpr int max_halvings = 8; // of the side of a cell
     // Splits whose error is at least that of the bin.
     using Counts = std::array<std::uint32_t, bins>;
 

@@ -71,20 +71,20 @@ TEST(ViewPlanTest, IsTheCheapestOfAllRings) {
     EXPECT_DOUBLE_EQ(best.ms, 1.0 + 10.1e3 * 1e-4 + 80e3 * 1e-5 + 2.0 + 30e3 * 50e-6);
 }
 
-TEST(ViewPlanTest, MixesOnlyToSaveATenth) {
+TEST(ViewPlanTest, MixesOnlyToSaveAQuarter) {
     const TechniqueCosts costs{.frame_ms = 0.0,
                                .triangle_ns = 0.0,
                                .covered_pixel_ns = 0.0,
                                .rays_ms = 0.0,
                                .ray_pixel_ns = 1e6};
-    ViewCosts view{.rings = {{0, 1.0, 9.0}, {1, 1e12, 91.0}}, .box_pixels = 100.0};
+    ViewCosts view{.rings = {{0, 1.0, 24.0}, {1, 1e12, 76.0}}, .box_pixels = 100.0};
     const TechniqueCosts with_triangles{.frame_ms = 0.0,
                                         .triangle_ns = 1.0,
                                         .covered_pixel_ns = 0.0,
                                         .rays_ms = 0.0,
                                         .ray_pixel_ns = 1e6};
     EXPECT_EQ(cheapest_plan(view, with_triangles).last_ring, -1);
-    view.rings[0].pixels = 11.0;
+    view.rings[0].pixels = 26.0;
     EXPECT_EQ(cheapest_plan(view, with_triangles).last_ring, 0);
     EXPECT_EQ(cheapest_plan(view, costs).last_ring, 1) << "triangles cost nothing";
 }

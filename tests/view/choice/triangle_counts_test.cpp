@@ -59,6 +59,16 @@ TEST(TriangleCountsTest, AreThoseOfABisectionWithTheSameError) {
     }
 }
 
+// Cells between ground and roofs are bent so much that they are divided many times.
+TEST(TriangleCountsTest, CountThoseInsideOfCells) {
+    const CountedTriangles made(test::random_heights(49, 33, 0.0F, 8.0F, 5));
+    for (const double error : {0.01, 0.05, 0.2, 1.0}) {
+        const double drawn = made.drawn(error);
+        EXPECT_GT(drawn, 2.0 * 48.0 * 32.0);
+        EXPECT_NEAR(made.estimated(error), drawn, 0.25 * drawn) << error;
+    }
+}
+
 TEST(TriangleCountsTest, NeverFallWithASmallerError) {
     const CountedTriangles made(test::random_heights(100, 70, 0.0F, 8.0F, 3));
     double last = made.estimated(1e9);
