@@ -27,6 +27,9 @@ constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
 // longest, and views that change between plans cut tiles again. Measured up to 1.25 of the
 // estimate.
 constexpr double max_share_of_both = 0.75;
+// Estimates of triangles are that near: more may not fit.
+constexpr double certain_share = 0.8;
+constexpr double max_lack = 1e4; // times the triangles that fit
 
 bool is_automatic(const scene::TerrainNode& terrain) {
     return terrain.material.technique.id() == scene::TechniqueId::automatic;
@@ -53,10 +56,21 @@ bool may_have_rays(const DrawList& list, const TerrainDraw& draw, int max_map_si
            std::bit_ceil(side) <= static_cast<unsigned>(max_map_side);
 }
 
-bool keep_error(const DrawList& list, const TerrainDraw& draw, double steepness) {
-    return RayError(list.camera, list.size, *draw.terrain->surface, steepness,
-                    glm::dvec3(draw.world_from_local[3]))
-        .keeps(scene::error_bound(draw.terrain->material.technique));
+RayError error_of_rays(const DrawList& list, const TerrainDraw& draw, double steepness) {
+    return {list.camera, list.size, *draw.terrain->surface, steepness,
+            glm::dvec3(draw.world_from_local[3])};
+}
+
+// The smallest error from `least` on that rays keep, within a tenth; none up to `most`.
+std::optional<double> kept_by_rays(const RayError& rays, double least, double most) {
+    if (!rays.keeps(most)) {
+        return std::nullopt;
+    }
+    double error = least;
+    while (error < most && !rays.keeps(error)) {
+        error *= 1.1;
+    }
+    return std::min(error, most);
 }
 
 // Metres by which triangles at a place may be off, or none if it is not visible.
@@ -162,8 +176,20 @@ std::vector<RingCost> costs_of_rings(const DrawList& list, const TerrainDraw& dr
     return costs;
 }
 
+ViewCosts view_costs(const DrawList& list, const TerrainDraw& draw, const TriangleCounts& counts,
+                     int samples) {
+    const ProbedView probed = probe(list, draw);
+    const double pixels = static_cast<double>(list.size.x) * list.size.y;
+    const bool is_free = samples == automatic_samples; // the driver chooses
+    return {.rings = costs_of_rings(list, draw, counts, probed),
+            .box_pixels = pixels * probed.of_box / (static_cast<double>(probes.x) * probes.y),
+            .samples_of_rays = is_free ? 1 : samples,
+            .samples_of_both = is_free ? samples_of_triangles : samples,
+            .max_triangles = certain_share * static_cast<double>(draw.terrain->max_triangles)};
+}
+
 // Leaves the tiles up to a ring to triangles, and all else to rays.
-void split_at(DrawList& list, int last_ring) {
+void split_at(DrawList& list, int last_ring, double kept_error) {
     const glm::ivec2 below = tile_below(list, list.terrains.front());
     TerrainDraw rays = list.terrains.front();
     rays.chosen = scene::make_technique(scene::TechniqueId::exact);
@@ -171,8 +197,7 @@ void split_at(DrawList& list, int last_ring) {
     std::erase_if(list.tiles,
                   [&](const TileDraw& draw) { return ring_of(*draw.tile, below) > last_ring; });
     list.reliefs.push_back(std::move(rays));
-    // Rays keep the bound by their distance; triangles state their own error.
-    list.stats.kept_error = scene::error_bound(list.terrains.front().terrain->material.technique);
+    list.stats.kept_error = kept_error; // by rays; triangles state their own
 }
 
 } // namespace
@@ -189,7 +214,7 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
         triangles += cost.triangles;
         covered += cost.pixels;
     }
-    ViewPlan plan{.last_ring = ring};
+    ViewPlan plan{.last_ring = ring, .triangles = triangles};
     plan.ms = costs.frame_ms +
               (triangles * costs.triangle_ns + covered * costs.covered_pixel_ns) / ns_a_ms;
     if (!is_all) {
@@ -200,14 +225,22 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
     return plan;
 }
 
-ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs) {
+namespace {
+
+ViewPlan cheaper_alone(const ViewCosts& view, const TechniqueCosts& costs) {
     const ViewPlan rays = plan_up_to(-1, view, costs);
     const ViewPlan triangles = plan_up_to(view.rings.back().ring, view, costs);
-    ViewPlan best = triangles.ms <= rays.ms ? triangles : rays;
+    return triangles.ms <= rays.ms && triangles.triangles <= view.max_triangles ? triangles : rays;
+}
+
+} // namespace
+
+ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs) {
+    ViewPlan best = cheaper_alone(view, costs);
     double limit = max_share_of_both * best.ms;
     for (const RingCost& last : view.rings) {
         const ViewPlan plan = plan_up_to(last.ring, view, costs);
-        if (plan.ms < limit) {
+        if (plan.ms < limit && plan.triangles <= view.max_triangles) {
             best = plan;
             limit = plan.ms;
         }
@@ -233,28 +266,28 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
         return decision;
     }
     know(*draw.terrain);
-    if (!keep_error(list, draw, steepness_)) {
-        return decision;
-    }
-    const ProbedView probed = probe(list, draw);
-    const double pixels = static_cast<double>(list.size.x) * list.size.y;
-    const bool is_free = samples_ == automatic_samples; // the driver chooses
-    const ViewCosts view{.rings = costs_of_rings(list, draw, counts_, probed),
-                         .box_pixels =
-                             pixels * probed.of_box / (static_cast<double>(probes.x) * probes.y),
-                         .samples_of_rays = is_free ? 1 : samples_,
-                         .samples_of_both = is_free ? samples_of_triangles : samples_};
+    const ViewCosts view = view_costs(list, draw, counts_, samples_);
     const int last_ring = view.rings.back().ring;
     const ViewPlan triangles = plan_up_to(last_ring, view, options_.costs);
-    const ViewPlan rays = plan_up_to(-1, view, options_.costs);
-    const ViewPlan cheaper = triangles.ms <= rays.ms ? triangles : rays;
-    const ViewPlan best = kinds == Kinds::both ? cheapest_plan(view, options_.costs) : cheaper;
     decision.choice.triangles_ms = triangles.ms;
-    decision.choice.rays_ms = rays.ms;
+    // With fewer triangles than they need, they are off by more, about in proportion.
+    const double bound = scene::error_bound(draw.terrain->material.technique);
+    const double by_triangles =
+        bound * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
+    const auto kept = kept_by_rays(error_of_rays(list, draw, steepness_), bound, by_triangles);
+    if (!kept) {
+        decision.choice.estimated_ms = triangles.ms;
+        decision.last_ring = last_ring;
+        return decision;
+    }
+    const ViewPlan best = kinds == Kinds::both ? cheapest_plan(view, options_.costs)
+                                               : cheaper_alone(view, options_.costs);
+    decision.choice.rays_ms = plan_up_to(-1, view, options_.costs).ms;
     decision.choice.estimated_ms = best.ms;
-    decision.choice.ray_pixels = best.ray_pixels / pixels;
+    decision.choice.ray_pixels = best.ray_pixels / (static_cast<double>(list.size.x) * list.size.y);
     decision.last_ring = best.last_ring;
     decision.has_rays = best.last_ring < last_ring;
+    decision.kept_error = *kept;
     return decision;
 }
 
@@ -277,7 +310,7 @@ void TechniqueChooser::choose(DrawList& list) {
     const bool is_part = list.camera.whole != glm::ivec2(0);
     Decision decision = is_part && for_parts_ ? *for_parts_ : decide(list, Kinds::both);
     if (decision.has_rays) {
-        split_at(list, decision.last_ring);
+        split_at(list, decision.last_ring, decision.kept_error);
     }
     decision.choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
     decision.choice.tiles_by_rays = tiles - decision.choice.tiles_as_triangles;

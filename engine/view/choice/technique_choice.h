@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +27,7 @@ struct ViewPlan {
     /// Tiles up to this ring are triangles, and rays draw all pixels that these leave; -1: rays
     /// alone. At least the last ring: triangles alone.
     int last_ring = -1;
+    double triangles = 0.0;
     double ray_pixels = 0.0;
     double ms = 0.0; ///< estimated
 };
@@ -36,10 +38,12 @@ struct ViewCosts {
     double box_pixels = 0.0;     ///< that show the box around the terrain
     int samples_of_rays = 1;     ///< per pixel of a picture by rays alone
     int samples_of_both = 1;     ///< per pixel of a picture with triangles, too
+    double max_triangles = std::numeric_limits<double>::infinity(); ///< that fit the memory
 };
 /// Estimates the plan up to a ring.
 ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs);
-/// The cheapest, but both only if they save a quarter. Precondition: there are rings.
+/// The cheapest whose triangles fit, but both only if they save a quarter. Precondition: there are
+/// rings.
 ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs);
 
 struct ChoiceOptions {
@@ -74,6 +78,7 @@ private:
         Choice choice;
         int last_ring = 0; ///< of triangles; rays draw the other rings
         bool has_rays = false;
+        double kept_error = 0.0; ///< if rays are drawn, pixels
     };
     enum class Kinds { one, both };
     void know(const scene::TerrainNode& terrain);

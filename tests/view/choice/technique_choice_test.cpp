@@ -36,9 +36,9 @@ struct ChosenView {
     scene::Node* node = nullptr;
     scene::Node* camera = nullptr;
 
-    explicit ChosenView(const char* technique = "auto:error=1") {
-        node = &test::add_terrain(scene,
-                                  test::plane_heightfield(test::hills(380, 361, 60.0), {10, 10}));
+    explicit ChosenView(const char* technique = "auto:error=1",
+                        Grid<float> heights = test::hills(380, 361, 60.0)) {
+        node = &test::add_terrain(scene, test::plane_heightfield(std::move(heights), {10, 10}));
         camera = &scene.add_camera(test::camera_at({0.0, -1500.0, 300.0}, {0.0, 0.0, 0.0}));
         node->get<scene::TerrainNode>()->material.technique =
             scene::parse_technique(technique).value();
@@ -54,6 +54,15 @@ struct ChosenView {
         return select({.costs = costs}).list;
     }
 };
+
+// A level plain around the eye, and hills behind it.
+Grid<float> plain_before_hills() {
+    Grid<float> heights = test::hills(380, 361, 60.0);
+    for (int row = 200; row < heights.rows(); ++row) {
+        std::ranges::fill(heights.row(row), 0.0F);
+    }
+    return heights;
+}
 
 TEST(ViewPlanTest, IsTheCheapestOfAllRings) {
     const TechniqueCosts costs{.frame_ms = 1.0,
@@ -105,7 +114,7 @@ TEST(ViewPlanTest, CountsTheSamplesOfRays) {
 }
 
 TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
-    const ChosenView view;
+    const ChosenView view("auto:error=1", plain_before_hills());
     const DrawList triangles = view.chosen(triangles_only);
     EXPECT_TRUE(triangles.reliefs.empty());
     EXPECT_EQ(triangles.stats.choice->tiles_as_triangles, static_cast<int>(triangles.tiles.size()));
@@ -125,7 +134,7 @@ TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
 
 // So that no tile of rays is in front of a triangle.
 TEST(TechniqueChooserTest, TrianglesAreAroundTheEye) {
-    const ChosenView view;
+    const ChosenView view("auto:error=1", plain_before_hills());
     const glm::ivec2 below(1, 2); // the tile below the eye
     const auto ring_of = [&](const TileDraw& draw) {
         const glm::ivec2 away = glm::abs(draw.tile->first / terrain::tile_cells - below);
@@ -145,7 +154,7 @@ TEST(TechniqueChooserTest, TrianglesAreAroundTheEye) {
 }
 
 TEST(TechniqueChooserTest, TheSameViewGetsTheSameChoice) {
-    const ChosenView view;
+    const ChosenView view("auto:error=1", plain_before_hills());
     EXPECT_EQ(view.chosen({}).stats.choice, view.chosen({}).stats.choice);
     EXPECT_EQ(view.chosen(both).tiles.size(), view.chosen(both).tiles.size());
 }
@@ -181,6 +190,32 @@ TEST(TechniqueChooserTest, DrawsTrianglesWhereRaysHaveNoProof) {
     EXPECT_FALSE(view.chosen(rays_only).reliefs.empty());
     view.scene.add_mesh(scene::plane_mesh({10.0F, 10.0F}), {});
     expect_triangles("a mesh beside it");
+}
+
+// Triangles that do not fit are off by more than the bound: rays draw instead, also where they keep
+// only a larger one.
+TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
+    ChosenView view("auto:error=0.02");
+    auto& terrain = *view.node->get<scene::TerrainNode>();
+    const auto kept_by_rays = [&](const TechniqueCosts& costs) {
+        const DrawList list = view.chosen(costs);
+        EXPECT_TRUE(list.tiles.empty());
+        return list.stats.kept_error.value_or(0.0);
+    };
+    EXPECT_TRUE(view.chosen(triangles_only).reliefs.empty());
+    terrain.max_triangles = 10;
+    EXPECT_EQ(kept_by_rays(triangles_only), 0.02);
+    const double ground = test::surface_of(*view.node).height_at(3.0, 4.0).value();
+    *view.camera->get<scene::Camera>() =
+        test::camera_at({3.0, 4.0, ground + 15.0}, {100.0, 0.0, ground});
+    const double kept = kept_by_rays(triangles_only);
+    EXPECT_GT(kept, 0.02);
+    const auto& surface = test::surface_of(*view.node);
+    const RayError error(view.scene.camera(), chosen_size, surface, steepest(surface),
+                         glm::dvec3(0.0));
+    EXPECT_TRUE(error.keeps(kept));
+    terrain.max_triangles = std::numeric_limits<std::size_t>::max();
+    EXPECT_TRUE(view.chosen(rays_only).reliefs.empty()) << "triangles keep it";
 }
 
 TEST(TechniqueChooserTest, CountsTilesOfRaysOnTheCpu) {
