@@ -66,8 +66,12 @@ Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
     if (choice.truth) {
         return Maker{std::make_unique<session::TruthFrames>(choice.view.size, choice.rays, log)};
     }
+    const auto context = context_to_use(choice.view);
+    if (!context) {
+        return context.error();
+    }
     auto device = session::Device::create(
-        {.context = choice.view.context,
+        {.context = *context,
          .prefers_rays = true,
          .size = is_large(choice) ? parts_of(choice).frame() : choice.view.size,
          .shader_dir = choice.view.shader_dir,
@@ -462,7 +466,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "of a terrain larger than --memory");
     add_compare_option(*arguments, choice->compare);
     for (const char* option : {"--compare", "--wireframe", "--context", "--simd", "--technique",
-                               "--shader-dir", "--detail", "--samples"}) {
+                               "--shader-dir", "--detail", "--samples", "--calibration"}) {
         truth->excludes(arguments->get_option(option));
     }
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),

@@ -61,7 +61,7 @@ void add_choices(CLI::App& command, SkipOptions& options) {
                     fmt::format("kind of skipping to switch off; may be repeated: {} (all)",
                                 fmt::join(kind_names(), ", ")))
         ->type_name("NAME")
-        ->check(CLI::IsMember(kind_names()))
+        ->check(cli::one_of(kind_names()))
         ->allow_extra_args(false);
     cli::add_parsed(command, "--memory", options.memory_megabytes,
                     cli::number_in<int>("--memory", 1, 1'000'000),

@@ -103,7 +103,7 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
                     fmt::format("run this stress; may be repeated: {} (all)",
                                 fmt::join(stress_names(), ", ")))
         ->type_name("STRESS")
-        ->check(CLI::IsMember(stress_names()))
+        ->check(cli::one_of(stress_names()))
         ->allow_extra_args(false);
     cli::add_parsed(command, "--seed", choice.options.seed,
                     cli::number_in<std::uint32_t>("--seed", 0, 4'294'967'295U),

@@ -56,6 +56,11 @@ Result<session::TerrainScene> natural(const CalibrateChoice& choice, session::Lo
 }
 
 Result<void> calibrate(const CalibrateChoice& choice, const cli::Interrupt& interrupt) {
+    if (choice.output.extension() != ".json") {
+        return usage_error(
+            fmt::format("-o: '{}' found, a file whose name ends in .json was expected",
+                        choice.output.string()));
+    }
     const std::array outputs{cli::NamedFile{"-o", choice.output}};
     if (auto writable = cli::check_writable(outputs); !writable) {
         return writable;
@@ -92,7 +97,9 @@ cli::Command add_calibrate_command(CLI::App& program, cli::Interrupt& interrupt)
     auto choice = std::make_shared<CalibrateChoice>();
     auto* arguments = program.add_subcommand(
         "calibrate", "measure what triangles and rays cost here, for the technique auto");
-    arguments->add_option("-o", choice->output, "the file of costs")->type_name("FILE")->required();
+    arguments->add_option("-o", choice->output, "the file of costs, .json")
+        ->type_name("FILE")
+        ->required();
     cli::add_parsed(*arguments, "--context", choice->context, parse_opengl,
                     "what draws: egl (GPU without a window) or osmesa (CPU); auto: the first that "
                     "works (auto)",

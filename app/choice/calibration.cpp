@@ -38,6 +38,17 @@ constexpr std::array place_fields{PlaceField{"machine", &CalibrationPlace::machi
                                   PlaceField{"context", &CalibrationPlace::context},
                                   PlaceField{"renderer", &CalibrationPlace::renderer}};
 
+// "triangle_ns -1", or "no triangle_ns".
+std::string found_text(const Json& json, const char* name) {
+    constexpr std::size_t longest = 40;
+    if (!json.is_object() || !json.contains(name)) {
+        return fmt::format("no {}", name);
+    }
+    std::string value = json[name].dump(-1, ' ', true, Json::error_handler_t::replace);
+    return fmt::format("{} {}", name,
+                       value.size() > longest ? value.substr(0, longest) + "…" : value);
+}
+
 constexpr const char* remedy = "'reljef calibrate -o FILE' measures this machine, and without "
                                "--calibration built-in costs hold";
 
@@ -62,15 +73,16 @@ std::string to_text(const Calibration& calibration) {
 Result<Calibration> parse_calibration(const std::string& text, const std::string& file) {
     const Json json = Json::parse(text, nullptr, false);
     if (!json.is_object() || !json.contains("schema") || json["schema"] != schema) {
-        return Error{
-            fmt::format("{}: no calibration found, {} was expected; {}", file, schema, remedy)};
+        return Error{fmt::format("{}: {} found, a calibration of schema {} was expected; {}", file,
+                                 json.is_object() ? found_text(json, "schema") : "no JSON object",
+                                 schema, remedy)};
     }
     Calibration calibration;
     for (const PlaceField& field : place_fields) {
         const auto found = json.find(field.name);
         if (found == json.end() || !found->is_string()) {
-            return Error{
-                fmt::format("{}: no {} found, a text was expected; {}", file, field.name, remedy)};
+            return Error{fmt::format("{}: {} found, a text was expected; {}", file,
+                                     found_text(json, field.name), remedy)};
         }
         calibration.place.*field.member = found->get<std::string>();
     }
@@ -80,21 +92,26 @@ Result<Calibration> parse_calibration(const std::string& text, const std::string
             costs.is_object() && costs.contains(field.name) && costs[field.name].is_number();
         const double value = is_number ? costs[field.name].get<double>() : -1.0;
         if (!(value >= 0.0 && value <= max_cost)) {
-            return Error{fmt::format("{}: no {} found among its costs, a number from 0 to {} was "
+            return Error{fmt::format("{}: {} found among its costs, a number from 0 to {:g} was "
                                      "expected; {}",
-                                     file, field.name, max_cost, remedy)};
+                                     file, found_text(costs, field.name), max_cost, remedy)};
         }
         calibration.costs.*field.member = value;
     }
     return calibration;
 }
 
-Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here) {
+namespace {
+
+Result<Calibration> read_calibration(const std::filesystem::path& file) {
     const auto text = read_text_file(file);
-    if (!text) {
-        return text.error();
-    }
-    const auto calibration = parse_calibration(*text, file.string());
+    return text ? parse_calibration(*text, file.string()) : text.error();
+}
+
+} // namespace
+
+Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here) {
+    const auto calibration = read_calibration(file);
     if (!calibration) {
         return calibration.error();
     }
@@ -107,6 +124,16 @@ Result<session::Costs> read_costs(const std::filesystem::path& file, const Calib
         }
     }
     return calibration->costs;
+}
+
+Result<std::optional<session::BackendKind>> context_to_use(const cli::ViewChoice& view) {
+    using Context = std::optional<session::BackendKind>;
+    if (view.context || view.calibration.empty()) {
+        return view.context;
+    }
+    const auto calibration = read_calibration(view.calibration);
+    return calibration ? Result<Context>(session::backend_from_string(calibration->place.context))
+                       : calibration.error();
 }
 
 Result<void> use_calibration(const cli::ViewChoice& view, const platform::RendererInfo& info,

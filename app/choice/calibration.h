@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/cli/options.h"
@@ -36,6 +37,10 @@ Result<Calibration> parse_calibration(const std::string& text, const std::string
 
 /// The costs in a file. Fails if it cannot be read, or was measured in another place.
 Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here);
+
+/// The context of the options; if none is named, that of --calibration, whose costs hold there.
+/// Fails if its file cannot be read.
+Result<std::optional<session::BackendKind>> context_to_use(const cli::ViewChoice& view);
 
 /// Lets a renderer use the costs of --calibration; does nothing without it. Fails as read_costs();
 /// usage errors: a technique or a renderer that chooses nothing.

@@ -45,7 +45,8 @@ std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoic
         {"--detail", view.detail.value_or(session::DetailChoice{}).textures},
         {"--path", view.path},
         {"--ramp", terrain.ramp.value_or("")},
-        {"--geoid", terrain.geoid}};
+        {"--geoid", terrain.geoid},
+        {"--calibration", view.calibration}};
     for (const fs::path& image : terrain.imagery) {
         files.push_back({"--imagery", image});
     }

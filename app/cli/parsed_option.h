@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -81,6 +82,17 @@ auto number_in(std::string option, std::type_identity_t<T> low, std::type_identi
         }
         return *value;
     };
+}
+
+/// A check that a text is one of `words`.
+inline CLI::Validator one_of(std::vector<std::string> words) {
+    return {[words = std::move(words)](const std::string& text) {
+                return std::find(words.begin(), words.end(), text) != words.end()
+                           ? std::string()
+                           : fmt::format("'{}' found, one of {} was expected", text,
+                                         fmt::join(words, ", "));
+            },
+            ""};
 }
 
 /// Looks a word up in a list of (word, value).

@@ -111,7 +111,10 @@ public:
         const auto groups = skip_groups(options_);
         const auto tests = chosen_tests(options_);
         if (tests.empty()) {
-            return Error{"--kind: none found that --context draws, one was expected"};
+            return usage_error(fmt::format(
+                "--kind: {} found, which --context cpu does not have; a kind of rays on "
+                "the CPU was expected",
+                fmt::join(options_.kinds, ", ")));
         }
         if (auto made = make_devices(); !made) {
             return made;

@@ -46,6 +46,7 @@ protected:
                                  why.empty() ? "" : ": ", why)};
     }
     [[nodiscard]] AtomicFile& file() { return file_; }
+    [[nodiscard]] const AtomicFile& file() const { return file_; }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
 
 private:
@@ -141,6 +142,12 @@ private:
 class TiffEncoder : public PictureWriter::Encoder {
 public:
     using Encoder::Encoder;
+    TiffEncoder(const TiffEncoder&) = delete;
+    TiffEncoder& operator=(const TiffEncoder&) = delete;
+    ~TiffEncoder() override {
+        const GdalMessages silent; // of a picture that could not be written
+        dataset_.reset();
+    }
 
     Result<void> open() {
         register_drivers();
@@ -152,7 +159,7 @@ public:
                      "PHOTOMETRIC=RGB", "COMPRESS=DEFLATE", "PREDICTOR=2", "BIGTIFF=IF_SAFER"});
         dataset_.reset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
             file().temporary().c_str(), size().x, size().y, 3, GDT_Byte, options.List()));
-        return dataset_ != nullptr ? Result<void>() : error(messages.reason());
+        return dataset_ != nullptr ? Result<void>() : failure(messages);
     }
 
 protected:
@@ -166,15 +173,20 @@ protected:
                                                 rows.cols(), rows.rows(), GDT_Byte, 3, nullptr,
                                                 pixel_bytes, row_bytes, 1, nullptr) == CE_None;
         dataset_->FlushCache(false); // keeps no written tiles
-        return written && messages.errors() == 0 ? Result<void>() : error(messages.reason());
+        return written && messages.errors() == 0 ? Result<void>() : failure(messages);
     }
     Result<void> close() override {
         const GdalMessages messages;
         dataset_.reset(); // flushes
-        return messages.errors() == 0 ? Result<void>() : error(messages.reason());
+        return messages.errors() == 0 ? Result<void>() : failure(messages);
     }
 
 private:
+    [[nodiscard]] Error failure(const GdalMessages& messages) const {
+        return Error{
+            fmt::format("{}: cannot be written{}", file().target().string(), messages.reason())};
+    }
+
     Dataset dataset_;
 };
 

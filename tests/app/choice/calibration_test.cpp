@@ -50,6 +50,34 @@ TEST(Calibration, OtherTextsAreErrorsThatNameTheFileAndARemedy) {
     }
 }
 
+TEST(Calibration, ErrorsNameWhatWasFound) {
+    const std::string good = to_text(made_calibration());
+    const auto message = [](const std::string& bad) {
+        return parse_calibration(bad, "a.json").error().message;
+    };
+    EXPECT_THAT(message(replaced(good, "100.25", "-1")), HasSubstr("triangle_ns -1 found"));
+    EXPECT_THAT(message(replaced(good, "\"osmesa\"", "3")), HasSubstr("context 3 found"));
+    EXPECT_THAT(message(replaced(good, "calibration/1", "calibration/2")),
+                HasSubstr("schema \"reljef-calibration/2\" found"));
+    EXPECT_THAT(message("{}"), HasSubstr("no schema found"));
+    EXPECT_THAT(message("[]"), HasSubstr("no JSON object found"));
+    EXPECT_THAT(message(replaced(good, "osmesa", std::string(9999, 'x')) + "]"),
+                HasSubstr("no JSON object found"));
+}
+
+// The two examples of the help, one after the other, work on any machine.
+TEST(Calibration, IsUsedInItsContextIfNoneIsNamed) {
+    const test::TemporaryFolder folder;
+    cli::ViewChoice view;
+    EXPECT_EQ(context_to_use(view).value(), std::nullopt);
+    view.calibration = folder.path() / "costs.json";
+    EXPECT_FALSE(context_to_use(view));
+    ASSERT_TRUE(write_text_file(view.calibration, to_text(made_calibration())));
+    EXPECT_EQ(context_to_use(view).value(), session::BackendKind::osmesa);
+    view.context = session::BackendKind::egl;
+    EXPECT_EQ(context_to_use(view).value(), session::BackendKind::egl);
+}
+
 TEST(Calibration, HoldsInItsPlaceOnly) {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "costs.json";

@@ -124,7 +124,8 @@ TEST_F(SameFile, OutputOverTheImagery) {
     expect_kept({"--imagery", "photo.png", "-o", "photo.png"}, {"photo.png", "--imagery"});
 }
 
-TEST_F(SameFile, OutputOverTheRampOrTheGeoid) {
+TEST_F(SameFile, OutputOverTheRampTheGeoidOrTheCalibration) {
+    expect_kept({"--calibration", "photo.png", "-o", "photo.png"}, {"photo.png", "--calibration"});
     expect_kept({"--ramp", "photo.png", "-o", "photo.png"}, {"photo.png", "--ramp"});
     expect_kept({"--geoid", "photo.png", "-o", "./photo.png"}, {"photo.png", "--geoid"});
 }
