@@ -125,7 +125,8 @@ TEST_F(SameFile, OutputOverTheImagery) {
 }
 
 TEST_F(SameFile, OutputOverTheRampTheGeoidOrTheCalibration) {
-    expect_kept({"--calibration", "photo.png", "-o", "photo.png"}, {"photo.png", "--calibration"});
+    expect_kept({"--technique", "auto", "--calibration", "photo.png", "-o", "photo.png"},
+                {"photo.png", "--calibration"});
     expect_kept({"--ramp", "photo.png", "-o", "photo.png"}, {"photo.png", "--ramp"});
     expect_kept({"--geoid", "photo.png", "-o", "./photo.png"}, {"photo.png", "--geoid"});
 }
