@@ -379,10 +379,6 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
         return good;
     }
     cli::ConsoleLog log(choice.terrain.quiet);
-    auto maker = make_frame_maker(choice, log);
-    if (!maker) {
-        return maker.error();
-    }
     auto description = session::describe(choice.terrain.terrain);
     if (!description) {
         return description.error();
@@ -398,6 +394,10 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
         inputs.push_back({what, file});
     }
     cli::check_distinct(outputs_of(choice, inputs), inputs);
+    auto maker = make_frame_maker(choice, log);
+    if (!maker) {
+        return maker.error();
+    }
     session::SourceOptions terrain = choice.terrain;
     terrain.streamed = true;
     terrain.index = choice.truth ? session::IndexUse::none : terrain.index;
