@@ -29,6 +29,7 @@ constexpr double max_searched_samples = 1 << 21;
 constexpr int max_searched_blocks = 64;
 constexpr int max_remote_blocks = 8;
 constexpr int max_block_samples = 1 << 15; // of each block
+constexpr int max_strip_samples = 1 << 16; // read at a time, if a block has no more
 
 double samples_of_band(GDALRasterBand& band) {
     return static_cast<double>(band.GetXSize()) * band.GetYSize();
@@ -134,23 +135,24 @@ bool is_mixture(double value, const Grid<double>& values, SampleDecoder decoder)
     return below_all;
 }
 
-/// Values of a part of a raster: all of a small one, else of an overview, else of blocks that are
-/// spread over it. Empty if unreadable.
-std::vector<double> spread_values(GDALRasterBand& band, bool remote) {
-    std::vector<double> all;
-    const auto add = [&](GDALRasterBand& from, const RasterOptions::Window& part) {
-        const Grid<double> values = stored_values(from, part);
-        all.insert(all.end(), values.samples().begin(), values.samples().end());
-    };
-    GDALRasterBand* overview =
-        small_overview(band, remote ? max_remote_samples : max_overview_samples);
-    if (samples_of_band(band) <= (remote ? max_remote_samples : max_searched_samples)) {
-        overview = &band;
+using Windows = std::vector<RasterOptions::Window>;
+
+/// All of a raster, in strips of whole blocks: few samples are in memory at a time.
+Windows strips_of(GDALRasterBand& band) {
+    const glm::ivec2 size(band.GetXSize(), band.GetYSize());
+    glm::ivec2 block(1);
+    band.GetBlockSize(&block.x, &block.y);
+    const int rows_at_once = std::max(max_strip_samples / size.x, 1);
+    const int rows = std::max(rows_at_once / block.y, 1) * std::min(block.y, size.y);
+    Windows strips;
+    for (int row = 0; row < size.y; row += rows) {
+        strips.push_back({0, row, size.x, std::min(rows, size.y - row)});
     }
-    if (overview != nullptr) {
-        add(*overview, {0, 0, overview->GetXSize(), overview->GetYSize()});
-        return all;
-    }
+    return strips;
+}
+
+/// Blocks that are spread over a raster, or parts of large ones.
+Windows spread_blocks(GDALRasterBand& band, int max_count) {
     glm::ivec2 block(1);
     band.GetBlockSize(&block.x, &block.y);
     block = glm::min(block, {band.GetXSize(), band.GetYSize()});
@@ -158,8 +160,8 @@ std::vector<double> spread_values(GDALRasterBand& band, bool remote) {
                           std::clamp(max_block_samples / block.x, 1, block.y));
     const glm::i64vec2 blocks((std::int64_t{band.GetXSize()} + block.x - 1) / block.x,
                               (std::int64_t{band.GetYSize()} + block.y - 1) / block.y);
-    const int max_count = remote ? max_remote_blocks : max_searched_blocks;
     const auto count = std::min<std::int64_t>(blocks.x * blocks.y, max_count);
+    Windows parts;
     for (std::int64_t i = 0; i < count; ++i) {
         const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
         const auto number = static_cast<std::int64_t>(share * static_cast<double>(blocks.x) *
@@ -171,11 +173,35 @@ std::vector<double> spread_values(GDALRasterBand& band, bool remote) {
         const auto inside = [&](int axis, int samples) {
             return static_cast<int>(std::clamp<std::int64_t>(samples - first[axis], 1, size[axis]));
         };
-        add(band, {clamped_int(static_cast<double>(first.x), 0, band.GetXSize() - 1),
-                   clamped_int(static_cast<double>(first.y), 0, band.GetYSize() - 1),
-                   inside(0, band.GetXSize()), inside(1, band.GetYSize())});
+        parts.push_back({clamped_int(static_cast<double>(first.x), 0, band.GetXSize() - 1),
+                         clamped_int(static_cast<double>(first.y), 0, band.GetYSize() - 1),
+                         inside(0, band.GetXSize()), inside(1, band.GetYSize())});
     }
-    return all;
+    return parts;
+}
+
+/// What is isolated in each part is isolated in all. Empty if no part is readable, or, with
+/// `needs_all`, if one is not.
+std::optional<std::vector<double>> isolated_in(GDALRasterBand& band, const Windows& parts,
+                                               bool needs_all, const SampleDecoder& decoder) {
+    std::optional<std::vector<double>> isolated;
+    for (const RasterOptions::Window& part : parts) {
+        const Grid<double> values = stored_values(band, part);
+        if (values.empty() && needs_all) {
+            return std::nullopt;
+        }
+        if (values.empty()) {
+            continue;
+        }
+        std::vector<double> here = decoder.isolated_voids(values.samples());
+        if (isolated) {
+            std::erase_if(here, [&](double value) {
+                return std::find(isolated->begin(), isolated->end(), value) == isolated->end();
+            });
+        }
+        isolated = std::move(here);
+    }
+    return isolated;
 }
 
 } // namespace
@@ -225,8 +251,19 @@ std::optional<std::vector<double>> undeclared_voids(GDALDataset& dataset,
     if (!decoder || !decoder->can_find_voids()) {
         return std::vector<double>();
     }
-    const std::vector<double> stored = spread_values(*dataset.GetRasterBand(1), is_remote(path));
-    return stored.empty() ? std::nullopt : std::optional(decoder->isolated_voids(stored));
+    const bool remote = is_remote(path);
+    GDALRasterBand* band = dataset.GetRasterBand(1);
+    if (samples_of_band(*band) > (remote ? max_remote_samples : max_searched_samples)) {
+        GDALRasterBand* overview =
+            small_overview(*band, remote ? max_remote_samples : max_overview_samples);
+        if (overview == nullptr) {
+            const Windows parts =
+                spread_blocks(*band, remote ? max_remote_blocks : max_searched_blocks);
+            return isolated_in(*band, parts, false, *decoder);
+        }
+        band = overview;
+    }
+    return isolated_in(*band, strips_of(*band), true, *decoder);
 }
 
 } // namespace reljef::io

@@ -61,16 +61,16 @@ RayError error_of_rays(const DrawList& list, const TerrainDraw& draw, double ste
             glm::dvec3(draw.world_from_local[3])};
 }
 
-// The smallest error from `least` on that rays keep, within a tenth; none up to `most`.
-std::optional<double> kept_by_rays(const RayError& rays, double least, double most) {
-    if (!rays.keeps(most)) {
+// The smallest error from `bound` on that rays keep, within a tenth; none up to `limit`.
+std::optional<double> kept_by_rays(const RayError& rays, double bound, double limit) {
+    if (!rays.keeps(limit)) {
         return std::nullopt;
     }
-    double error = least;
-    while (error < most && !rays.keeps(error)) {
+    double error = bound;
+    while (error < limit && !rays.keeps(error)) {
         error *= 1.1;
     }
-    return std::min(error, most);
+    return std::min(error, limit);
 }
 
 // Metres by which triangles at a place may be off, or none if it is not visible.
