@@ -72,6 +72,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"bench/runner", {}},
         {"bench/suites", {}},
         {"bench/stress", {}},
+        {"bench/findings", {}},
         {"bench/baselines/irrlicht", {}},
         {"bench/baselines", {}},
         {"bench", {}},
@@ -132,14 +133,16 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/io/formats", "engine/scene/graph", "engine/scene/motion",
           "engine/scene/technique", "engine/session", "engine/terrain/field", "engine/truth",
           "engine/view", "terrains"}},
+        {"bench/findings",
+         {"app/cli", "bench/report", "bench/suites", "engine/core", "engine/scene/technique"}},
         {"bench/baselines",
          {"app/cli", "bench/baselines/irrlicht", "bench/report", "bench/runner", "engine/core",
           "engine/scene/graph", "engine/scene/motion", "engine/scene/technique", "engine/session",
           "engine/terrain/mesh", "engine/truth", "engine/view"}},
         {"bench",
-         {"app/cli", "bench/baselines", "bench/page", "bench/report", "bench/runner",
-          "bench/stress", "bench/suites", "engine/core", "engine/io/formats", "engine/scene/motion",
-          "engine/scene/technique", "engine/view"}},
+         {"app/cli", "bench/baselines", "bench/findings", "bench/page", "bench/report",
+          "bench/runner", "bench/stress", "bench/suites", "engine/core", "engine/io/formats",
+          "engine/scene/motion", "engine/scene/technique", "engine/view"}},
     };
     return rooms;
 }
