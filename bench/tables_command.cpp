@@ -3,11 +3,12 @@
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
 #include "app/cli/usage_error.h"
+#include "bench/claims/distance_suite.h"
+#include "bench/claims/guess_suite.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/runner/gallery_tiles.h"
 #include "bench/suite_arguments.h"
-#include "bench/suites/distance_suite.h"
 #include "bench/suites/tables_suite.h"
 
 namespace reljef::bench {
@@ -19,6 +20,7 @@ struct TablesChoice {
     TablesOptions options;
     OutputChoice outputs;
     bool distances = false;
+    bool guesses = false;
 };
 
 void add_tables_options(CLI::App& command, TablesChoice& choice) {
@@ -35,24 +37,32 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "--distances", choice.distances,
         "instead of the tables: errors from 100 m to 10 km, without times, of texture, "
         "parallax, relief and exact if there is no --technique");
+    command.add_flag(
+        "--guesses", choice.guesses,
+        "instead of the tables: the error of heights that are guessed from the colours "
+        "of each terrain");
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
 }
 
 void check_tables_options(const TablesChoice& choice) {
-    if (!choice.distances) {
+    if (!choice.distances && !choice.guesses) {
         return;
     }
-    if (choice.options.pose) {
-        cli::fail_usage("--distances: --pose found, none was expected with it");
+    if (choice.distances && choice.guesses) {
+        cli::fail_usage("--distances, --guesses: both found, one was expected");
     }
-    if (choice.options.suite.rounds > 0) {
-        cli::fail_usage("--distances: --rounds found, none was expected with it");
-    }
-    if (!choice.outputs.csv.empty() || !choice.outputs.html.empty()) {
-        cli::fail_usage("--distances: --csv or --html found, only --json and --markdown were "
-                        "expected with it");
-    }
+    const std::string option = choice.distances ? "--distances" : "--guesses";
+    const auto forbid = [&](bool is_given, std::string_view other) {
+        if (is_given) {
+            cli::fail_usage(fmt::format("{}: {} found, none was expected with it", option, other));
+        }
+    };
+    forbid(choice.options.pose.has_value(), "--pose");
+    forbid(choice.options.suite.rounds > 0, "--rounds");
+    forbid(!choice.outputs.csv.empty(), "--csv");
+    forbid(!choice.outputs.html.empty(), "--html");
+    forbid(choice.guesses && !choice.options.techniques.empty(), "--technique");
 }
 
 Result<void> measure_distances(const TablesOptions& tables, const OutputChoice& outputs,
@@ -68,6 +78,16 @@ Result<void> measure_distances(const TablesOptions& tables, const OutputChoice& 
     return report(figure_table(run_distances(options, stop)), outputs.json, outputs.markdown);
 }
 
+Result<void> measure_guesses(const TablesOptions& tables, const OutputChoice& outputs,
+                             const std::stop_token& stop) {
+    GuessOptions options;
+    options.suite = tables.suite;
+    if (!tables.terrains.empty()) {
+        options.terrains = tables.terrains;
+    }
+    return report(figure_table(run_guesses(options, stop)), outputs.json, outputs.markdown);
+}
+
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
@@ -81,6 +101,9 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
     options.suite = with_quick_size(options.suite, command, tables_quick_size);
     if (choice.distances) {
         return measure_distances(options, choice.outputs, interrupt.token());
+    }
+    if (choice.guesses) {
+        return measure_guesses(options, choice.outputs, interrupt.token());
     }
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_tables(options, interrupt.token()), choice.outputs);
@@ -103,7 +126,8 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench tables --quick\n"
         "  reljef-bench tables --json tables.json --html report\n"
         "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv\n"
-        "  reljef-bench tables --distances --json distance.json");
+        "  reljef-bench tables --distances --json distance.json\n"
+        "  reljef-bench tables --guesses --terrain my-scene.toml");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_tables_command(*choice, *arguments, interrupt);
             }};

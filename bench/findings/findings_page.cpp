@@ -211,20 +211,20 @@ std::string number_text(const Figure& figure, const Number& number) {
         return value >= 100.0 ? fmt::format("{:.0f}×", value) : fmt::format("{:.2f}×", value);
     case Figure::Form::drop:
     case Figure::Form::constant:
-        return fmt::format("{:.1f} %", value);
+        return fmt::format("{:.1f}\u00a0%", value);
     case Figure::Form::rate:
-        return fmt::format("{:.1f} per second", value);
+        return fmt::format("{:.1f}\u00a0per second", value);
     case Figure::Form::plain:
         break;
     }
     switch (figure.quantity) {
     case Quantity::ms:
-        return fmt::format("{:.1f} ms", value);
+        return fmt::format("{:.1f}\u00a0ms", value);
     case Quantity::wrong:
     case Quantity::percent:
-        return fmt::format("{:.1f} %", value);
+        return fmt::format("{:.1f}\u00a0%", value);
     case Quantity::error_px:
-        return fmt::format("{:.{}f} px", value, value >= 10.0 ? 1 : 2);
+        return fmt::format("{:.{}f}\u00a0px", value, value >= 10.0 ? 1 : 2);
     case Quantity::flip:
         return fmt::format("{:.3f}", value);
     case Quantity::triangles:

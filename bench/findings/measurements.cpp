@@ -30,6 +30,11 @@ std::vector<ResultsSource> results_sources() {
          "reljef-bench tables --distances --context osmesa --json bench/results/distance.json "
          "--markdown bench/results/distance.md",
          false},
+        {"guesses", "Heights guessed from colours, against the true ones, by exact rays.",
+         "reljef-bench tables --guesses --terrain urban --terrain natural "
+         "--terrain bench/scenes/crater-lake.toml --json bench/results/guesses.json "
+         "--markdown bench/results/guesses.md",
+         false},
     };
 }
 

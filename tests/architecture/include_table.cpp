@@ -72,6 +72,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"bench/runner", {}},
         {"bench/suites", {}},
         {"bench/stress", {}},
+        {"bench/claims", {}},
         {"bench/findings", {}},
         {"bench/baselines/irrlicht", {}},
         {"bench/baselines", {}},
@@ -133,6 +134,9 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/io/formats", "engine/scene/graph", "engine/scene/motion",
           "engine/scene/technique", "engine/session", "engine/terrain/field", "engine/truth",
           "engine/view", "terrains"}},
+        {"bench/claims",
+         {"app/cli", "bench/report", "bench/runner", "engine/core", "engine/material",
+          "engine/truth"}},
         {"bench/findings",
          {"app/cli", "bench/report", "bench/suites", "engine/core", "engine/scene/technique"}},
         {"bench/baselines",
@@ -140,9 +144,9 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/scene/graph", "engine/scene/motion", "engine/scene/technique", "engine/session",
           "engine/terrain/mesh", "engine/truth", "engine/view"}},
         {"bench",
-         {"app/cli", "bench/baselines", "bench/findings", "bench/page", "bench/report",
-          "bench/runner", "bench/stress", "bench/suites", "engine/core", "engine/io/formats",
-          "engine/scene/motion", "engine/scene/technique", "engine/view"}},
+         {"app/cli", "bench/baselines", "bench/claims", "bench/findings", "bench/page",
+          "bench/report", "bench/runner", "bench/stress", "bench/suites", "engine/core",
+          "engine/io/formats", "engine/scene/motion", "engine/scene/technique", "engine/view"}},
     };
     return rooms;
 }

@@ -167,12 +167,12 @@ TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
            {plain("it", Quantity::wrong, row, at_least(10.0))}}}}};
     const auto page = findings_page(chapters, {}, *results);
     ASSERT_TRUE(page) << page.error().message;
-    EXPECT_THAT(*page, HasSubstr("At most 30: 20.0 %.\n"));
+    EXPECT_THAT(*page, HasSubstr("At most 30: 20.0\u00a0%.\n"));
     EXPECT_THAT(*page, Not(HasSubstr("At most 10")));
     EXPECT_THAT(*page,
-                HasSubstr("| J 1 | It is small. | at most 10 % | it: 20.0 % | **refuted** |"));
+                HasSubstr("| J 1 | It is small. | at most 10 % | it: 20.0\u00a0% | **refuted** |"));
     EXPECT_THAT(*page,
-                HasSubstr("| J 2 | It is large. | over 10 % | it: 20.0 % | **confirmed** |"));
+                HasSubstr("| J 2 | It is large. | over 10 % | it: 20.0\u00a0% | **confirmed** |"));
     EXPECT_THAT(*page, HasSubstr("Of 2 conclusions, 1 are confirmed, 1 are refuted"));
 }
 

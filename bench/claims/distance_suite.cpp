@@ -1,4 +1,4 @@
-#include "bench/suites/distance_suite.h"
+#include "bench/claims/distance_suite.h"
 
 #include <fmt/format.h>
 
