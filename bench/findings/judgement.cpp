@@ -70,7 +70,7 @@ Result<std::optional<Number>> number_of(const Figure& figure, const CommittedRes
     if (figure.form == Figure::Form::constant) {
         return std::optional(Number{figure.constant.value, figure.constant.uncertainty});
     }
-    const auto number = results.number(figure.row, figure.quantity);
+    auto number = results.number(figure.row, figure.quantity);
     if (!number || !*number) {
         return number;
     }
