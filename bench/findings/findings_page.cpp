@@ -104,7 +104,7 @@ std::string data_text(const Conclusion& conclusion, const PageContext& context) 
         }
         const std::string name = std::filesystem::path(figure.row.file).stem().string();
         const auto machine = context.results.machine(figure.row.file);
-        add(fmt::format("[{0}](#{0}){1}", name,
+        add(fmt::format("[{0}](findings.md#{0}){1}", name,
                         machine ? fmt::format(", {}", context.letters.at(name_of(*machine))) : ""));
     }
     return texts.empty() ? "–" : fmt::format("{}", fmt::join(texts, "; "));
