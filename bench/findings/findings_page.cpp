@@ -39,7 +39,8 @@ The numbers after D, M and J are chapters. A conclusion is
 Words such as "much" and "good" have no figure in the sources. Then the rule is our reading of them, and the column
 says so. *Wrong* is the share of pixels that show a point more than one texel from the correct one. The error in pixels
 is the distance between where a point is shown and its true place (root mean square). A number with × is a ratio. Times
-are as uncertain as the noise floor of their run, or by 10 % if the run has none.
+are as uncertain as the noise floor of their run, or by 10 % if the run has none. The last column names the results, with the
+command that measures them again, and the machine by a letter; both are listed below.
 )";
 
 constexpr std::string_view page_end = R"(
