@@ -14,6 +14,7 @@ cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_skip_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt);
+cli::Command add_findings_command(CLI::App& program, cli::Interrupt& interrupt);
 cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt);
 
 } // namespace reljef::bench

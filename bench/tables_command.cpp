@@ -2,6 +2,9 @@
 
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
+#include "app/cli/usage_error.h"
+#include "bench/claims/distance_suite.h"
+#include "bench/claims/guess_suite.h"
 #include "bench/commands.h"
 #include "bench/output_options.h"
 #include "bench/runner/gallery_tiles.h"
@@ -16,6 +19,8 @@ constexpr glm::ivec2 tables_quick_size{512, 384};
 struct TablesChoice {
     TablesOptions options;
     OutputChoice outputs;
+    bool distances = false;
+    bool guesses = false;
 };
 
 void add_tables_options(CLI::App& command, TablesChoice& choice) {
@@ -28,8 +33,59 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         command, "--pose", choice.options.pose,
         [](const std::string& text) { return cli::parse_pose(text); },
         "camera pose: overview, oblique, low, grazing or map (overview; gallery: oblique)", "NAME");
+    command.add_flag(
+        "--distances", choice.distances,
+        "instead of the tables: errors from 100 m to 10 km, without times, of texture, "
+        "parallax, relief and exact if there is no --technique");
+    command.add_flag(
+        "--guesses", choice.guesses,
+        "instead of the tables: the error of heights that are guessed from the colours "
+        "of each terrain");
     add_suite_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
+}
+
+void check_tables_options(const TablesChoice& choice) {
+    if (!choice.distances && !choice.guesses) {
+        return;
+    }
+    if (choice.distances && choice.guesses) {
+        cli::fail_usage("--distances, --guesses: both found, one was expected");
+    }
+    const std::string option = choice.distances ? "--distances" : "--guesses";
+    const auto forbid = [&](bool is_given, std::string_view other) {
+        if (is_given) {
+            cli::fail_usage(fmt::format("{}: {} found, none was expected with it", option, other));
+        }
+    };
+    forbid(choice.options.pose.has_value(), "--pose");
+    forbid(choice.options.suite.rounds > 0, "--rounds");
+    forbid(!choice.outputs.csv.empty(), "--csv");
+    forbid(!choice.outputs.html.empty(), "--html");
+    forbid(choice.guesses && !choice.options.techniques.empty(), "--technique");
+}
+
+Result<void> measure_distances(const TablesOptions& tables, const OutputChoice& outputs,
+                               const std::stop_token& stop) {
+    DistanceOptions options;
+    options.suite = tables.suite;
+    if (!tables.terrains.empty()) {
+        options.terrains = tables.terrains;
+    }
+    if (!tables.techniques.empty()) {
+        options.techniques = tables.techniques;
+    }
+    return report(figure_table(run_distances(options, stop)), outputs.json, outputs.markdown);
+}
+
+Result<void> measure_guesses(const TablesOptions& tables, const OutputChoice& outputs,
+                             const std::stop_token& stop) {
+    GuessOptions options;
+    options.suite = tables.suite;
+    if (!tables.terrains.empty()) {
+        options.terrains = tables.terrains;
+    }
+    return report(figure_table(run_guesses(options, stop)), outputs.json, outputs.markdown);
 }
 
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
@@ -43,6 +99,12 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
                                          ? std::vector<std::string>{"natural", "urban"}
                                          : options.terrains);
     options.suite = with_quick_size(options.suite, command, tables_quick_size);
+    if (choice.distances) {
+        return measure_distances(options, choice.outputs, interrupt.token());
+    }
+    if (choice.guesses) {
+        return measure_guesses(options, choice.outputs, interrupt.token());
+    }
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_tables(options, interrupt.token()), choice.outputs);
 }
@@ -54,6 +116,7 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         program.add_subcommand("tables", "frame time and error of each technique on each terrain");
     auto choice = std::make_shared<TablesChoice>();
     add_tables_options(*arguments, *choice);
+    arguments->callback([choice] { check_tables_options(*choice); });
     arguments->footer(
         "Without --terrain, --technique and --pose, the suite runs the seven tests of the sources\n"
         "and shows their figures, which were measured at 1024x768. --quick draws 512x384 pixels\n"
@@ -62,7 +125,9 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Examples:\n"
         "  reljef-bench tables --quick\n"
         "  reljef-bench tables --json tables.json --html report\n"
-        "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv");
+        "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv\n"
+        "  reljef-bench tables --distances --json distance.json\n"
+        "  reljef-bench tables --guesses --terrain my-scene.toml");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_tables_command(*choice, *arguments, interrupt);
             }};

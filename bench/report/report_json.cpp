@@ -313,7 +313,7 @@ std::string json_report(const Results& results) {
     return fields.json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-Result<Results> read_json_report(const fs::path& file) {
+Result<nlohmann::json> read_result_json(const fs::path& file) {
     std::error_code ignored;
     if (fs::exists(file, ignored) && !fs::is_directory(file, ignored) &&
         !fs::is_regular_file(file, ignored)) { // a pipe may never end
@@ -323,7 +323,11 @@ Result<Results> read_json_report(const fs::path& file) {
     if (!text) {
         return text.error();
     }
-    const auto json = parse(*text, file.string());
+    return parse(*text, file.string());
+}
+
+Result<Results> read_json_report(const fs::path& file) {
+    const auto json = read_result_json(file);
     if (!json) {
         return json.error();
     }

@@ -22,6 +22,9 @@ nlohmann::ordered_json json_of(const Environment& environment);
 /// ("stopped") or left settings out ("left_out").
 std::string json_report(const Results& results);
 
+/// Reads the JSON of any suite. Fails if the file is a device, too large or no whole JSON document.
+Result<nlohmann::json> read_result_json(const std::filesystem::path& file);
+
 /// Reads a JSON report; skips missing rows. Sets Results::stopped if the run ended early. Fails,
 /// with the place, what was found and what was expected, if the file is no whole JSON document, has
 /// another schema, or a value is absent, of a wrong type or out of range. Ignores unknown keys.

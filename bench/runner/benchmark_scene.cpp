@@ -148,6 +148,24 @@ void set_pose(session::TerrainScene& scene, scene::Pose pose) {
     camera.near = near;
 }
 
+Result<void> BenchmarkScene::look_from(double distance, double down) {
+    scene::Camera& camera = *scene_.camera->get<scene::Camera>();
+    scene::Camera looking;
+    looking.near = camera.near;
+    looking.target = {0.0, 0.0, scene_.ground(0.0, 0.0)};
+    const double angle = glm::radians(down);
+    looking.eye = looking.target + distance * glm::dvec3(0.0, -std::cos(angle), std::sin(angle));
+    if (looking.eye.z <= scene_.ground(looking.eye.x, looking.eye.y)) {
+        return Error{fmt::format("{}: ground found {} m from its middle, {} degrees up; an eye "
+                                 "above the ground was expected",
+                                 name(), distance, down)};
+    }
+    camera = looking;
+    pose_.reset();
+    truth_.reset();
+    return {};
+}
+
 void BenchmarkScene::set_camera(const scene::Camera& camera) {
     *scene_.camera->get<scene::Camera>() = camera;
 }
@@ -234,7 +252,7 @@ Result<MeasuredError> BenchmarkScene::measure_error(const scene::Technique& tech
     if (!truth::has_terrain(*hits) && !truth::has_terrain((*exact)->hits)) {
         return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
                                  "expected",
-                                 name(), scene::to_string((*exact)->pose))};
+                                 name(), pose_ ? scene::to_string(*pose_) : "from a distance")};
     }
     auto geometric = errors(*hits, (*exact)->hits);
     if (!geometric) {

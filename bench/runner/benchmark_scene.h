@@ -72,21 +72,24 @@ public:
         bench::set_pose(scene_, pose);
         pose_ = pose;
     }
+    /// Looks north and `down` degrees down at the ground in the middle of the terrain, from
+    /// `distance` metres. Fails if the eye is below the ground. Precondition: a terrain.
+    Result<void> look_from(double distance, double down);
     void set_daylight(Daylight daylight);
-    /// Not for measure_error(), which needs a pose.
+    /// Not for measure_error(), which needs a pose or look_from().
     void set_camera(const scene::Camera& camera);
     void set_technique(const scene::Technique& technique);
 
-    /// Draws a frame from the last pose and compares it with the true picture; the scene keeps the
-    /// technique. A picture without terrain (a flat surface seen from below) has holes and no
-    /// reprojection error. Fails if neither picture shows terrain, or when stopped.
+    /// Draws a frame from the last pose or look_from(), and compares it with the true picture; the
+    /// scene keeps the technique. A picture without terrain (a flat surface seen from below) has
+    /// holes and no reprojection error. Fails if neither picture shows terrain, or when stopped.
     Result<MeasuredError> measure_error(const scene::Technique& technique,
                                         session::SceneRenderer& renderer,
                                         const std::stop_token& stop);
 
 private:
     struct TruePicture {
-        scene::Pose pose = scene::Pose::overview;
+        std::optional<scene::Pose> pose; // absent: of look_from()
         HitBuffer hits;
         std::shared_ptr<const Image> image;
     };
@@ -103,9 +106,9 @@ private:
     std::string name_;
     session::TerrainScene scene_;
     SuiteOptions options_;
-    scene::Pose pose_ = scene::Pose::overview;
-    std::optional<double> visibility_;   // of the scene's air
-    std::optional<double> sun_altitude_; // of the scene
+    std::optional<scene::Pose> pose_ = scene::Pose::overview; // absent: look_from()
+    std::optional<double> visibility_;                        // of the scene's air
+    std::optional<double> sun_altitude_;                      // of the scene
     std::optional<truth::SceneCaster> caster_;
     std::optional<truth::Shading> shading_;
     std::optional<truth::DetailPlane> detail_; // absent for terrains

@@ -1,0 +1,101 @@
+#include "bench/claims/distance_suite.h"
+
+#include <fmt/format.h>
+
+#include "app/cli/message.h"
+#include "app/cli/progress_line.h"
+#include "bench/report/report_json.h"
+#include "bench/runner/benchmark_scene.h"
+
+namespace reljef::bench {
+namespace {
+
+constexpr double view_down = 35.0; // degrees
+constexpr double kilometre = 1000.0;
+
+Result<void> measure_distance(BenchmarkScene& scene, double distance, session::Device& device,
+                              DistanceResults& results, const std::stop_token& stop) {
+    if (auto good = scene.look_from(distance, view_down); !good) {
+        return good;
+    }
+    for (const scene::Technique& technique : results.options.techniques) {
+        const auto measured = scene.measure_error(technique, device.renderer(), stop);
+        if (!measured) {
+            return measured.error();
+        }
+        results.rows.push_back(
+            {scene.name(), distance, scene::to_string(technique), measured->error});
+    }
+    return {};
+}
+
+Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) {
+    const DistanceOptions& options = results.options;
+    auto device = make_device(options.suite);
+    if (!device) {
+        return device.error();
+    }
+    results.environment = environment_of(device->info(), options.suite.threads);
+    cli::ProgressLine line("measuring distances", options.suite.quiet);
+    const auto views = static_cast<double>(options.terrains.size()) *
+                       static_cast<double>(options.distances.size());
+    double done = 0.0;
+    for (const std::string& terrain : options.terrains) {
+        auto scene = BenchmarkScene::open({terrain}, options.suite, stop);
+        if (!scene) {
+            return scene.error();
+        }
+        for (const double distance : options.distances) {
+            if (auto measured = measure_distance(*scene, distance, *device, results, stop);
+                !measured) {
+                return measured;
+            }
+            line.update(++done / views);
+        }
+        device->renderer().forget_scene();
+    }
+    return {};
+}
+
+FigureJson json_rms(const std::optional<RowError::Geometric>& error) {
+    return error ? FigureJson(error->distribution.rms) : FigureJson();
+}
+
+} // namespace
+
+std::string distance_text(double metres) {
+    return metres < kilometre ? fmt::format("{} m", metres)
+                              : fmt::format("{} km", metres / kilometre);
+}
+
+DistanceResults run_distances(const DistanceOptions& options, const std::stop_token& stop) {
+    DistanceResults results;
+    results.options = options;
+    const auto done = measure_all(results, stop);
+    results.end = run_end(done, stop, !results.rows.empty());
+    return results;
+}
+
+FigureTable figure_table(const DistanceResults& results) {
+    FigureTable table{.schema = "reljef-bench-distance/1",
+                      .columns = {{"/scene", "terrain"},
+                                  {"/at", "distance"},
+                                  {"/label", "technique"},
+                                  {"/error/reprojection_px/rms", "error px", 3},
+                                  {"/error/wrong_percent", "wrong %", 1},
+                                  {"/error/flip", "FLIP", 3}},
+                      .end = results.end};
+    table.heading = fmt::format("errors over the distance of the eye, {}, {}",
+                                size_text(results.options.suite.size),
+                                cli::printable(results.environment.renderer));
+    table.settings = {{"environment", json_of(results.environment)},
+                      {"size", size_text(results.options.suite.size)}};
+    for (const DistanceRow& row : results.rows) {
+        table.rows.push_back({row.scene, distance_text(row.distance), row.label,
+                              json_rms(row.error.reprojection_px), row.error.wrong_percent,
+                              row.error.flip});
+    }
+    return table;
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,205 @@
+#include "bench/findings/committed_results.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "app/cli/message.h"
+#include "bench/report/report_json.h"
+#include "bench/report/results.h"
+
+namespace reljef::bench {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+struct QuantityInfo {
+    const char* pointer = nullptr; // into a row
+    double high = std::numeric_limits<double>::max();
+    double low = 0.0;
+};
+
+// The smallest time of a frame that a clock of nanoseconds can tell from none.
+constexpr double min_ms = 1e-6;
+
+QuantityInfo info_of(Quantity quantity) {
+    switch (quantity) {
+    case Quantity::ms:
+        return {.pointer = "/ms/median", .low = min_ms};
+    case Quantity::wrong:
+        return {.pointer = "/error/wrong_percent", .high = 100.0};
+    case Quantity::error_px:
+        return {"/error/reprojection_px/rms"};
+    case Quantity::flip:
+        return {.pointer = "/error/flip", .high = 1.0};
+    case Quantity::triangles:
+        return {"/triangles"};
+    case Quantity::taps:
+        return {"/taps"};
+    case Quantity::percent:
+        return {.pointer = "/value", .high = 100.0};
+    }
+    return {};
+}
+
+constexpr std::string_view schema_start = "reljef-bench";
+constexpr std::string_view schema_end = "/1";
+
+bool is_known(std::string_view schema) {
+    return schema.starts_with(schema_start) && schema.ends_with(schema_end);
+}
+
+Result<void> check_results(const json& results, const std::string& file) {
+    const json* const schema =
+        results.is_object() && results.contains("schema") ? &results.at("schema") : nullptr;
+    if (schema == nullptr || !schema->is_string()) {
+        return Error{
+            fmt::format("{}: no schema found, results of reljef-bench were expected", file)};
+    }
+    const auto& name = schema->get_ref<const std::string&>();
+    if (!is_known(name)) {
+        return Error{fmt::format("{}: schema '{}' found, {}{} was expected", file,
+                                 cli::printable(name), schema_start, schema_end)};
+    }
+    if (results.contains("rows") && !results.at("rows").is_array()) {
+        return Error{fmt::format("{}: rows: no array found, one was expected", file)};
+    }
+    if (results.contains("stopped") && !results.at("stopped").is_null()) {
+        return Error{fmt::format("{}: the run ended early, whole results were expected", file)};
+    }
+    return {};
+}
+
+bool equals(const json& value, const std::string& text) {
+    return value.is_string() && value.get_ref<const std::string&>() == text;
+}
+
+bool is_named(const json& row, const RowName& name) {
+    if (!row.is_object() || row.value("null_row", json(false)) == json(true)) {
+        return false;
+    }
+    return std::all_of(name.members.begin(), name.members.end(), [&](const auto& member) {
+        const auto found = row.find(member.first);
+        return found != row.end() && equals(*found, member.second);
+    });
+}
+
+std::string text_of(const RowName& name) {
+    std::string text;
+    for (const auto& [key, value] : name.members) {
+        text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+    }
+    return text;
+}
+
+// The value at a pointer; none if it is null or one of the steps does not exist.
+const json* at(const json& row, const char* pointer) {
+    const json::json_pointer place(pointer);
+    const json* const value = row.contains(place) ? &row.at(place) : nullptr;
+    return value == nullptr || value->is_null() ? nullptr : value;
+}
+
+Result<std::optional<double>> value_at(const json& row, const QuantityInfo& info) {
+    const json* const value = at(row, info.pointer);
+    if (value == nullptr) {
+        return std::optional<double>();
+    }
+    const double number = value->is_number() ? value->get<double>() : NAN;
+    if (!(number >= info.low && number <= info.high)) {
+        return Error{
+            fmt::format("{}: {} found, a number of {} to {} was expected", info.pointer,
+                        cli::printable(value->dump(-1, ' ', true, json::error_handler_t::replace)),
+                        info.low, info.high)};
+    }
+    return std::optional<double>(number);
+}
+
+// Rows of a suite without a noise floor count as noisy as a row may be that is not marked noisy.
+Result<double> noise_of(const json& row) {
+    const auto floor = value_at(row, {.pointer = "/noise_floor"});
+    return floor ? Result<double>(floor->value_or(max_noise)) : Result<double>(floor.error());
+}
+
+} // namespace
+
+Result<CommittedResults> CommittedResults::read(const fs::path& folder,
+                                                std::span<const std::string> files) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) {
+        return Error{fmt::format(
+            "{}: no folder found, one with results of reljef-bench was expected", folder.string())};
+    }
+    CommittedResults results;
+    results.folder_ = folder;
+    for (const std::string& file : files) {
+        const fs::path path = folder / file;
+        if (!fs::exists(path, ignored)) {
+            continue;
+        }
+        auto json = read_result_json(path);
+        if (!json) {
+            return json.error();
+        }
+        if (auto good = check_results(*json, path.string()); !good) {
+            return good.error();
+        }
+        results.files_.emplace(file, std::move(*json));
+    }
+    return results;
+}
+
+Result<std::optional<Number>> CommittedResults::number(const RowName& row,
+                                                       Quantity quantity) const {
+    const auto file = files_.find(row.file);
+    if (file == files_.end() || !file->second.contains("rows")) {
+        return std::optional<Number>();
+    }
+    const json* found = nullptr;
+    for (const json& candidate : file->second.at("rows")) {
+        if (!is_named(candidate, row)) {
+            continue;
+        }
+        if (found != nullptr) {
+            return Error{fmt::format("{}: several rows '{}' found, one was expected",
+                                     (folder_ / row.file).string(), text_of(row))};
+        }
+        found = &candidate;
+    }
+    if (found == nullptr) {
+        return std::optional<Number>();
+    }
+    const auto value = value_at(*found, info_of(quantity));
+    const auto noise = quantity == Quantity::ms ? noise_of(*found) : Result<double>(0.0);
+    if (!value || !noise) {
+        const Error& error = value ? noise.error() : value.error();
+        return Error{fmt::format("{}: row '{}': {}", (folder_ / row.file).string(), text_of(row),
+                                 error.message)};
+    }
+    return *value ? std::optional(Number{**value, **value * *noise}) : std::optional<Number>();
+}
+
+std::optional<Machine> CommittedResults::machine(const std::string& file) const {
+    const auto found = files_.find(file);
+    if (found == files_.end()) {
+        return {};
+    }
+    const auto text = [&](const char* pointer) {
+        const json* const value = at(found->second, pointer);
+        return value != nullptr && value->is_string() ? cli::printable(value->get<std::string>())
+                                                      : "unknown";
+    };
+    if (const json* const environment = at(found->second, "/environment");
+        environment == nullptr || !environment->is_object()) {
+        return {};
+    }
+    const json* const threads = at(found->second, "/environment/threads");
+    const bool has_threads = threads != nullptr && threads->is_number_unsigned();
+    return Machine{text("/environment/cpu"), text("/environment/renderer"),
+                   has_threads ? threads->get<unsigned>() : 1U, text("/environment/commit")};
+}
+
+} // namespace reljef::bench

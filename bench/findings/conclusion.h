@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace reljef::bench {
+
+/// A number of a row of a results file.
+enum class Quantity {
+    ms,        ///< median time of a frame; its uncertainty is the noise floor of the row
+    wrong,     ///< pixels that show a wrong point, percent
+    error_px,  ///< root mean square of the reprojection error, pixels
+    flip,      ///< mean FLIP of the picture
+    triangles, ///< drawn
+    taps,      ///< reads of maps, for each pixel
+    percent,   ///< "value" of a stress
+};
+
+/// The row of a results file whose members equal all of `members`; null rows never do.
+struct RowName {
+    std::string file = {}; ///< in the folder of results, "tables.json"
+    std::vector<std::pair<std::string, std::string>> members = {};
+};
+
+/// The numbers that confirm a conclusion; both ends belong to it.
+struct Range {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+};
+
+/// One measured number of a conclusion.
+struct Figure {
+    enum class Form {
+        plain,    ///< the quantity
+        ratio,    ///< the quantity over that of the base
+        drop,     ///< loss of frame rate against the base, percent
+        rate,     ///< frames per second
+        constant, ///< computed from a table of the sources, percent
+    };
+    /// A number without a row.
+    struct Constant {
+        double value = 0.0;
+        double uncertainty = 0.0;
+    };
+
+    std::string words = {}; ///< what it is of, before the number; may be empty
+    Form form = Form::plain;
+    Quantity quantity = Quantity::wrong;
+    RowName row = {};
+    std::optional<RowName> base = {};
+    Constant constant = {};
+    Range expected = {}; ///< if the conclusion is true
+};
+
+/// A conclusion of a source. It is confirmed if each figure lies in its range, refuted if none
+/// does. Otherwise it depends, also if noise leaves open where a figure lies.
+struct Conclusion {
+    std::string source; ///< letter, chapter, page
+    std::string claim;  ///< in our words
+    std::string rule;   ///< the ranges of the figures and their reason; empty: there is no claim
+    std::vector<Figure> figures; ///< empty: nothing that reljef has measures it
+    std::string note = {};       ///< after the figures; may be empty
+};
+
+/// Conclusions that answer one question.
+struct Chapter {
+    /// A sentence that holds if each figure lies in its range; it is left out otherwise.
+    struct Sentence {
+        std::string text; ///< with {} for each figure
+        std::vector<Figure> figures;
+    };
+
+    std::string question;
+    std::vector<Sentence> answer = {};
+    std::vector<Conclusion> conclusions = {};
+};
+
+} // namespace reljef::bench

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "bench/findings/conclusion.h"
+
+namespace reljef::bench {
+
+/// All conclusions of the sources: D (Dachsbacher), M (Mile 2008), J (Janković 2010).
+std::vector<Chapter> findings_chapters();
+
+// Their chapters.
+Chapter relief_chapter();
+Chapter parallax_chapter();
+Chapter triangles_chapter();
+Chapter search_chapter();
+Chapter view_chapter();
+Chapter light_chapter();
+Chapter options_chapter();
+Chapter data_chapter();
+
+} // namespace reljef::bench

@@ -1,0 +1,133 @@
+#include "bench/findings/figures.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "bench/suites/source_tests.h"
+#include "engine/core/check.h"
+
+namespace reljef::bench {
+namespace {
+
+double frames_per_second(const SourceMeasurement& measured, std::string_view technique) {
+    const auto all = source_measurements();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const SourceMeasurement& other) {
+        return other.test == measured.test && other.configuration == measured.configuration &&
+               other.technique == technique;
+    });
+    check(found != all.end(), "a test of the sources without this technique");
+    return found->fps;
+}
+
+double percent_lost(double fps, double texture_fps) {
+    return 100.0 * (1.0 - fps / texture_fps);
+}
+
+} // namespace
+
+Range at_least(double low) {
+    Range range;
+    range.low = low;
+    return range;
+}
+
+Range at_most(double high) {
+    Range range;
+    range.high = high;
+    return range;
+}
+
+Range between(double low, double high) {
+    return {low, high};
+}
+
+RowName source_test(const std::string& test, const scene::Technique& technique) {
+    return {"tables.json", {{"test", test}, {"label", scene::to_string(technique)}}};
+}
+
+RowName seen(const View& view, const scene::Technique& technique) {
+    return {view.file,
+            {{"scene", view.scene}, {"pose", view.pose}, {"label", scene::to_string(technique)}}};
+}
+
+RowName at_angle(const std::string& terrain, const std::string& angle,
+                 const scene::Technique& technique) {
+    return {"stress.json",
+            {{"stress", "grazing view"},
+             {"terrain", terrain},
+             {"technique", scene::to_string(technique)},
+             {"figure", "% of pixels wrong"},
+             {"at", angle}}};
+}
+
+RowName irrlicht(int levels) {
+    return {"peers.json",
+            {{"pose", "overview"},
+             {"what", fmt::format("irrlicht:lods={}", levels)},
+             {"camera", "still"}}};
+}
+
+Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range) {
+    Figure figure;
+    figure.words = words;
+    figure.quantity = quantity;
+    figure.row = row;
+    figure.expected = range;
+    return figure;
+}
+
+Figure ratio(const std::string& words, Quantity quantity, const RowName& row, const RowName& base,
+             const Range& range) {
+    Figure figure = plain(words, quantity, row, range);
+    figure.form = Figure::Form::ratio;
+    figure.base = base;
+    return figure;
+}
+
+Figure drop(const std::string& words, const RowName& row, const RowName& base, const Range& range) {
+    Figure figure = ratio(words, Quantity::ms, row, base, range);
+    figure.form = Figure::Form::drop;
+    return figure;
+}
+
+Figure frame_rate(const std::string& words, const RowName& row, const Range& range) {
+    Figure figure = plain(words, Quantity::ms, row, range);
+    figure.form = Figure::Form::rate;
+    return figure;
+}
+
+ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests) {
+    ThesisDrop drop{.lowest = 100.0, .highest = -100.0};
+    double count = 0.0;
+    for (const SourceMeasurement& measured : source_measurements()) {
+        const bool is_asked = std::find(tests.begin(), tests.end(), measured.test) != tests.end();
+        if (!is_asked || measured.technique != technique) {
+            continue;
+        }
+        const double texture = frames_per_second(measured, "texture");
+        const double lost = percent_lost(measured.fps, texture);
+        // Each frame rate is within half a frame of the true one.
+        drop.rounding += std::max(lost - percent_lost(measured.fps + 0.5, texture - 0.5),
+                                  percent_lost(measured.fps - 0.5, texture + 0.5) - lost);
+        drop.mean += lost;
+        drop.lowest = std::min(drop.lowest, lost);
+        drop.highest = std::max(drop.highest, lost);
+        count += 1.0;
+    }
+    check(count > 0.0, "tests of the sources with this technique");
+    drop.mean /= count;
+    drop.rounding /= count;
+    return drop;
+}
+
+Figure thesis_mean(const std::string& words, const ThesisDrop& drop, double text) {
+    Figure figure;
+    figure.words = words;
+    figure.form = Figure::Form::constant;
+    figure.constant = {drop.mean, 0.0};
+    figure.expected = between(text - drop.rounding, text + drop.rounding);
+    return figure;
+}
+
+} // namespace reljef::bench

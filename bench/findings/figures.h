@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/findings/conclusion.h"
+#include "engine/scene/technique/technique.h"
+
+namespace reljef::bench {
+
+// Ranges.
+Range at_least(double low);
+Range at_most(double high);
+Range between(double low, double high);
+
+// Rows. Techniques name them by scene::to_string.
+RowName source_test(const std::string& test, const scene::Technique& technique); ///< tables.json
+struct View {
+    std::string file;
+    std::string scene;
+    std::string pose;
+};
+RowName seen(const View& view, const scene::Technique& technique);
+/// A grazing view of `terrain`, "10 degrees" above the horizon, in stress.json.
+RowName at_angle(const std::string& terrain, const std::string& angle,
+                 const scene::Technique& technique);
+/// Irrlicht's terrain node, still, pose overview, peers.json.
+RowName irrlicht(int levels);
+
+// Figures.
+Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range);
+Figure ratio(const std::string& words, Quantity quantity, const RowName& row, const RowName& base,
+             const Range& range);
+/// Loss of frame rate against `base`, percent.
+Figure drop(const std::string& words, const RowName& row, const RowName& base, const Range& range);
+Figure frame_rate(const std::string& words, const RowName& row, const Range& range);
+
+/// The mean loss of frame rate of a technique in J's own table, percent.
+struct ThesisDrop {
+    double mean = 0.0;
+    /// The most that the rounding of its frame rates to whole frames may move the mean.
+    double rounding = 0.0;
+    double lowest = 0.0; ///< of a single test
+    double highest = 0.0;
+};
+/// `tests`: "relief-1" …; both machines where both were measured. Precondition: all are in the
+/// table.
+ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests);
+Figure thesis_mean(const std::string& words, const ThesisDrop& drop, double text);
+
+} // namespace reljef::bench

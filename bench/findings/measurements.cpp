@@ -1,0 +1,41 @@
+#include "bench/findings/measurements.h"
+
+namespace reljef::bench {
+
+// The commands of bench/results/README.md.
+std::vector<ResultsSource> results_sources() {
+    return {
+        {"tables", "The seven tests of J on built-in terrains, with J's figures beside ours.",
+         "reljef-bench tables --context osmesa --json bench/results/tables.json "
+         "--markdown bench/results/tables.md"},
+        {"oblique", "Every technique on a city and a landscape, from the pose oblique.",
+         "reljef-bench tables --context osmesa --terrain bench/scenes/urban-s05.toml "
+         "--terrain natural --pose oblique --json bench/results/oblique.json "
+         "--markdown bench/results/oblique.md"},
+        {"pareto-quick", "Every technique with other parameters and options, in small pictures.",
+         "reljef-bench pareto --quick --context osmesa --json bench/results/pareto-quick.json "
+         "--markdown bench/results/pareto-quick.md"},
+        {"peers", "Irrlicht's terrain node, which J used, beside our triangles.",
+         "reljef-bench peers --terrain N45E006.hgt --rounds 15 --json bench/results/peers.json"},
+        {"stress", "Numerical stability; here: views at flat angles.",
+         "reljef-bench stress --context osmesa --json bench/results/stress.json", false},
+        {"steps", "The searches of M's figures, with their numbers of steps.",
+         "reljef-bench tables --context osmesa --terrain bench/scenes/urban-s05.toml "
+         "--terrain natural --pose oblique --rounds 5 --technique relief:n=1,k=8 "
+         "--technique relief:n=11,k=8 --technique relief:n=20,k=4 --technique steep:n=40 "
+         "--technique relief:n=25,k=8 --technique relief:n=11,k=8,steps=5..25 "
+         "--json bench/results/steps.json --markdown bench/results/steps.md",
+         false},
+        {"distance", "Errors over the distance of the eye.",
+         "reljef-bench tables --distances --context osmesa --json bench/results/distance.json "
+         "--markdown bench/results/distance.md",
+         false},
+        {"guesses", "Heights guessed from colours, against the true ones, by exact rays.",
+         "reljef-bench tables --guesses --terrain urban --terrain natural "
+         "--terrain bench/scenes/crater-lake.toml --json bench/results/guesses.json "
+         "--markdown bench/results/guesses.md",
+         false},
+    };
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,152 @@
+// What light alone can show, what options cost, and what data are needed.
+#include "bench/findings/conclusions.h"
+#include "bench/findings/figures.h"
+
+namespace reljef::bench {
+namespace {
+
+using scene::Technique;
+
+constexpr double small_loss = 25.0; // percent of the frame rate: the most that J calls small
+
+View bricks() {
+    return {"pareto-quick.json", "tile brick", "oblique"};
+}
+
+Figure brick_cost(const std::string& words, const Technique& technique, const Technique& base,
+                  const Range& range) {
+    return drop(words, seen(bricks(), technique), seen(bricks(), base), range);
+}
+
+Figure brick_time(const std::string& words, const Technique& technique, const Technique& base,
+                  const Range& range) {
+    return ratio(words, Quantity::ms, seen(bricks(), technique), seen(bricks(), base), range);
+}
+
+// The error of guessed heights over that of flat ground.
+Figure guess(const std::string& words, const std::string& scene, const std::string& heights) {
+    const auto row = [&](const std::string& kind) {
+        return RowName{"guesses.json", {{"scene", scene}, {"heights", kind}}};
+    };
+    return ratio(words, Quantity::error_px, row(heights), row("flat"), at_most(0.5));
+}
+
+Technique smooth_relief() {
+    Technique technique{scene::Relief{}};
+    technique.options.smooth_edges = scene::SmoothEdges{};
+    return technique;
+}
+
+Technique shadowed_relief(double depth) {
+    Technique technique{scene::Relief{}};
+    technique.options.shadow = scene::Shadow{depth};
+    return technique;
+}
+
+Technique outlined_relief() {
+    Technique technique{scene::Relief{}};
+    technique.options.true_silhouettes = true;
+    return technique;
+}
+
+} // namespace
+
+Chapter light_chapter() {
+    const Technique texture{scene::Texture{}};
+    Chapter chapter{"What can light alone show?"};
+    chapter.conclusions = {
+        {"J 2.2",
+         "Bump mapping looks good at a small cost.",
+         "at most 25 % of the frame rate (J's range)",
+         {brick_cost("", {scene::Bump{}}, texture, at_most(small_loss))}},
+        {"M 3.3",
+         "Emboss bump mapping is fast.",
+         "less time than normal maps",
+         {brick_time("", {scene::Emboss{}}, {scene::Normal{}}, at_most(1.0))}},
+        {"M 3.4",
+         "Normal maps need little computing.",
+         "at most 25 % of the frame rate (J's range)",
+         {brick_cost("", {scene::Normal{}}, texture, at_most(small_loss))}},
+        {"M 4",
+         "With normal maps, one sees the missing shape in special cases only.",
+         "at most 10 % of the pixels wrong (our limit)",
+         {plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), at_most(10.0))}},
+        {"J 2.7.2",
+         "A plain texture gives no impression of depth.",
+         "more than half of the pixels wrong (our reading)",
+         {plain("city", Quantity::wrong, source_test("relief-2", texture), at_least(50.0)),
+          plain("landscape", Quantity::wrong, source_test("relief-4", texture), at_least(50.0))}},
+    };
+    return chapter;
+}
+
+Chapter options_chapter() {
+    const Technique relief{scene::Relief{}};
+    const Technique smooth = smooth_relief();
+    Chapter chapter{"What do shadows, edges and layers cost?"};
+    chapter.conclusions = {
+        {"M 3.6.7, figure 34",
+         "The frame rates with and without smooth edges are left blank.",
+         "",
+         {brick_cost("loss of frame rate", smooth, relief, {})}},
+        {"M 3.6.7",
+         "Smooth edges make a better picture.",
+         "less difference (FLIP) from the true picture than without",
+         {ratio("", Quantity::flip, seen(bricks(), smooth), seen(bricks(), relief), at_most(1.0))}},
+        {"M 4",
+         "Do without shadows where none fall.",
+         "shadows take at least 1.25 times the time of relief (our reading)",
+         {brick_time("hard", shadowed_relief(0.0), relief, at_least(1.25)),
+          brick_time("soft", shadowed_relief(scene::Shadow{}.depth), relief, at_least(1.25))}},
+        {"M 3.6.11",
+         "Relief ends at the border of its polygon.",
+         "",
+         {brick_time("time with true outlines over relief", outlined_relief(), relief, {})},
+         "`silhouettes=true` lifts this"},
+        {"M 3.6.9, 3.6.10, 3.6.11",
+         "Two and four layers show fences, thin shells and chains.",
+         "at most 10 % of the pixels wrong (our limit)",
+         {plain("fence", Quantity::wrong,
+                seen({"pareto-quick.json", "tile fence", "oblique"}, {scene::Lattice{}}),
+                at_most(10.0)),
+          plain("shell", Quantity::wrong,
+                seen({"pareto-quick.json", "tile copper", "oblique"}, {scene::DualLayer{}}),
+                at_most(10.0)),
+          plain("rings", Quantity::wrong,
+                seen({"pareto-quick.json", "tile rings", "oblique"}, {scene::MultiLayer{}}),
+                at_most(10.0))}},
+        {"M 4",
+         "Four layers waste work on a surface that one layer can show.",
+         "more time than relief on the same surface",
+         {},
+         "reljef draws no surface in both ways"},
+    };
+    return chapter;
+}
+
+Chapter data_chapter() {
+    Chapter chapter{"Which data does it need?"};
+    chapter.conclusions = {
+        {"J 2.7, 3",
+         "Heights guessed from the brightness of a picture are enough.",
+         "at most half of the error of flat ground (our reading)",
+         {guess("city", "urban", "guessed"), guess("landscape", "natural", "guessed"),
+          guess("Crater Lake", "crater lake", "guessed"), guess("city, fitted", "urban", "fitted"),
+          guess("landscape, fitted", "natural", "fitted"),
+          guess("Crater Lake, fitted", "crater lake", "fitted")},
+         "fitted: scaled as well as possible to the true heights"},
+        {"J 3",
+         "Relief only over the city, with one height everywhere else, saves time.",
+         "less time than relief over everything",
+         {},
+         "no suite draws such a terrain yet"},
+        {"J 2.7.2, test 1",
+         "Relief can show a large city by repeating one tile.",
+         "at most 10 % of the pixels wrong (our limit)",
+         {},
+         "the tests of J draw the tile once; no suite repeats it yet"},
+    };
+    return chapter;
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,71 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/output_files.h"
+#include "bench/commands.h"
+#include "bench/findings/findings_page.h"
+#include "engine/core/atomic_file.h"
+
+namespace reljef::bench {
+namespace {
+
+struct FindingsChoice {
+    std::filesystem::path results = "bench/results";
+    std::filesystem::path markdown; ///< empty: standard output
+};
+
+std::vector<cli::NamedFile> results_in(const std::filesystem::path& folder) {
+    std::vector<cli::NamedFile> files;
+    for (const ResultsSource& source : results_sources()) {
+        files.push_back({"--results", folder / source.file()});
+    }
+    return files;
+}
+
+Result<void> run_findings(const FindingsChoice& choice) {
+    const std::vector<cli::NamedFile> outputs{{"--markdown", choice.markdown}};
+    cli::check_distinct(outputs, results_in(choice.results));
+    if (auto writable = cli::check_writable(outputs); !writable) {
+        return writable;
+    }
+    const auto page = findings_page(choice.results);
+    if (!page) {
+        return page.error();
+    }
+    if (!choice.markdown.empty()) {
+        return write_text_file(choice.markdown, *page);
+    }
+    fmt::print("{}", *page);
+    return std::fflush(stdout) == 0 ? Result<void>()
+                                    : Result<void>(Error{"standard output cannot be written"});
+}
+
+} // namespace
+
+cli::Command add_findings_command(CLI::App& program, cli::Interrupt& /*interrupt*/) {
+    auto* arguments = program.add_subcommand(
+        "findings", "judges the conclusions of the sources by the results in a folder");
+    auto choice = std::make_shared<FindingsChoice>();
+    arguments
+        ->add_option("--results", choice->results,
+                     "the folder with results, written by --json (bench/results)")
+        ->type_name("FOLDER");
+    arguments
+        ->add_option("--markdown", choice->markdown,
+                     "write the page to FILE instead of standard output")
+        ->type_name("FILE");
+    arguments->footer(
+        "Measures nothing. A conclusion without results is marked as not measured yet; the page\n"
+        "has the commands that measure it.\n"
+        "Examples:\n"
+        "  reljef-bench findings\n"
+        "  reljef-bench findings --markdown docs/findings.md\n"
+        "  reljef-bench findings --results my-results --markdown my-findings.md");
+    return {arguments, [choice] { return run_findings(*choice); }};
+}
+
+} // namespace reljef::bench

@@ -1,0 +1,192 @@
+#include "bench/findings/findings_page.h"
+
+#include <set>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/cli/interrupt.h"
+#include "app/cli/parser.h"
+#include "bench/commands.h"
+#include "bench/findings/conclusions.h"
+#include "bench/findings/figures.h"
+#include "tests/bench/bench_program.h"
+#include "tests/support/plain_words.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::bench {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::filesystem::path source_folder() {
+    return RELJEF_SOURCE;
+}
+
+std::string committed_page() {
+    return test::read_bytes(source_folder() / "docs" / "findings.md");
+}
+
+std::vector<Figure> all_figures() {
+    std::vector<Figure> figures;
+    for (const Chapter& chapter : findings_chapters()) {
+        for (const Chapter::Sentence& sentence : chapter.answer) {
+            figures.insert(figures.end(), sentence.figures.begin(), sentence.figures.end());
+        }
+        for (const Conclusion& conclusion : chapter.conclusions) {
+            figures.insert(figures.end(), conclusion.figures.begin(), conclusion.figures.end());
+        }
+    }
+    return figures;
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (auto at = text.find(part); at != text.npos; at = text.find(part, at + part.size())) {
+        ++count;
+    }
+    return count;
+}
+
+// The arguments after "reljef-bench" of the commands on a page.
+std::vector<std::vector<std::string>> commands_on(const std::string& page) {
+    const std::string program = "build/release/bin/reljef-bench ";
+    std::vector<std::vector<std::string>> commands;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with(program)) {
+            std::istringstream words(line.substr(program.size()));
+            commands.emplace_back(std::istream_iterator<std::string>(words),
+                                  std::istream_iterator<std::string>());
+        }
+    }
+    return commands;
+}
+
+// Written again by reljef-bench findings --markdown docs/findings.md.
+TEST(Findings, CommittedPageIsTheOneOfTheCommittedResults) {
+    const auto page = findings_page(source_folder() / "bench" / "results");
+    ASSERT_TRUE(page) << page.error().message;
+    EXPECT_EQ(committed_page(), *page);
+}
+
+TEST(Findings, EveryCommandOnThePageIsOneThatTheProgramTakes) {
+    const cli::Program program = reljef_bench_program();
+    cli::Interrupt interrupt;
+    const auto commands = commands_on(committed_page());
+    EXPECT_EQ(commands.size(), results_sources().size());
+    for (std::vector<std::string> words : commands) {
+        std::vector<char*> arguments;
+        std::transform(words.begin(), words.end(), std::back_inserter(arguments),
+                       [](std::string& word) { return word.data(); });
+        cli::Parser parser(program, interrupt);
+        EXPECT_NO_THROW(parser.parse(arguments)) << testing::PrintToString(words);
+    }
+}
+
+TEST(Findings, TheirResultsExistAndTheirCommandsAreThoseOfTheReadme) {
+    const auto results = source_folder() / "bench" / "results";
+    const std::string readme = test::read_bytes(results / "README.md");
+    for (const ResultsSource& source : results_sources()) {
+        EXPECT_TRUE(std::filesystem::exists(results / source.file())) << source.name;
+        EXPECT_THAT(readme, HasSubstr("build/release/bin/" + source.command + "\n"));
+        EXPECT_THAT(source.command, HasSubstr("--json bench/results/" + source.file()));
+    }
+}
+
+TEST(Findings, UseNoTimesOfABusyMachineAndNoOtherFiles) {
+    for (const Figure& figure : all_figures()) {
+        if (figure.form == Figure::Form::constant) {
+            continue;
+        }
+        const auto sources = results_sources();
+        const auto source =
+            std::find_if(sources.begin(), sources.end(), [&](const ResultsSource& candidate) {
+                return candidate.file() == figure.row.file;
+            });
+        ASSERT_NE(source, sources.end()) << figure.row.file;
+        EXPECT_TRUE(source->quiet || figure.quantity != Quantity::ms) << figure.words;
+    }
+}
+
+TEST(Findings, AreSentencesWithAFigureForEachPlace) {
+    std::set<std::string> claims;
+    for (const Chapter& chapter : findings_chapters()) {
+        for (const Chapter::Sentence& sentence : chapter.answer) {
+            EXPECT_EQ(occurrences(sentence.text, "{}"), sentence.figures.size()) << sentence.text;
+        }
+        for (const Conclusion& conclusion : chapter.conclusions) {
+            EXPECT_TRUE(claims.insert(conclusion.source + conclusion.claim).second)
+                << conclusion.claim;
+            EXPECT_TRUE(conclusion.claim.ends_with('.')) << conclusion.claim;
+            EXPECT_FALSE(conclusion.figures.empty() && conclusion.note.empty()) << conclusion.claim;
+        }
+    }
+    EXPECT_GE(claims.size(), 50U);
+}
+
+TEST(Findings, UsePlainWords) {
+    for (const char* const phrase : test::dialect_phrases) {
+        EXPECT_THAT(committed_page(), Not(HasSubstr(phrase)));
+    }
+}
+
+TEST(Findings, WithoutResultsNothingIsMeasuredAndNothingIsClaimed) {
+    const test::TemporaryFolder folder;
+    const auto page = findings_page(folder.path());
+    ASSERT_TRUE(page) << page.error().message;
+    // J's table against J's text is all that is left.
+    EXPECT_EQ(occurrences(*page, "| **refuted** |"), 1U);
+    EXPECT_EQ(occurrences(*page, "| **confirmed** |"), 1U);
+    EXPECT_EQ(occurrences(*page, "| **depends** |"), 0U);
+    EXPECT_THAT(*page, Not(HasSubstr("In return")));
+}
+
+TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
+    const test::TemporaryFolder folder;
+    folder.write("tables.json", R"({"schema": "reljef-bench/1", "rows": [{"test": "relief-1",)"
+                                R"( "label": "texture", "error": {"wrong_percent": 20}}]})");
+    const std::vector<std::string> files{"tables.json"};
+    const auto results = CommittedResults::read(folder.path(), files);
+    ASSERT_TRUE(results);
+    const RowName row = source_test("relief-1", {scene::Texture{}});
+    const std::vector<Chapter> chapters{
+        {"What?",
+         {{"At most 30: {}.", {plain("", Quantity::wrong, row, at_most(30.0))}},
+          {"At most 10: {}.", {plain("", Quantity::wrong, row, at_most(10.0))}}},
+         {{"J 1",
+           "It is small.",
+           "at most 10 %",
+           {plain("it", Quantity::wrong, row, at_most(10.0))}},
+          {"J 2",
+           "It is large.",
+           "over 10 %",
+           {plain("it", Quantity::wrong, row, at_least(10.0))}}}}};
+    const auto page = findings_page(chapters, {}, *results);
+    ASSERT_TRUE(page) << page.error().message;
+    EXPECT_THAT(*page, HasSubstr("At most 30: 20.0\u00a0%.\n"));
+    EXPECT_THAT(*page, Not(HasSubstr("At most 10")));
+    EXPECT_THAT(*page,
+                HasSubstr("| J 1 | It is small. | at most 10 % | it: 20.0\u00a0% | **refuted** |"));
+    EXPECT_THAT(*page,
+                HasSubstr("| J 2 | It is large. | over 10 % | it: 20.0\u00a0% | **confirmed** |"));
+    EXPECT_THAT(*page, HasSubstr("Of 2 conclusions, 1 are confirmed, 1 are refuted"));
+}
+
+TEST(FindingsCommand, PrintsThePageOrWritesIt) {
+    const std::string results = (source_folder() / "bench" / "results").string();
+    EXPECT_EQ(test::reljef_bench({"findings", "--results", results}).out, committed_page());
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "page.md";
+    const auto run =
+        test::reljef_bench({"findings", "--results", results, "--markdown", file.string()});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(test::read_bytes(file), committed_page());
+}
+
+} // namespace
+} // namespace reljef::bench
