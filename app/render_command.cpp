@@ -20,6 +20,7 @@
 #include "app/comparing/compare_option.h"
 #include "app/finished_frames.h"
 #include "app/frame_sink.h"
+#include "app/objects/object_option.h"
 #include "engine/io/image/image.h"
 #include "engine/io/image/picture_writer.h"
 #include "engine/session/frame_maker.h"
@@ -444,6 +445,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<RenderChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
+    add_object_option(*arguments, choice->view.objects);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);
     arguments
