@@ -151,6 +151,10 @@ std::string plain_text(std::string_view text) {
     return plain;
 }
 
+Error too_large() {
+    return {"takes more memory than an import may have, a smaller mesh was expected"};
+}
+
 Result<std::vector<MeshPart>> parts_of(const aiScene& scene) {
     std::size_t triangles = 0;
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -185,13 +189,17 @@ Result<std::vector<MeshPart>> import_mesh(const std::filesystem::path& file) {
         set_up(importer, std::filesystem::absolute(file));
         const aiScene* const scene =
             importer.ReadFile(std::filesystem::absolute(file).string(), steps);
+        const std::string problem = importer.GetErrorString();
+        if (problem.find("bad_alloc") != std::string::npos) { // Assimp catches it
+            return too_large();
+        }
         if (scene == nullptr) {
             return Error{fmt::format("cannot be read ({}), an OBJ or glTF 2.0 file was expected",
-                                     plain_text(importer.GetErrorString()))};
+                                     plain_text(problem))};
         }
         return parts_of(*scene);
     } catch (const std::bad_alloc&) {
-        return Error{"takes more memory than an import may have, a smaller mesh was expected"};
+        return too_large();
     } catch (const std::exception& problem) {
         return Error{fmt::format("cannot be read ({}), an OBJ or glTF 2.0 file was expected",
                                  plain_text(problem.what()))};
