@@ -251,7 +251,11 @@ SourceHeight height_of(const TerrainSource& source) {
 Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
                            const SceneOptions& view, Log& log, const std::stop_token& stop) {
     std::vector<io::ObjectDescription> objects = source.description.objects;
-    objects.insert(objects.end(), view.objects.begin(), view.objects.end());
+    for (const io::ObjectDescription& object : view.objects) {
+        if (object.at || !scene.is_gallery) { // else one of its models
+            objects.push_back(object);
+        }
+    }
     auto placed = add_objects(scene.scene, *scene.terrain->get<scene::TerrainNode>()->surface,
                               objects, height_of(source), stop);
     if (!placed) {
