@@ -412,9 +412,8 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     if (!scene) {
         return scene.error();
     }
-    if (auto drawn =
-            draw_outputs(choice, *scene, has_camera_of_file, *maker->frames, log, interrupt);
-        !drawn) {
+    auto drawn = draw_outputs(choice, *scene, has_camera_of_file, *maker->frames, log, interrupt);
+    if (!drawn) {
         return drawn;
     }
     session::log_stream_errors(scene->scene, log);
@@ -432,7 +431,7 @@ constexpr const char* examples =
     "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
     "slurm --resume\n"
     "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
-    "  reljef render dem.tif --technique texture --hit hit.exr\n"
+    "  reljef render N45E006.hgt --object house.glb:at=45.5,6.5 --hit hit.exr\n"
     "  reljef render urban --detail cobble:width=3 -o street.png\n"
     "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
     "  reljef render dem.tif --technique relief --compare errors -o errors.png\n"

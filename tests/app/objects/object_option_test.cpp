@@ -124,6 +124,10 @@ TEST_F(ObjectsOnTerrain, WrongOnesAreOneSentence) {
         return test::reljef({"render", dem_, "--quiet", "-o", out, "--object", text});
     };
     test::expect_refusal(render(object(":at=1,2,size=3")), 2, {"--object", "'size' found"});
+    test::expect_refusal(
+        test::reljef({"render", dem_, "--hit", folder_.write("b.exr", "").string(), "--object",
+                      (folder_.path() / "b.exr").string() + ":at=1,2"}),
+        2, {"--hit", "which is read as --object"});
     test::expect_refusal(render(object(":at=100,2")), 1, {cube_, "outside the terrain"});
     test::expect_refusal(render(cube_), 1, {cube_, "no place found"});
     test::expect_refusal(render("none.obj:at=1,2"), 1, {"none.obj: nothing found"});
