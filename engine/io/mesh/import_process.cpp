@@ -135,7 +135,8 @@ Result<Child> Child::start(const fs::path& file, const ImportLimits& limits) {
 Result<std::vector<std::byte>> read_answer(const Child& child, const fs::path& file,
                                            const ImportLimits& limits,
                                            const std::stop_token& stop) {
-    const auto deadline = Clock::now() + std::chrono::seconds(limits.seconds);
+    const std::chrono::seconds longest(3 * limits.seconds);
+    const auto deadline = Clock::now() + longest;
     constexpr int slice = 50; // milliseconds between looks at the stop
     std::vector<std::byte> answer;
     std::vector<std::byte> block(std::size_t{1} << 16U);
@@ -144,7 +145,7 @@ Result<std::vector<std::byte>> read_answer(const Child& child, const fs::path& f
             return Error{fmt::format("{}: the import was stopped", file.string())};
         }
         if (Clock::now() >= deadline) {
-            return problem_of(file, fmt::format("takes over {} s to import", limits.seconds));
+            return problem_of(file, fmt::format("takes over {} s to import", longest.count()));
         }
         pollfd waiting{child.answer(), POLLIN, 0};
         if (::poll(&waiting, 1, slice) <= 0) {
@@ -178,12 +179,12 @@ std::string text_of(const std::vector<std::byte>& answer) {
 } // namespace
 
 Result<void> limit_this_process(int megabytes, int seconds) {
-    const auto set = [](auto resource, rlim_t value) {
-        const rlimit limit{value, value};
+    const auto set = [](auto resource, rlim_t value, rlim_t more = 0) {
+        const rlimit limit{value, value + more};
         return ::setrlimit(resource, &limit) == 0;
     };
     const rlim_t bytes = static_cast<rlim_t>(megabytes) << 20U;
-    const bool done = set(RLIMIT_CORE, 0) && set(RLIMIT_CPU, static_cast<rlim_t>(seconds)) &&
+    const bool done = set(RLIMIT_CORE, 0) && set(RLIMIT_CPU, static_cast<rlim_t>(seconds), 1) &&
                       set(RLIMIT_FSIZE, 0) && (!limits_memory || set(RLIMIT_AS, bytes));
     return done ? Result<void>() : Error{"cannot be imported within limits"};
 }

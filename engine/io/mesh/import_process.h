@@ -11,8 +11,8 @@ namespace reljef::io {
 
 /// Limits of the process that imports a mesh.
 struct ImportLimits {
-    int seconds = 60;     ///< of waiting, and of computing; > 0
-    int megabytes = 2048; ///< of its addresses; > 0. Without effect under the sanitizers
+    int seconds = 60;     ///< of computing; > 0. Three times as long is waited, on busy machines
+    int megabytes = 3072; ///< of its addresses; > 0. Without effect under the sanitizers
     std::size_t max_answer = std::size_t{1} << 30U; ///< bytes
     /// The program reljef-mesh-import; empty: the one beside the running program, or of the
     /// installation.
