@@ -20,6 +20,7 @@
 #include "app/comparing/compare_option.h"
 #include "app/finished_frames.h"
 #include "app/frame_sink.h"
+#include "app/objects/object_option.h"
 #include "engine/io/image/image.h"
 #include "engine/io/image/picture_writer.h"
 #include "engine/session/frame_maker.h"
@@ -411,9 +412,8 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     if (!scene) {
         return scene.error();
     }
-    if (auto drawn =
-            draw_outputs(choice, *scene, has_camera_of_file, *maker->frames, log, interrupt);
-        !drawn) {
+    auto drawn = draw_outputs(choice, *scene, has_camera_of_file, *maker->frames, log, interrupt);
+    if (!drawn) {
         return drawn;
     }
     session::log_stream_errors(scene->scene, log);
@@ -431,7 +431,7 @@ constexpr const char* examples =
     "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
     "slurm --resume\n"
     "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
-    "  reljef render dem.tif --technique texture --hit hit.exr\n"
+    "  reljef render N45E006.hgt --object house.glb:at=45.5,6.5 --hit hit.exr\n"
     "  reljef render urban --detail cobble:width=3 -o street.png\n"
     "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
     "  reljef render dem.tif --technique relief --compare errors -o errors.png\n"
@@ -444,6 +444,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<RenderChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
+    add_object_option(*arguments, choice->view.objects);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);
     arguments

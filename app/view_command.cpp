@@ -14,6 +14,7 @@
 #include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "app/frame_sink.h"
+#include "app/objects/object_option.h"
 #include "app/viewer/opening.h"
 #include "app/viewer/viewer.h"
 #include "app/viewer/window_loop.h"
@@ -199,6 +200,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<ViewerChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
+    add_object_option(*arguments, choice->view.objects);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
     arguments->add_flag("--no-panels", choice->hides_panels,

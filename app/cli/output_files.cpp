@@ -50,6 +50,9 @@ std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoic
     for (const fs::path& image : terrain.imagery) {
         files.push_back({"--imagery", image});
     }
+    for (const auto& object : view.objects) {
+        files.push_back({"--object", object.file});
+    }
     return files;
 }
 

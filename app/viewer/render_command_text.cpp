@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/objects/object_option.h"
+
 namespace reljef::app {
 namespace {
 
@@ -185,6 +187,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
         return added.error();
     }
     add_detail(command, start.scene);
+    for (const io::ObjectDescription& object : start.scene.objects) {
+        command.add("--object", to_text(object));
+    }
     add_surroundings(command, scene, start, shown);
     if (scene.materials().front()->wireframe) {
         command.add("--wireframe");

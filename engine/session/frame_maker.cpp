@@ -354,7 +354,7 @@ HitBuffer in_source_rows(HitBuffer hits, const TerrainScene& scene, bool by_rays
     const geo::WrappedRows& rows =
         of_tiles ? terrain.stream->maker().rows() : georeference->geodetic.rows();
     for (Hit& hit : hits.samples()) {
-        if (!hit.is_sky()) {
+        if (truth::shows_terrain(hit)) {
             const glm::dvec2 place = hit.place();
             hit = hit_at({place.x, rows.source_row(place.y)}, hit.height, hit.depth);
         }

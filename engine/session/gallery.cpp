@@ -9,6 +9,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/session/material_source.h"
+#include "engine/session/objects/whole_mesh.h"
 #include "engine/session/prepared_maps.h"
 #include "terrains/gallery/gallery.h"
 
@@ -37,6 +38,53 @@ scene::Mesh mesh_of(const terrains::GalleryModel& model) {
         return scene::bowl_mesh(size.x, 96);
     }
     abort_with("a model without a shape");
+}
+
+// A mesh of the user in the gallery.
+struct OwnModel {
+    std::shared_ptr<const scene::Mesh> mesh;
+    terrains::GalleryModel model; ///< its name is its technique's; without a shape
+};
+
+constexpr double own_side = 1.1;       // metres
+constexpr float own_tile_width = 0.3F; // metres
+constexpr int own_columns = 6;
+
+// In rows from the front to the back.
+glm::dvec3 own_place(int index) {
+    const glm::dvec2 front(-3.75, -3.0);
+    const glm::dvec2 distance(1.5, 2.8);
+    const glm::dvec2 cell(index % own_columns, index / own_columns);
+    return {front + cell * distance, 0.0};
+}
+
+Result<std::vector<OwnModel>> own_models(const SceneOptions& view, const std::stop_token& stop) {
+    std::vector<OwnModel> models;
+    for (const io::ObjectDescription& object : view.objects) {
+        if (object.at) {
+            continue;
+        }
+        auto mesh = read_whole_mesh(object.file, own_side, stop);
+        if (!mesh) {
+            return mesh.error();
+        }
+        const auto width = static_cast<float>(scene::tile_width(*mesh, glm::vec2(1.0F)));
+        const auto shared = std::make_shared<const scene::Mesh>(std::move(*mesh));
+        for (const scene::TechniqueInfo& technique : scene::technique_catalogue()) {
+            if (scene::draws_any_mesh(technique.id)) {
+                terrains::GalleryModel model{terrains::GalleryShape::box,
+                                             technique.name,
+                                             "brick",
+                                             own_place(static_cast<int>(models.size())),
+                                             0.0,
+                                             {},
+                                             glm::vec2(width / own_tile_width),
+                                             technique.name};
+                models.push_back({shared, model});
+            }
+        }
+    }
+    return models;
 }
 
 // Planes are upright and face south.
@@ -144,6 +192,25 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
               log,
               stop};
     std::vector<scene::Node*> nodes;
+    const auto own = own_models(view, stop);
+    if (!own) {
+        return own.error();
+    }
+    for (const OwnModel& shown : *own) {
+        const auto set = sets.of(shown.model);
+        if (!set) {
+            return set.error();
+        }
+        scene::Node& node =
+            scene.root().add(std::string(shown.model.name),
+                             scene::MeshNode{shown.mesh, material_of(shown.model, *set, *technique,
+                                                                     view.wireframe)});
+        node.set_position(shown.model.center);
+        nodes.push_back(&node);
+    }
+    if (!nodes.empty()) {
+        return nodes;
+    }
     for (const terrains::GalleryModel& model : terrains::gallery_models()) {
         const auto set = sets.of(model);
         if (!set) {

@@ -13,6 +13,7 @@
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
 #include "engine/geo/sun_position.h"
+#include "engine/io/formats/scene_file.h"
 #include "engine/io/tile_set.h"
 #include "engine/platform/context.h"
 #include "engine/scene/graph/camera.h"
@@ -110,6 +111,7 @@ struct SceneOptions {
     std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
     std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
+    std::vector<io::ObjectDescription> objects; ///< besides the scene file's
     bool prepares_maps = true;        ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.

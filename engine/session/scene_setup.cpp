@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -158,10 +159,11 @@ Error refused_technique(const Error& reason, const SceneOptions& view) {
 
 // That of rays if no technique is named and they draw the terrain.
 std::optional<scene::Technique> default_technique(const scene::TerrainNode& terrain,
-                                                  const SceneOptions& view) {
+                                                  bool has_objects, const SceneOptions& view) {
     const scene::Technique exact{scene::Exact{}};
     const bool is_named = view.technique || view.max_error;
     const bool is_exact = view.rays != RayUse::none && !is_named && terrain.stream == nullptr &&
+                          !has_objects &&
                           terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
                           cast::obstacle_of(terrain, exact).empty();
     return is_exact ? std::optional(exact) : std::nullopt;
@@ -175,7 +177,8 @@ Result<void> choose_technique(TerrainScene& scene, const SceneOptions& view) {
     }
     auto& node = *scene.terrain->get<scene::TerrainNode>();
     node.material.wireframe = view.wireframe;
-    const scene::Technique technique = default_technique(node, view).value_or(technique_of(view));
+    const scene::Technique technique =
+        default_technique(node, !scene.objects.empty(), view).value_or(technique_of(view));
     if (auto good = scene.check(technique); !good) {
         return refused_technique(good.error(), view);
     }
@@ -232,6 +235,39 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
     return models;
 }
 
+// The source's heights where the terrain is the overview of a stream.
+SourceHeight height_of(const TerrainSource& source) {
+    if (!source.stream || !source.tiles) {
+        return {};
+    }
+    return [&tiles = *source.tiles](glm::dvec2 place) -> std::optional<double> {
+        const io::HeightSample found = tiles.heights(std::span(&place, 1)).answers.front();
+        return found.kind == io::HeightSample::Kind::height ? std::optional(found.height)
+                                                            : std::nullopt;
+    };
+}
+
+// Those of the scene file, then those of the options.
+Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
+                           const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    std::vector<io::ObjectDescription> objects = source.description.objects;
+    for (const io::ObjectDescription& object : view.objects) {
+        if (object.at || !scene.is_gallery) { // else one of its models
+            objects.push_back(object);
+        }
+    }
+    auto placed = add_objects(scene.scene, *scene.terrain->get<scene::TerrainNode>()->surface,
+                              objects, height_of(source), stop);
+    if (!placed) {
+        return placed.error();
+    }
+    for (const std::string& note : placed->notes) {
+        log.note(note);
+    }
+    scene.objects = std::move(placed->objects);
+    return {};
+}
+
 BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
     return view.base.value_or(description.base == "none"    ? BaseKind::none
                               : description.base == "solid" ? BaseKind::solid
@@ -280,6 +316,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return detail.error();
     }
     shown.detail = std::move(*detail);
+    if (auto done = place_objects(result, source, view, log, stop); !done) {
+        return done.error();
+    }
     if (result.is_gallery) {
         auto models = checked_gallery(result, source, terrain, view, log, stop);
         if (!models) {

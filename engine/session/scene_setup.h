@@ -10,6 +10,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/motion/camera_path.h"
 #include "engine/session/log.h"
+#include "engine/session/objects/placed_objects.h"
 #include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
 
@@ -28,6 +29,7 @@ struct TerrainScene {
     scene::Node* camera = nullptr;    ///< owned by the scene
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
+    std::vector<PlacedObject> objects;
     Box bounds;                       ///< of the terrain, scene metres
     Surroundings surroundings;
     bool is_gallery = false;

@@ -5,13 +5,38 @@
 namespace reljef::truth {
 namespace {
 
-glm::vec3 color_of(const Eye& eye, const Ray& ray, const std::optional<SceneHit>& hit,
-                   const Shading& shading) {
-    return hit ? shading.at(*hit, ray, eye.distance(ray, hit->surface.t)) : shading.background(ray);
+// The nearest of both, or the sky.
+struct Seen {
+    std::optional<SceneHit> terrain;
+    std::optional<MeshHit> mesh;
+};
+
+Seen seen_by(const SceneCaster& caster, const Ray& ray, Interval range) {
+    Seen seen{caster.first_hit(ray, range), {}};
+    if (seen.terrain) {
+        range.end = seen.terrain->surface.t;
+    }
+    seen.mesh = caster.meshes().first_hit(ray, range);
+    if (seen.mesh) {
+        seen.terrain.reset();
+    }
+    return seen;
 }
 
-Hit shown_hit(const std::optional<SceneHit>& hit) {
-    return as_shown(hit ? std::optional(hit->surface) : std::nullopt);
+glm::vec3 color_of(const Eye& eye, const Ray& ray, const Seen& seen, const SceneCaster& caster,
+                   const Shading& shading) {
+    if (seen.mesh) {
+        return shading.at(*seen.mesh, caster, ray, eye.distance(ray, seen.mesh->t));
+    }
+    return seen.terrain ? shading.at(*seen.terrain, ray, eye.distance(ray, seen.terrain->surface.t))
+                        : shading.background(ray);
+}
+
+Hit shown_hit(const Seen& seen) {
+    if (seen.mesh) {
+        return MeshCaster::as_shown(*seen.mesh);
+    }
+    return as_shown(seen.terrain ? std::optional(seen.terrain->surface) : std::nullopt);
 }
 
 } // namespace
@@ -31,15 +56,15 @@ Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const sc
     const Eye eye(camera, size, caster.bounds());
     const auto color_at = [&](glm::dvec2 place) {
         const Ray ray = eye.ray(place);
-        return color_of(eye, ray, caster.first_hit(ray, eye.range()), shading);
+        return color_of(eye, ray, seen_by(caster, ray, eye.range()), caster, shading);
     };
     const auto done = for_each_pixel(size, options.parallel, [&](glm::ivec2 pixel) {
         const Ray ray = eye.ray(glm::dvec2(pixel) + 0.5);
-        const auto hit = caster.first_hit(ray, eye.range());
+        const Seen seen = seen_by(caster, ray, eye.range());
         const glm::vec3 color = options.rays_per_side == 1
-                                    ? color_of(eye, ray, hit, shading)
+                                    ? color_of(eye, ray, seen, caster, shading)
                                     : mean_color(pixel, options.rays_per_side, color_at);
-        picture.hits(pixel.x, pixel.y) = shown_hit(hit);
+        picture.hits(pixel.x, pixel.y) = shown_hit(seen);
         picture.image(pixel.x, pixel.y) = rgba8_from_linear(color);
     });
     return done ? Result<Picture>(std::move(picture)) : done.error();
@@ -60,7 +85,7 @@ Result<HitBuffer> draw_hits(const SceneCaster& caster, const scene::Camera& came
     const Eye eye(camera, size, caster.bounds());
     const auto done = for_each_pixel(size, parallel, [&](glm::ivec2 pixel) {
         hits(pixel.x, pixel.y) =
-            shown_hit(caster.first_hit(eye.ray(glm::dvec2(pixel) + 0.5), eye.range()));
+            shown_hit(seen_by(caster, eye.ray(glm::dvec2(pixel) + 0.5), eye.range()));
     });
     return done ? Result<HitBuffer>(std::move(hits)) : done.error();
 }

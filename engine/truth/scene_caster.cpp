@@ -1,6 +1,7 @@
 #include "engine/truth/scene_caster.h"
 
-#include <fmt/format.h>
+#include <utility>
+
 #include <glm/matrix.hpp>
 
 #include "engine/truth/eye.h"
@@ -18,20 +19,21 @@ PlacedTerrain placed(const scene::TerrainNode& node, const glm::dmat4& world_fro
 } // namespace
 
 Result<SceneCaster> SceneCaster::create(const scene::Scene& scene) {
+    auto meshes = MeshCaster::create(scene);
+    if (!meshes) {
+        return meshes.error();
+    }
     SceneCaster caster;
-    std::optional<Error> error;
+    caster.meshes_ = std::move(*meshes);
+    caster.bounds_.add(caster.meshes_.bounds());
     scene::visit_visible(
         scene.root(), [&](const scene::Node& node, const glm::dmat4& world_from_local) {
             if (const auto* terrain = node.get<scene::TerrainNode>()) {
                 caster.terrains_.push_back(placed(*terrain, world_from_local));
                 caster.bounds_.add(transformed(world_from_local, terrain->surface->bounds()));
-            } else if (node.get<scene::MeshNode>() != nullptr && !error) {
-                error = Error{fmt::format("node '{}': is a mesh, and of meshes there is no exact "
-                                          "picture; terrains only were expected",
-                                          node.name())};
             }
         });
-    return error ? Result<SceneCaster>(*error) : Result<SceneCaster>(std::move(caster));
+    return caster;
 }
 
 std::optional<SceneHit> SceneCaster::first_hit(const Ray& world_ray, Interval range) const {

@@ -11,6 +11,7 @@
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/terrain/field/surface_caster.h"
+#include "engine/truth/mesh_caster.h"
 
 namespace reljef::truth {
 
@@ -27,15 +28,16 @@ struct SceneHit {
     terrain::SurfaceHit surface; ///< t along the world ray; place in the terrain's samples
 };
 
-/// Intersects rays with the bilinear surfaces of a scene's terrains, in double precision. Ignores
-/// technique, wireframe and later changes of the scene. Thread-safe.
+/// Intersects rays with the bilinear surfaces of a scene's terrains, and with its meshes, in double
+/// precision. Ignores technique, wireframe and later changes of the scene. Thread-safe.
 class SceneCaster {
 public:
-    /// Fails when a mesh node is visible.
+    /// Fails as MeshCaster::create().
     static Result<SceneCaster> create(const scene::Scene& scene);
 
     [[nodiscard]] const std::vector<PlacedTerrain>& terrains() const { return terrains_; }
-    /// World metres.
+    [[nodiscard]] const MeshCaster& meshes() const { return meshes_; }
+    /// Of terrains and meshes, world metres.
     [[nodiscard]] const Box& bounds() const { return bounds_; }
 
     /// The nearest crossing from above to below a terrain, t in `range`. Of equal crossings the
@@ -46,6 +48,7 @@ private:
     SceneCaster() = default;
 
     std::vector<PlacedTerrain> terrains_;
+    MeshCaster meshes_;
     Box bounds_;
 };
 

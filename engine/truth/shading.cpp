@@ -119,6 +119,11 @@ glm::vec3 Shading::at(const SceneHit& hit, const Ray& ray, double distance) cons
     return backdrop_.through_air(at(hit), ray, distance);
 }
 
+glm::vec3 Shading::at(const MeshHit& hit, const SceneCaster& caster, const Ray& ray,
+                      double distance) const {
+    return backdrop_.through_air(caster.meshes().color_at(hit, backdrop_.sun), ray, distance);
+}
+
 glm::vec3 Backdrop::through_air(glm::vec3 color, const Ray& ray, double distance) const {
     return sky ? seen_through_air(*sky, sun, color, ray, distance) : color;
 }

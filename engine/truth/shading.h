@@ -51,6 +51,9 @@ public:
 
     /// Albedo times irradiance (scene/terrain_light.h); without a light the albedo.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit) const;
+    /// Of a mesh of the caster.
+    [[nodiscard]] glm::vec3 at(const MeshHit& hit, const SceneCaster& caster, const Ray& ray,
+                               double distance) const;
     /// The same through `distance` metres of air.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit, const Ray& ray, double distance) const;
     /// The sky; black without one.

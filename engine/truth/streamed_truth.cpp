@@ -23,17 +23,15 @@ struct TerrainInWorld {
 
 Result<TerrainInWorld> only_terrain(const scene::Scene& scene) {
     std::vector<TerrainInWorld> found;
-    bool has_others = false;
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
         if (const auto* terrain = node.get<scene::TerrainNode>()) {
             found.push_back({terrain, matrix});
         }
-        has_others = has_others || node.get<scene::MeshNode>() != nullptr;
     });
-    if (has_others || found.size() != 1 || found[0].terrain->stream == nullptr) {
-        return Error{fmt::format("the exact picture: {} terrains found{}, one streamed terrain was "
+    if (found.size() != 1 || found[0].terrain->stream == nullptr) {
+        return Error{fmt::format("the exact picture: {} terrains found, one streamed terrain was "
                                  "expected",
-                                 found.size(), has_others ? " and meshes" : "")};
+                                 found.size())};
     }
     return found[0];
 }
@@ -65,7 +63,8 @@ struct StreamedTruth::TileHits {
 struct StreamedTruth::Batch {
     std::vector<glm::dvec2> places; // on the picture
     std::vector<std::optional<terrain::SurfaceHit>> hits;
-    std::vector<glm::vec3> colors; // linear
+    std::vector<std::optional<MeshHit>> mesh_hits; // before the terrain; empty without meshes
+    std::vector<glm::vec3> colors;                 // linear
 };
 
 Result<StreamedTruth> StreamedTruth::create(const scene::Scene& scene,
@@ -79,7 +78,13 @@ Result<StreamedTruth> StreamedTruth::create(const scene::Scene& scene,
     constexpr std::size_t min_rays = 4096;
     const std::size_t per_ray = bytes_per_ray + bytes_per_shaded_ray + sizeof(glm::dvec2);
     const Memory memory{bytes / 2, std::max(min_rays, bytes / 2 / per_ray)};
-    return StreamedTruth(scene, *found->terrain, found->world_from_local, memory);
+    auto meshes = MeshCaster::create(scene);
+    if (!meshes) {
+        return meshes.error();
+    }
+    StreamedTruth truth(scene, *found->terrain, found->world_from_local, memory);
+    truth.meshes_ = std::move(*meshes);
+    return truth;
 }
 
 StreamedTruth::StreamedTruth(const scene::Scene& scene, const scene::TerrainNode& terrain,
@@ -94,7 +99,9 @@ StreamedTruth::StreamedTruth(const scene::Scene& scene, const scene::TerrainNode
 }
 
 Eye StreamedTruth::eye_of(const scene::Camera& camera, glm::ivec2 size) const {
-    return {camera, size, transformed(world_from_local_, terrain::shell_around(surface_))};
+    Box bounds = transformed(world_from_local_, terrain::shell_around(surface_));
+    bounds.add(meshes_.bounds());
+    return {camera, size, bounds};
 }
 
 Result<void> StreamedTruth::trace(const Eye& eye, Batch& batch, const ParallelOptions& parallel) {
@@ -107,7 +114,28 @@ Result<void> StreamedTruth::trace(const Eye& eye, Batch& batch, const ParallelOp
         return hits.error();
     }
     batch.hits = std::move(*hits);
+    trace_meshes(eye, batch);
     return {};
+}
+
+void StreamedTruth::trace_meshes(const Eye& eye, Batch& batch) const {
+    if (meshes_.empty()) {
+        return;
+    }
+    batch.mesh_hits.resize(batch.places.size());
+    for (std::size_t i = 0; i < batch.places.size(); ++i) {
+        Interval range = eye.range();
+        range.end = batch.hits[i] ? batch.hits[i]->t : range.end;
+        batch.mesh_hits[i] = meshes_.first_hit(eye.ray(batch.places[i]), range);
+        if (batch.mesh_hits[i]) {
+            batch.hits[i].reset();
+        }
+    }
+}
+
+Hit StreamedTruth::shown_hit(const Batch& batch, std::size_t ray) {
+    const bool shows_mesh = !batch.mesh_hits.empty() && batch.mesh_hits[ray];
+    return shows_mesh ? MeshCaster::as_shown(*batch.mesh_hits[ray]) : as_shown(batch.hits[ray]);
 }
 
 // The finest tiles, row by row as files store them.
@@ -166,8 +194,13 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
                                   const ParallelOptions& parallel) const {
     batch.colors.resize(batch.places.size());
     for (std::size_t i = 0; i < batch.hits.size(); ++i) {
-        if (!batch.hits[i]) {
-            batch.colors[i] = backdrop_.behind(eye.ray(batch.places[i]));
+        const Ray ray = eye.ray(batch.places[i]);
+        if (!batch.mesh_hits.empty() && batch.mesh_hits[i]) {
+            const MeshHit& hit = *batch.mesh_hits[i];
+            batch.colors[i] = backdrop_.through_air(meshes_.color_at(hit, backdrop_.sun), ray,
+                                                    eye.distance(ray, hit.t));
+        } else if (!batch.hits[i]) {
+            batch.colors[i] = backdrop_.behind(ray);
         }
     }
     const scene::TileStream& stream = surface_.stream();
@@ -259,7 +292,7 @@ Result<Picture> StreamedTruth::draw(const scene::Camera& camera, glm::ivec2 size
     Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
     const int n = options.rays_per_side;
     const auto use = [&](glm::ivec2 pixel, const Batch& batch, std::size_t first) {
-        picture.hits(pixel.x, pixel.y) = as_shown(batch.hits[first]);
+        picture.hits(pixel.x, pixel.y) = shown_hit(batch, first);
         const auto colors = std::span(batch.colors).subspan(first);
         glm::vec3 color = colors[0];
         if (n > 1) {
@@ -278,7 +311,7 @@ Result<HitBuffer> StreamedTruth::draw_hits(const scene::Camera& camera, glm::ive
                                            const ParallelOptions& parallel) {
     HitBuffer hits(size.x, size.y);
     const auto use = [&](glm::ivec2 pixel, const Batch& batch, std::size_t first) {
-        hits(pixel.x, pixel.y) = as_shown(batch.hits[first]);
+        hits(pixel.x, pixel.y) = shown_hit(batch, first);
     };
     const auto done = for_each_batch(eye_of(camera, size), size, 1, false, parallel, use);
     return done ? Result<HitBuffer>(std::move(hits)) : done.error();

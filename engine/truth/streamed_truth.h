@@ -15,6 +15,7 @@
 #include "engine/truth/draw.h"
 #include "engine/truth/eye.h"
 #include "engine/truth/geometric_error.h"
+#include "engine/truth/mesh_caster.h"
 #include "engine/truth/shading.h"
 #include "engine/truth/streamed_surface.h"
 
@@ -28,7 +29,7 @@ namespace reljef::truth {
 class StreamedTruth {
 public:
     /// `memory_budget`: bytes for rays and tiles; absent: that of the stream. Fails unless the
-    /// scene has exactly one terrain, a streamed one, and no meshes.
+    /// scene has exactly one terrain, a streamed one, and as MeshCaster::create().
     static Result<StreamedTruth> create(const scene::Scene& scene,
                                         std::optional<std::size_t> memory_budget = {});
 
@@ -59,6 +60,8 @@ private:
 
     struct Batch; // rays that are traced together
     [[nodiscard]] Eye eye_of(const scene::Camera& camera, glm::ivec2 size) const;
+    static Hit shown_hit(const Batch& batch, std::size_t ray);
+    void trace_meshes(const Eye& eye, Batch& batch) const;
     Result<void> trace(const Eye& eye, Batch& batch, const ParallelOptions& parallel);
     Result<void> shade(const Eye& eye, Batch& batch, const ParallelOptions& parallel) const;
     struct TileHits;
@@ -75,6 +78,7 @@ private:
                                 const ParallelOptions& parallel, const Use& use);
 
     StreamedSurface surface_;
+    MeshCaster meshes_;
     glm::dmat4 world_from_local_;
     glm::dmat4 local_from_world_;
     std::size_t rays_per_batch_;

@@ -80,6 +80,7 @@ const std::vector<Library>& guarded_libraries() {
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
         {"libcurl", {"curl/"}, {"engine/io/remote/"}},
+        {"Assimp", {"assimp/"}, {"engine/io/mesh/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Highway", {"hwy/"}, {"engine/cast/"}},

@@ -13,6 +13,7 @@ void flight_target(std::string_view input);
 void geoid_target(std::string_view input);
 void hits_target(std::string_view input);
 void imagery_target(std::string_view input);
+void mesh_target(std::string_view input);
 void picture_target(std::string_view input);
 void place_target(std::string_view input);
 void ramp_target(std::string_view input);

@@ -45,6 +45,7 @@ for component in programs library docs; do
     run "installing $component" "$cmake" --install "$build" --prefix "$prefix" --component $component
 done
 [[ $("$prefix/bin/reljef" --version) == reljef* ]] || fail "the installed reljef tells no version"
+[[ -x $prefix/libexec/reljef/reljef-mesh-import ]] || fail "the program that imports meshes is not installed"
 [[ -s $prefix/share/doc/reljef/README.md ]] || fail "the README is not installed"
 
 project consumer 'find_package(reljef 0.1 REQUIRED)' 'add_executable(consumer main.cpp)' \

@@ -244,11 +244,24 @@ TEST(Draw, ReportsProgressAndCanBeStopped) {
     EXPECT_FALSE(draw_hits(scene, {16, 20}, parallel));
 }
 
-TEST(Draw, RefusesAMesh) {
+TEST(Draw, AMeshHidesWhatIsBehindIt) {
     scene::Scene scene = hilly_scene();
-    scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
-    EXPECT_FALSE(draw(scene, {4, 4}));
-    EXPECT_FALSE(draw_hits(scene, {4, 4}));
+    const HitBuffer bare = draw_hits(scene, {40, 30}).value();
+    const Box bounds = scene.root().world_bounds();
+    scene.add_mesh(scene::box_mesh({8.0F, 8.0F, 60.0F})).set_position(bounds.center());
+    const HitBuffer hits = draw_hits(scene, {40, 30}).value();
+    const Picture picture = draw(scene, {40, 30}).value();
+    int on_mesh = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+        const Hit& hit = hits.samples()[i];
+        const Hit& before = bare.samples()[i];
+        EXPECT_EQ(picture.hits.samples()[i].depth, hit.depth);
+        const bool shows_mesh = !hit.is_sky() && hit.col == -1.0F && hit.row == -1.0F;
+        on_mesh += shows_mesh ? 1 : 0;
+        EXPECT_TRUE(shows_mesh ? hit.depth <= before.depth : hit.depth == before.depth) << i;
+    }
+    EXPECT_GT(on_mesh, 10);
+    EXPECT_LT(on_mesh, 1000);
 }
 
 } // namespace

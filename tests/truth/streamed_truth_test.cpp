@@ -137,6 +137,32 @@ TEST(StreamedTruth, HitsOnTheEllipsoidHaveTheBitsOfTheTerrainInMemory) {
         2, 12);
 }
 
+TEST(StreamedTruth, MeshesAreWhereTheyAreOverTheTerrainInMemory) {
+    Streamed made = rough_on_plane();
+    const Box bounds = made.surface().bounds();
+    made.scene.add_mesh(scene::box_mesh(glm::vec3(4000.0F)))
+        .set_position({glm::dvec2(bounds.center()), bounds.high.z});
+    scene::Camera camera;
+    camera.eye = bounds.center() + glm::dvec3(0.0, -2.0 * bounds.size().y, 500.0);
+    camera.target = bounds.center();
+    const auto truth = made.truth().draw(camera, {32, 24});
+    ASSERT_TRUE(truth) << truth.error().message;
+    terrain_of(*made.node).stream = nullptr;
+    const SceneCaster caster = SceneCaster::create(made.scene).value();
+    const auto in_memory = draw(caster, Shading(made.scene, caster), camera, {32, 24});
+    ASSERT_TRUE(in_memory);
+    EXPECT_TRUE(have_same_bits(truth->hits, in_memory->hits));
+    int on_mesh = 0;
+    for (std::size_t i = 0; i < truth->hits.size(); ++i) {
+        const Hit& hit = truth->hits.samples()[i];
+        if (!hit.is_sky() && hit.col == -1.0F) {
+            ++on_mesh;
+            EXPECT_EQ(truth->image.samples()[i], in_memory->image.samples()[i]) << i;
+        }
+    }
+    EXPECT_GT(on_mesh, 20);
+}
+
 TEST(StreamedTruth, VerticalRaysOfAMapHitTheTerrain) {
     const Streamed made = rough_on_plane();
     scene::Camera camera;

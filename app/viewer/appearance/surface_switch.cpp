@@ -81,6 +81,7 @@ bool SurfaceSwitch::show() {
     node.surface = made->surface;
     node.bisection = nullptr;
     session::apply_maps(scene_, made->maps);
+    session::stand_on(*node.surface, scene_.objects);
     scene_.bounds = scene_.terrain->world_bounds();
     session::set_daylight(scene_, *scene_.light->get<scene::Light>());
     light_ = made->maps.light;

@@ -32,6 +32,8 @@ constexpr NumberRange turbidities{1.0, 10.0, false};
 constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
+constexpr NumberRange object_heights{-max_object_height, max_object_height, false};
+constexpr NumberRange object_scales{0.0, max_object_scale, true};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
 
@@ -154,6 +156,18 @@ void read_detail_keys(TomlTable& table, const std::filesystem::path& folder,
     }
 }
 
+void read_object_keys(TomlTable& table, const std::filesystem::path& folder,
+                      SceneDescription& scene) {
+    ObjectDescription object;
+    table.require({"file", "at"});
+    table.read("file", object.file, folder);
+    table.read("at", object.at);
+    table.read("height", object.height, object_heights);
+    table.read("heading", object.heading, azimuths);
+    table.read("scale", object.scale, object_scales);
+    scene.objects.push_back(std::move(object));
+}
+
 void read_sun_keys(TomlTable& table, SceneDescription& scene) {
     table.read("azimuth", scene.sun_azimuth, azimuths);
     table.read("altitude", scene.sun_altitude, altitudes);
@@ -201,6 +215,17 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     air.read("turbidity", scene.turbidity, turbidities);
     air.read("base", scene.base, bases);
     read_camera_keys(camera, scene);
+    std::vector<TomlTable> objects = root.tables("object");
+    if (objects.size() > max_objects) {
+        root.fail("object", fmt::format("is given {} times, at most {} were expected",
+                                        objects.size(), max_objects));
+    }
+    for (TomlTable& object : objects) {
+        read_object_keys(object, folder, scene);
+        if (auto good = object.finish(); !good) {
+            return good.error();
+        }
+    }
     for (const TomlTable* table :
          {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
         if (auto good = table->finish(); !good) {
@@ -231,6 +256,9 @@ named_files(const SceneDescription& scene) {
         {"the terrain's ramp", scene.ramp}};
     for (const std::filesystem::path& image : scene.imagery) {
         files.emplace_back("the terrain's imagery", image);
+    }
+    for (const ObjectDescription& object : scene.objects) {
+        files.emplace_back("an object", object.file);
     }
     return files;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
@@ -24,6 +26,20 @@ struct DetailDescription {
     std::optional<double> scale;      ///< maximum height in tile widths; absent: the set's own
     std::string technique = "relief"; ///< as --detail-technique
 };
+
+/// [[object]]: a mesh that stands on the terrain.
+struct ObjectDescription {
+    std::filesystem::path file; ///< OBJ or glTF (engine/io/mesh); relative to the scene file
+    /// Latitude and longitude, degrees, on georeferenced terrain; on other terrain x and y, scene
+    /// metres. Absent: among the models of the gallery.
+    std::optional<glm::dvec2> at;
+    double height = 0.0;  ///< of its lowest point above the ground, metres
+    double heading = 0.0; ///< degrees clockwise, [-360, 360]; 0: the mesh's y points north
+    double scale = 1.0;   ///< metres per metre of the file, over 0
+};
+inline constexpr double max_object_height = 1e5; ///< metres, also below the ground
+inline constexpr double max_object_scale = 1e4;
+inline constexpr std::size_t max_objects = 10'000;
 
 /// Content of a scene file (TOML). Only the source of the heights is required.
 /// terrains/natural.toml, urban.toml and gallery.toml show every key.
@@ -55,6 +71,7 @@ struct SceneDescription {
     std::string gallery_technique = "mixed"; ///< as --technique, or "mixed"
 
     std::optional<DetailDescription> detail;
+    std::vector<ObjectDescription> objects;
 
     // [sun]: degrees, or a time
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude

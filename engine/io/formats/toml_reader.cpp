@@ -121,6 +121,20 @@ std::filesystem::path path_in(const std::filesystem::path& folder, const std::st
                                                                     : folder / name;
 }
 
+// An array of `n` numbers of at most max_world_coordinate.
+template <int n> std::optional<glm::vec<n, double>> coordinates_of(const toml::node& node) {
+    const toml::array* array = node.as_array();
+    glm::vec<n, double> found{0.0};
+    bool good = array != nullptr && array->size() == n;
+    for (int i = 0; good && i < n; ++i) {
+        const toml::node& element = *array->get(static_cast<std::size_t>(i));
+        const auto number = element.is_number() ? element.value<double>() : std::optional<double>();
+        good = number && std::abs(*number) <= max_world_coordinate;
+        found[i] = number.value_or(0.0);
+    }
+    return good ? std::optional(found) : std::nullopt;
+}
+
 } // namespace
 
 Result<toml::table> parse_toml(std::string_view text, const std::string& name) {
@@ -279,24 +293,24 @@ void TomlTable::read(std::string_view key, std::vector<std::filesystem::path>& v
 
 void TomlTable::read(std::string_view key, std::optional<glm::dvec3>& value) {
     const toml::node* node = find(key);
-    if (node == nullptr) {
-        return;
-    }
-    const toml::array* array = node->as_array();
-    glm::dvec3 found{0.0};
-    bool good = array != nullptr && array->size() == 3;
-    for (std::size_t i = 0; good && i < 3; ++i) {
-        const toml::node& element = *array->get(i);
-        const auto number = element.is_number() ? element.value<double>() : std::optional<double>();
-        good = number && std::abs(*number) <= max_world_coordinate;
-        found[static_cast<int>(i)] = number.value_or(0.0);
-    }
-    if (!good) {
+    const auto found = node != nullptr ? coordinates_of<3>(*node) : std::nullopt;
+    if (found) {
+        value = found;
+    } else if (node != nullptr) {
         fail(key, fmt::format("is {}, three numbers [x, y, z] of at most {} metres were expected",
                               text_of(*node), max_world_coordinate));
-        return;
     }
-    value = found;
+}
+
+void TomlTable::read(std::string_view key, std::optional<glm::dvec2>& value) {
+    const toml::node* node = find(key);
+    const auto found = node != nullptr ? coordinates_of<2>(*node) : std::nullopt;
+    if (found) {
+        value = found;
+    } else if (node != nullptr) {
+        fail(key, fmt::format("is {}, two numbers of at most {} were expected", text_of(*node),
+                              max_world_coordinate));
+    }
 }
 
 TomlTable TomlTable::table(std::string_view key) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <toml++/toml.h>
 
@@ -48,6 +49,8 @@ public:
               const std::filesystem::path& folder);
     /// Three numbers of at most max_world_coordinate.
     void read(std::string_view key, std::optional<glm::dvec3>& value);
+    /// Two numbers of at most max_world_coordinate.
+    void read(std::string_view key, std::optional<glm::dvec2>& value);
 
     /// A nested table; empty if absent.
     TomlTable table(std::string_view key);

@@ -8,6 +8,7 @@
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 #include "engine/scene/graph/mesh.h"
+#include "engine/scene/graph/picture_detail.h"
 
 namespace reljef::render {
 namespace {
@@ -27,8 +28,14 @@ void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Textu
     program.set(uniforms.warp_from_tile, glm::vec4(per_tile, -plane->low / size));
 }
 
-ShaderVariant mesh_variant(const scene::Material& material, std::uint32_t features) {
-    if (material.detail.set == nullptr) {
+// Hits do not show the texels of a picture.
+bool shows_tile(const scene::Material& material, const FrameContext& frame) {
+    return material.detail.set != nullptr && !(frame.hits && scene::is_picture(material.detail));
+}
+
+ShaderVariant mesh_variant(const scene::Material& material, const FrameContext& frame) {
+    std::uint32_t features = frame.features;
+    if (!shows_tile(material, frame)) {
         return {ShaderKind::mesh, features};
     }
     const bool wraps = scene::visible_detail(material).border == material::WrapMode::wrap;
@@ -89,7 +96,7 @@ Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw) {
     const scene::Camera& camera = frame.list.camera;
     const MeshResidency& residency = frame.residency.meshes();
     DrawState& state = frame.state;
-    auto program = state.use(mesh_variant(material, frame.features));
+    auto program = state.use(mesh_variant(material, frame));
     if (!program) {
         return program.error();
     }
@@ -99,7 +106,7 @@ Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw) {
                     relative_from_local(camera, draw.world_from_local));
     (*program)->set(uniforms.world_from_normal, world_from_normal(draw.world_from_local));
     (*program)->set(uniforms.albedo, material.color);
-    const bool has_tile = material.detail.set != nullptr;
+    const bool has_tile = shows_tile(material, frame);
     if (has_tile) {
         if (auto set = set_tile(**program, draw, frame); !set) {
             return set;

@@ -1,7 +1,10 @@
 #include "engine/session/comparing/scene_truth.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
+
+#include "engine/scene/graph/picture_detail.h"
 
 namespace reljef::session {
 namespace {
@@ -27,18 +30,33 @@ std::vector<PlacedNode> terrains_of(const scene::Scene& scene) {
     return terrains;
 }
 
-bool shows_meshes(const scene::Scene& scene) {
-    bool found = false;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
-        found = found || node.get<scene::MeshNode>() != nullptr;
+struct PlacedMesh {
+    scene::MeshNode node;
+    glm::dmat4 world_from_local{1.0};
+
+    friend bool operator==(const PlacedMesh&, const PlacedMesh&) = default;
+};
+
+std::vector<PlacedMesh> meshes_of(const scene::Scene& scene) {
+    std::vector<PlacedMesh> meshes;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& to_world) {
+        if (const auto* mesh = node.get<scene::MeshNode>()) {
+            meshes.push_back({*mesh, to_world});
+        }
     });
-    return found;
+    return meshes;
+}
+
+bool shows_relief(const PlacedMesh& mesh) {
+    const scene::SurfaceDetail& detail = mesh.node.material.detail;
+    return detail.set != nullptr && !scene::is_picture(detail);
 }
 
 } // namespace
 
 Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
-    if (shows_meshes(scene)) {
+    std::vector<PlacedMesh> meshes = meshes_of(scene);
+    if (std::any_of(meshes.begin(), meshes.end(), shows_relief)) {
         return Error{"the exact picture: models found, a terrain was expected"};
     }
     SceneTruth truth;
@@ -47,6 +65,11 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
         truth.scene_.root()
             .add("terrain", std::move(terrain.node))
             .set_parent_from_local(terrain.world_from_local);
+    }
+    for (PlacedMesh& mesh : meshes) {
+        truth.scene_.root()
+            .add("mesh", std::move(mesh.node))
+            .set_parent_from_local(mesh.world_from_local);
     }
     truth.sun_ = scene.sun();
     if (truth.sun_) {
@@ -60,7 +83,7 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
 
 bool SceneTruth::is_of(const scene::Scene& scene) const {
     return sun_ == scene.sun() && scene_.sky() == scene.sky() &&
-           terrains_of(scene_) == terrains_of(scene) && !shows_meshes(scene);
+           terrains_of(scene_) == terrains_of(scene) && meshes_of(scene_) == meshes_of(scene);
 }
 
 Result<void> SceneTruth::prepare() {

@@ -311,5 +311,30 @@ TEST(SceneFile, AnAreaHasAllItsFourSides) {
     }
 }
 
+TEST(SceneFile, ObjectsHaveAFileAndAPlace) {
+    const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[[object]]\n";
+    const auto scene = parse_scene(terrain + "file = \"a.obj\"\nat = [46.5, -7]\n"
+                                             "[[object]]\nfile = \"b.glb\"\nat = [1, 2]\n"
+                                             "height = 3\nheading = -90\nscale = 0.5\n",
+                                   "scene.toml", "/folder");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->objects.size(), 2U);
+    EXPECT_EQ(scene->objects[0].file, "/folder/a.obj");
+    EXPECT_EQ(scene->objects[0].at, glm::dvec2(46.5, -7.0));
+    EXPECT_EQ(scene->objects[0].scale, 1.0);
+    EXPECT_EQ(scene->objects[1].height, 3.0);
+    EXPECT_EQ(scene->objects[1].heading, -90.0);
+    EXPECT_EQ(scene->objects[1].scale, 0.5);
+    for (const std::string wrong :
+         {"at = [1, 2]", "file = \"a.obj\"", "file = \"a.obj\"\nat = [1, 2, 3]",
+          "file = \"a.obj\"\nat = [1, inf]", "file = \"a.obj\"\nat = [1, 2]\nscale = 0",
+          "file = \"a.obj\"\nat = [1, 2]\nheading = 361",
+          "file = \"a.obj\"\nat = [1, 2]\nsize = 2"}) {
+        const auto refused = parse_scene(terrain + wrong, "scene.toml", "/folder");
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_THAT(refused.error().message, testing::HasSubstr("[[object]]"));
+    }
+}
+
 } // namespace
 } // namespace reljef::io

@@ -156,6 +156,15 @@ TEST_F(SceneTruthTest, DoesNotDependOnTheTechnique) {
     EXPECT_TRUE(truth.is_of(scene.scene));
 }
 
+TEST_F(SceneTruthTest, HasObjectsAndEndsWhereTheyMove) {
+    scene::Node& box = scene.scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
+    EXPECT_FALSE(truth.is_of(scene.scene));
+    const SceneTruth with_box = SceneTruth::create(scene.scene).value();
+    EXPECT_TRUE(with_box.is_of(scene.scene));
+    box.set_position({0.0, 0.0, 1.0});
+    EXPECT_FALSE(with_box.is_of(scene.scene));
+}
+
 TEST_F(SceneTruthTest, EndsWhenStopped) {
     std::stop_source stop;
     stop.request_stop();
@@ -163,8 +172,12 @@ TEST_F(SceneTruthTest, EndsWhenStopped) {
 }
 
 TEST(SceneTruth, RefusesScenesOfModels) {
+    auto relief = std::make_shared<material::ReliefMaterial>();
+    relief->heights = Grid<float>(2, 2, 0.5F);
+    scene::Material material;
+    material.detail.set = relief;
     scene::Scene scene;
-    scene.add_mesh(scene::plane_mesh(glm::vec2(1.0F)));
+    scene.add_mesh(scene::plane_mesh(glm::vec2(1.0F)), material);
     const auto truth = SceneTruth::create(scene);
     ASSERT_FALSE(truth);
     EXPECT_THAT(truth.error().message, HasSubstr("models found"));

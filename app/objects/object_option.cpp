@@ -1,0 +1,159 @@
+#include "app/objects/object_option.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/parsed_option.h"
+#include "engine/core/geometry.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr const char* form = "FILE:at=LAT,LON[,height=M][,heading=DEG][,scale=S]";
+
+struct Assignment {
+    std::string key;
+    std::string value;
+};
+
+// "at=46.1,7.2,height=3": a part without '=' belongs to the value before it.
+std::vector<Assignment> assignments_of(const std::string& text) {
+    std::vector<Assignment> found;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, comma - begin);
+        const std::size_t equals = part.find('=');
+        if (equals != std::string::npos) {
+            found.push_back({part.substr(0, equals), part.substr(equals + 1)});
+        } else if (!found.empty()) {
+            found.back().value += "," + part;
+        } else {
+            found.push_back({part, ""});
+        }
+        begin = comma + 1;
+    }
+    return found;
+}
+
+Result<void> set_place(io::ObjectDescription& object, const std::string& value) {
+    const auto place =
+        cli::parse_numbers<2>("--object: at", value, "LAT,LON in degrees, or X,Y in scene metres");
+    if (!place) {
+        return place.error();
+    }
+    const auto [x, y] = *place;
+    if (std::max(std::abs(x), std::abs(y)) > max_world_coordinate) {
+        return Error{fmt::format("--object: at '{}' found, at most {} was expected", value,
+                                 max_world_coordinate)};
+    }
+    object.at = glm::dvec2(x, y);
+    return {};
+}
+
+Result<void> set_number(double& number, Result<double> value) {
+    if (!value) {
+        return value.error();
+    }
+    number = *value;
+    return {};
+}
+
+Result<void> set_key(io::ObjectDescription& object, const Assignment& assignment) {
+    const std::string& value = assignment.value;
+    if (assignment.key == "at") {
+        return set_place(object, value);
+    }
+    if (assignment.key == "height") {
+        return set_number(object.height, cli::number_in("--object: height", -io::max_object_height,
+                                                        io::max_object_height)(value));
+    }
+    if (assignment.key == "heading") {
+        return set_number(object.heading,
+                          cli::number_in("--object: heading", -360.0, 360.0)(value));
+    }
+    if (assignment.key == "scale") {
+        return set_number(object.scale, cli::number_in("--object: scale", 0.0, io::max_object_scale,
+                                                       true)(value));
+    }
+    return Error{fmt::format("--object: '{}' found, at, height, heading or scale was expected",
+                             assignment.key)};
+}
+
+} // namespace
+
+Result<io::ObjectDescription> parse_object(const std::string& text) {
+    const std::size_t colon = text.rfind(":at=");
+    io::ObjectDescription object;
+    object.file = text.substr(0, colon);
+    if (object.file.empty()) {
+        return Error{fmt::format("--object: '{}' found, {} was expected", text, form)};
+    }
+    if (colon == std::string::npos) {
+        return object;
+    }
+    std::vector<std::string> seen;
+    for (const Assignment& assignment : assignments_of(text.substr(colon + 1))) {
+        if (std::find(seen.begin(), seen.end(), assignment.key) != seen.end()) {
+            return Error{
+                fmt::format("--object: {} found twice, once was expected", assignment.key)};
+        }
+        seen.push_back(assignment.key);
+        if (auto set = set_key(object, assignment); !set) {
+            return set.error();
+        }
+    }
+    return object;
+}
+
+std::string to_text(const io::ObjectDescription& object) {
+    std::string text = object.file.string();
+    if (!object.at) {
+        return text;
+    }
+    text += fmt::format(":at={},{}", object.at->x, object.at->y);
+    if (object.height != 0.0) {
+        text += fmt::format(",height={}", object.height);
+    }
+    if (object.heading != 0.0) {
+        text += fmt::format(",heading={}", object.heading);
+    }
+    if (object.scale != 1.0) {
+        text += fmt::format(",scale={}", object.scale);
+    }
+    return text;
+}
+
+void add_object_option(CLI::App& command, std::vector<io::ObjectDescription>& objects) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--object",
+            [&objects](const std::vector<std::string>& texts) {
+                if (texts.size() > io::max_objects) {
+                    throw CLI::ValidationError(
+                        fmt::format("--object: found {} times, at most {} were expected",
+                                    texts.size(), io::max_objects));
+                }
+                objects.clear();
+                for (const std::string& text : texts) {
+                    auto object = parse_object(text);
+                    if (!object) {
+                        throw CLI::ValidationError(object.error().message);
+                    }
+                    objects.push_back(std::move(*object));
+                }
+            },
+            "mesh (OBJ, or glTF 2.0: .gltf, .glb) that stands on the terrain; may be repeated. "
+            "at: latitude and longitude, or x and y in scene metres on terrain that is not "
+            "georeferenced; height: of its lowest point above the ground, metres (0); heading: "
+            "degrees clockwise from north (0); scale (1). In the gallery, FILE alone is shown "
+            "with every technique")
+        ->allow_extra_args(false)
+        ->type_name(form);
+}
+
+} // namespace reljef::app

@@ -1,0 +1,138 @@
+#include "engine/io/mesh/mesh_file.h"
+
+#include <map>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "engine/core/memory_file.h"
+#include "engine/io/image/image.h"
+#include "engine/io/mesh/mesh_import.h"
+#include "engine/io/mesh/mesh_message.h"
+#include "engine/io/mesh/near_file.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<Image> picture_in(std::span<const std::byte> bytes) {
+    const auto file = MemoryFile::create();
+    if (!file) {
+        return file.error();
+    }
+    while (!bytes.empty()) {
+        const ssize_t size = ::write(file->descriptor(), bytes.data(), bytes.size());
+        if (size <= 0) {
+            return Error{"memory is too short for it"};
+        }
+        bytes = bytes.subspan(static_cast<std::size_t>(size));
+    }
+    return read_image(file->path());
+}
+
+// The pictures of a mesh file, each read once.
+class Pictures {
+public:
+    explicit Pictures(const fs::path& file) : file_(file), folder_(file.parent_path()) {}
+
+    std::shared_ptr<const Image> of(const MeshPart& part) {
+        if (!part.picture.empty()) {
+            return taken("a picture in it", picture_in(part.picture));
+        }
+        if (part.texture.empty()) {
+            return nullptr;
+        }
+        if (const auto found = by_name_.find(part.texture); found != by_name_.end()) {
+            return found->second;
+        }
+        return by_name_[part.texture] = taken(fmt::format("'{}'", part.texture), read(part));
+    }
+
+    [[nodiscard]] std::vector<std::string> notes() const {
+        return missing_.empty()
+                   ? std::vector<std::string>()
+                   : std::vector{fmt::format("{}: {}{} cannot be used; a plain colour is shown",
+                                             file_.string(), missing_,
+                                             more_ > 0 ? fmt::format(" and {} more", more_) : "")};
+    }
+
+private:
+    [[nodiscard]] Result<Image> read(const MeshPart& part) const {
+        const fs::path folder = folder_.empty() ? "." : folder_;
+        const fs::path picture = folder / part.texture;
+        return is_file_below(folder, picture) ? read_image(picture)
+                                              : Result<Image>(Error{"no such file"});
+    }
+
+    std::shared_ptr<const Image> taken(const std::string& what, Result<Image> picture) {
+        if (picture) {
+            return std::make_shared<const Image>(std::move(*picture));
+        }
+        if (missing_.empty()) {
+            missing_ = "the texture " + what;
+        } else {
+            ++more_;
+        }
+        return nullptr;
+    }
+
+    fs::path file_;
+    fs::path folder_;
+    std::map<std::string, std::shared_ptr<const Image>> by_name_;
+    std::string missing_; // the first
+    int more_ = 0;
+};
+
+Result<void> check_size(const fs::path& file) {
+    std::error_code code;
+    if (!fs::is_regular_file(file, code)) {
+        return Error{fmt::format("{}: {} found, an OBJ or glTF 2.0 file was expected",
+                                 file.string(), fs::exists(file, code) ? "no file" : "nothing")};
+    }
+    const std::uintmax_t size = fs::file_size(file, code);
+    if (code || size == 0 || size > max_mesh_bytes) {
+        return Error{fmt::format("{}: {} bytes found, a mesh file of 1 byte to {} MB was expected",
+                                 file.string(), code ? 0 : size, max_mesh_bytes >> 20U)};
+    }
+    return {};
+}
+
+} // namespace
+
+Result<MeshFile> read_mesh_file(const fs::path& file, const ImportLimits& limits,
+                                const std::stop_token& stop) {
+    if (auto good = check_size(file); !good) {
+        return good.error();
+    }
+    const auto answer = run_import(file, limits, stop);
+    if (!answer) {
+        return answer.error();
+    }
+    auto parts = decoded_parts(*answer);
+    if (!parts) {
+        return Error{fmt::format("{}: {}", file.string(), parts.error().message)};
+    }
+    MeshFile found;
+    Pictures pictures(file);
+    for (MeshPart& part : *parts) {
+        if (part.mesh.indices.empty()) {
+            continue;
+        }
+        found.bounds.add(scene::bounds_of(part.mesh));
+        auto picture = pictures.of(part);
+        found.parts.push_back({std::make_shared<const scene::Mesh>(std::move(part.mesh)),
+                               part.color, std::move(picture)});
+    }
+    found.notes = pictures.notes();
+    if (found.parts.empty()) {
+        return Error{fmt::format("{}: no triangle found, some were expected", file.string())};
+    }
+    return found;
+}
+
+} // namespace reljef::io

@@ -1,0 +1,193 @@
+#include "engine/session/objects/placed_objects.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/io/mesh/mesh_file.h"
+#include "engine/scene/graph/picture_detail.h"
+
+namespace reljef::session {
+namespace {
+
+// What the nodes of one mesh file share.
+struct SharedMesh {
+    std::vector<scene::MeshNode> parts;
+    double lowest = 0.0; // metres
+};
+
+Error misplaced(const io::ObjectDescription& object, const std::string& found,
+                const std::string& expected) {
+    return Error{fmt::format("{}: at {},{} {} found, {} was expected", object.file.string(),
+                             object.at->x, object.at->y, found, expected)};
+}
+
+// The place among the samples, without a height.
+Result<glm::dvec2> sample_of(const scene::TerrainSurface& surface,
+                             const io::ObjectDescription& object) {
+    const terrain::Heightfield& field = surface.heightfield();
+    const terrain::Placement& placement = surface.placement();
+    std::optional<glm::dvec3> world(glm::dvec3(*object.at, 0.0));
+    if (field.georeference) {
+        if (std::abs(object.at->x) > 90.0 || std::abs(object.at->y) > 360.0) {
+            return misplaced(object, "no place on Earth", "a latitude and a longitude in degrees");
+        }
+        world = placement.world_from_geodetic({object.at->x, object.at->y, 0.0});
+    }
+    const auto sample = world ? placement.sample_from_world(*world) : std::nullopt;
+    const glm::dvec2 last(field.heights.cols() - 1, field.heights.rows() - 1);
+    const bool is_inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
+                           sample->y <= last.y;
+    if (!is_inside) {
+        return misplaced(object, "a place outside the terrain", "one on " + surface.terrain().name);
+    }
+    return glm::dvec2(*sample);
+}
+
+// The columns are the mesh's axes on the Earth.
+glm::dmat3 axes_at(const terrain::Placement& placement, glm::dvec3 ground, double heading) {
+    const glm::dvec3 up = placement.up(ground);
+    const glm::dvec3 north = placement.north(ground);
+    const glm::dvec3 east = glm::cross(north, up);
+    const double angle = glm::radians(heading);
+    return {std::cos(angle) * east - std::sin(angle) * north,
+            std::cos(angle) * north + std::sin(angle) * east, up};
+}
+
+// Reads each file once, and makes each picture once.
+class MeshFiles {
+public:
+    explicit MeshFiles(std::stop_token stop) : stop_(std::move(stop)) {}
+
+    Result<const SharedMesh*> of(const std::filesystem::path& file) {
+        if (const auto found = by_file_.find(file); found != by_file_.end()) {
+            return &found->second;
+        }
+        auto read = io::read_mesh_file(file, {}, stop_);
+        if (!read) {
+            return read.error();
+        }
+        notes_.insert(notes_.end(), read->notes.begin(), read->notes.end());
+        auto shared = shared_mesh(*read, file.string());
+        if (!shared) {
+            return shared.error();
+        }
+        return &by_file_.emplace(file, std::move(*shared)).first->second;
+    }
+
+    [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    Result<SharedMesh> shared_mesh(const io::MeshFile& file, const std::string& name) {
+        SharedMesh shared;
+        shared.lowest = file.bounds.low.z;
+        for (const io::ColoredMesh& part : file.parts) {
+            scene::MeshNode node{part.mesh, {}};
+            node.material.color = part.color;
+            if (part.picture != nullptr) {
+                auto material = textured(part.picture, name);
+                if (!material) {
+                    return material.error();
+                }
+                node.material.technique = scene::make_technique(scene::TechniqueId::texture);
+                node.material.detail.set = std::move(*material);
+            }
+            shared.parts.push_back(std::move(node));
+        }
+        return shared;
+    }
+
+    Result<std::shared_ptr<const material::ReliefMaterial>>
+    textured(const std::shared_ptr<const Image>& picture, const std::string& name) {
+        if (const auto found = by_picture_.find(picture); found != by_picture_.end()) {
+            return found->second;
+        }
+        auto made = scene::picture_material(*picture, name);
+        if (made) {
+            by_picture_.emplace(picture, *made);
+        }
+        return made;
+    }
+
+    std::stop_token stop_;
+    std::map<std::filesystem::path, SharedMesh> by_file_;
+    std::map<std::shared_ptr<const Image>, std::shared_ptr<const material::ReliefMaterial>>
+        by_picture_;
+    std::vector<std::string> notes_;
+};
+
+} // namespace
+
+Result<glm::dmat4> scene_from_object(const scene::TerrainSurface& surface,
+                                     const PlacedObject& object) {
+    const io::ObjectDescription& described = object.description;
+    const auto sample = sample_of(surface, described);
+    if (!sample) {
+        return sample.error();
+    }
+    const terrain::Heightfield& field = surface.heightfield();
+    if (!object.ground_height && terrain::uses_void(field, *sample)) {
+        return misplaced(described, "a void", "ground with a height");
+    }
+    const terrain::Placement& placement = surface.placement();
+    const double height =
+        object.ground_height.value_or(terrain::bilinear_height(field.heights.view(), *sample));
+    const glm::dvec3 ground = placement.world_from_sample({*sample, height});
+    const glm::dmat3 axes = axes_at(placement, ground, described.heading);
+    const glm::dvec3 origin =
+        ground + axes[2] * (described.height - described.scale * object.lowest);
+    glm::dmat4 placed(described.scale * axes);
+    placed[3] = glm::dvec4(origin, 1.0);
+    return placed;
+}
+
+Result<PlacedObjects> add_objects(scene::Scene& scene, const scene::TerrainSurface& surface,
+                                  const std::vector<io::ObjectDescription>& objects,
+                                  const SourceHeight& height, const std::stop_token& stop) {
+    PlacedObjects placed;
+    MeshFiles files(stop);
+    for (const io::ObjectDescription& description : objects) {
+        PlacedObject object{nullptr, description, 0.0, {}};
+        if (!description.at) {
+            return Error{fmt::format("{}: no place found, at=LAT,LON was expected on a terrain",
+                                     description.file.string())};
+        }
+        if (height) {
+            object.ground_height = height(*description.at);
+            if (!object.ground_height) {
+                return misplaced(description, "no height", "a place on the terrain with one");
+            }
+        }
+        if (auto place = scene_from_object(surface, object); !place) {
+            return place.error(); // before the file is read
+        }
+        const auto mesh = files.of(description.file);
+        if (!mesh) {
+            return mesh.error();
+        }
+        object.lowest = (*mesh)->lowest;
+        object.node = &scene.root().add(description.file.stem().string());
+        for (const scene::MeshNode& part : (*mesh)->parts) {
+            object.node->add("part", part);
+        }
+        placed.objects.push_back(std::move(object));
+    }
+    placed.notes = files.notes();
+    stand_on(surface, placed.objects);
+    return placed;
+}
+
+void stand_on(const scene::TerrainSurface& surface, const std::vector<PlacedObject>& objects) {
+    for (const PlacedObject& object : objects) {
+        if (const auto place = scene_from_object(surface, object)) {
+            object.node->set_parent_from_local(*place);
+        }
+    }
+}
+
+} // namespace reljef::session
