@@ -479,9 +479,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
                         "those that are missing, of another size, or cannot be read");
     add_show_option(*arguments, choice->shows_choice);
     arguments->add_flag("--stats", choice->stats,
-                        "print counts and times of the last frame (of a large picture: of all its "
-                        "parts), and times "
-                        "and memory of all frames");
+                        "print counts and times of the last frame (of a large picture: of all "
+                        "parts), and times and memory of all frames");
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         expect_choice(choice->shows_choice, choice->view, choice->truth);

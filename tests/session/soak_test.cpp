@@ -121,12 +121,14 @@ protected:
             files = std::max(files, test::open_files());
             most_memory = std::max(most_memory, process_memory().now);
         }
+        const double beyond_before =
+            static_cast<double>(most_memory) - static_cast<double>(before_);
         EXPECT_LE(files_later, files_at_first + 2); // the folder of open files, and a new one
-        EXPECT_LE(static_cast<double>(most_memory - before_), 1.1e6 * memory_megabytes);
+        EXPECT_LE(beyond_before, 1.1e6 * memory_megabytes);
         const auto stats = session::stream_stats(scene_->scene).front();
         fmt::print("{} frames: at most {:.1f} MB and {} files; {} tiles read, {} failed\n", count,
-                   static_cast<double>(most_memory - before_) * 1e-6,
-                   std::max(files_at_first, files_later), stats.read, stats.failed);
+                   beyond_before * 1e-6, std::max(files_at_first, files_later), stats.read,
+                   stats.failed);
     }
     /// What has failed is tried again after a while.
     bool comes_back_to(const Image& picture) {
