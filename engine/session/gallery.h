@@ -12,8 +12,8 @@ namespace reljef::session {
 
 /// Adds the gallery's models with their detail tiles; returns their nodes, which the scene owns.
 /// Objects without a place are its models instead: each once for every technique that draws any
-/// mesh, in rows. Fails as read_whole_mesh, on unknown or unreadable materials, on a bad technique in the scene file, and after a stop
-/// request.
+/// mesh, in rows. Fails as read_whole_mesh, on unknown or unreadable materials, on a bad technique
+/// in the scene file, and after a stop request.
 Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const io::SceneDescription& description,
                                               const SourceOptions& terrain,

@@ -112,7 +112,7 @@ struct SceneOptions {
     std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
     std::vector<io::ObjectDescription> objects; ///< besides the scene file's
-    bool prepares_maps = true;        ///< open_scene() makes the technique's maps (prepared_maps.h)
+    bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.
     RayUse rays = RayUse::none;

@@ -30,7 +30,7 @@ struct TerrainScene {
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     std::vector<PlacedObject> objects;
-    Box bounds;                       ///< of the terrain, scene metres
+    Box bounds; ///< of the terrain, scene metres
     Surroundings surroundings;
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
