@@ -1,5 +1,5 @@
 // Long flights over files that vanish, return and change, and over a server that lies.
-// RELJEF_SOAK_FRAMES=20000 flies that far; by default a hundred.
+// RELJEF_SOAK_FRAMES=20000 flies that far; by default sixty.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ constexpr int memory_megabytes = 64;
 
 int frames_of_soak() {
     const char* const wanted = std::getenv("RELJEF_SOAK_FRAMES");
-    return wanted != nullptr ? std::max(std::atoi(wanted), 100) : 100;
+    return wanted != nullptr ? std::max(std::atoi(wanted), 60) : 60;
 }
 
 /// What was told of the files.

@@ -183,11 +183,11 @@ TEST_F(SuiteOnTinyTerrain, picture_without_a_pixel_of_terrain_is_an_error_and_ke
     unseen.scene.terrain =
         folder_
             .write(
-                "thread.asc", "ncols 200001\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize "
+                "thread.asc", "ncols 20001\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize "
                               "0.001\n" +
                                   [] {
                                       std::string rows;
-                                      for (int i = 0; i < 2 * 200001; ++i) {
+                                      for (int i = 0; i < 2 * 20001; ++i) {
                                           rows += "0 ";
                                       }
                                       return rows;
