@@ -34,7 +34,8 @@ struct FrameStats {
     int tiles_unproven = 0;
     /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound.
     std::optional<double> kept_error;
-    /// Whether triangles had larger errors than the bound leaves them, to fit their number.
+    /// Whether triangles had larger errors than the bound leaves them, to fit their number, or rays
+    /// that miss the bound were drawn instead.
     bool lacks_triangles = false;
     std::optional<Choice> choice; ///< of `auto`
     int reliefs_as_triangles = 0; ///< on the ellipsoid, where a view bends rays too much to search

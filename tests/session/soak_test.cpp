@@ -123,7 +123,7 @@ protected:
         }
         const double beyond_before =
             static_cast<double>(most_memory) - static_cast<double>(before_);
-        EXPECT_LE(files_later, files_at_first + 2); // the folder of open files, and a new one
+        EXPECT_LE(files_later, files_at_first + 2); // files that are opened for the first time
         EXPECT_LE(beyond_before, 1.1e6 * memory_megabytes);
         const auto stats = session::stream_stats(scene_->scene).front();
         fmt::print("{} frames: at most {:.1f} MB and {} files; {} tiles read, {} failed\n", count,

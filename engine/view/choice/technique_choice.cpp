@@ -288,6 +288,7 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
     decision.last_ring = best.last_ring;
     decision.has_rays = best.last_ring < last_ring;
     decision.kept_error = *kept;
+    decision.lacks_triangles = decision.has_rays && *kept > bound;
     return decision;
 }
 
@@ -311,6 +312,7 @@ void TechniqueChooser::choose(DrawList& list) {
     Decision decision = is_part && for_parts_ ? *for_parts_ : decide(list, Kinds::both);
     if (decision.has_rays) {
         split_at(list, decision.last_ring, decision.kept_error);
+        list.stats.lacks_triangles = decision.lacks_triangles;
     }
     decision.choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
     decision.choice.tiles_by_rays = tiles - decision.choice.tiles_as_triangles;

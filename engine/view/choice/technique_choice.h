@@ -78,7 +78,8 @@ private:
         Choice choice;
         int last_ring = 0; ///< of triangles; rays draw the other rings
         bool has_rays = false;
-        double kept_error = 0.0; ///< if rays are drawn, pixels
+        double kept_error = 0.0;      ///< if rays are drawn, pixels
+        bool lacks_triangles = false; ///< rays miss the bound, and too few triangles fit
     };
     enum class Kinds { one, both };
     void know(const scene::TerrainNode& terrain);

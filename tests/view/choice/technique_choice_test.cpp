@@ -200,6 +200,7 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
     const auto kept_by_rays = [&](const TechniqueCosts& costs) {
         const DrawList list = view.chosen(costs);
         EXPECT_TRUE(list.tiles.empty());
+        EXPECT_EQ(list.stats.lacks_triangles, list.stats.kept_error > 0.02);
         return list.stats.kept_error.value_or(0.0);
     };
     EXPECT_TRUE(view.chosen(triangles_only).reliefs.empty());
