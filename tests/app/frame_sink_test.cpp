@@ -1,4 +1,4 @@
-#include "app/frame_sink.h"
+#include "app/rendering/frame_sink.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/finished_frames.h"
+#include "app/rendering/finished_frames.h"
 
 namespace reljef::cli {
 namespace {

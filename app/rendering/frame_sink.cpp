@@ -1,4 +1,4 @@
-#include "app/frame_sink.h"
+#include "app/rendering/frame_sink.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "app/video_encoder.h"
+#include "app/rendering/video_encoder.h"
 #include "engine/io/image/image.h"
 
 namespace reljef::app {

@@ -1,4 +1,4 @@
-#include "app/finished_frames.h"
+#include "app/rendering/finished_frames.h"
 
 #include <cstddef>
 #include <system_error>

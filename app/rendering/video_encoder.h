@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 #include <sys/types.h>
 
-#include "app/frame_sink.h"
+#include "app/rendering/frame_sink.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/memory_file.h"
 

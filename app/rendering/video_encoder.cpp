@@ -1,4 +1,4 @@
-#include "app/video_encoder.h"
+#include "app/rendering/video_encoder.h"
 
 #include <array>
 #include <cerrno>

@@ -1,0 +1,192 @@
+#include "app/rendering/draw_outputs.h"
+
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/cli/lifted_frames.h"
+#include "app/cli/progress_line.h"
+#include "app/rendering/finished_frames.h"
+#include "app/rendering/frame_sink.h"
+#include "engine/io/image/image.h"
+#include "engine/io/image/picture_writer.h"
+#include "engine/session/streaming.h"
+
+namespace reljef::app {
+namespace {
+
+Result<void> add_output(Result<AtomicFile> prepared, std::vector<AtomicFile>& outputs) {
+    if (!prepared) {
+        return prepared.error();
+    }
+    outputs.push_back(std::move(*prepared));
+    return {};
+}
+
+ParallelOptions frame_options(const Rendering& run, Progress progress = {}) {
+    return {.threads = static_cast<unsigned>(run.choice.terrain.threads),
+            .stop = run.interrupt.token(),
+            .progress = std::move(progress)};
+}
+
+session::Underground underground(const RenderChoice& choice) {
+    return choice.view.allow_underground ? session::Underground::allowed
+                                         : session::Underground::lifted;
+}
+
+session::Lift fly(const Rendering& run, const scene::CameraPath& path, int index, int frames) {
+    return session::fly_above_ground(run.scene, path, index, frames, run.maker,
+                                     run.interrupt.token(), underground(run.choice));
+}
+
+// A frame that an earlier run drew, with --resume.
+std::optional<Image> finished_frame(const RenderChoice& choice, int index) {
+    const auto file = choice.resume ? numbered(choice.output, index) : Error{""};
+    return file ? finished_picture(*file, choice.view.size) : std::nullopt;
+}
+
+void print_stats(const Rendering& run, int drawn) {
+    if (run.choice.stats && drawn > 0) {
+        fmt::print("{}", run.maker.stats());
+    }
+}
+
+// One frame, divided by --compare. `progress` gets the part of it that is drawn.
+Result<Image> draw_frame(const Rendering& run, const std::function<void(double)>& progress) {
+    auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
+    if (picture && !run.interrupt.requested()) {
+        picture = compared_frame(run.choice.compare, run.scene, run.maker, std::move(*picture),
+                                 frame_options(run));
+    }
+    return run.interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
+}
+
+// Adds the files that are to be committed. Returns the frames whose cameras were lifted above the
+// ground.
+Result<cli::LiftedFrames> draw_frames(const Rendering& run,
+                                      const std::optional<scene::CameraPath>& path,
+                                      std::vector<AtomicFile>& outputs) {
+    const RenderChoice& choice = run.choice;
+    const int frames = choice.view.frames;
+    auto sink =
+        make_frame_sink(choice.output, {.size = choice.view.size,
+                                        .frames = frames,
+                                        .frames_per_second = choice.view.frames_per_second});
+    if (!sink) {
+        return sink.error();
+    }
+    SheetPictures sheet(!choice.contact_sheet.empty(), frames);
+    cli::LiftedFrames lifted;
+    cli::ProgressLine line("drawing", choice.terrain.quiet);
+    const std::vector<int> own = frames_of(choice.shard, frames);
+    int drawn = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        const int index = own[i];
+        if (auto finished = finished_frame(choice, index)) {
+            sheet.add(std::move(*finished), index);
+            continue;
+        }
+        if (path) {
+            lifted.add(fly(run, *path, index, frames));
+        }
+        auto picture = draw_frame(run, [&](double part) {
+            line.update((static_cast<double>(i) + part) / static_cast<double>(own.size()));
+        });
+        if (!picture) {
+            return picture.error();
+        }
+        if (auto written = (*sink)->write(*picture, index); !written) {
+            return written.error();
+        }
+        sheet.add(std::move(*picture), index);
+        line.update(static_cast<double>(i + 1) / static_cast<double>(own.size()));
+        ++drawn;
+    }
+    if (auto finished = (*sink)->finish(outputs); !finished) {
+        return finished.error();
+    }
+    print_stats(run, drawn);
+    const auto prepared = sheet.prepare(choice.contact_sheet, outputs);
+    return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
+}
+
+// As draw_frames().
+Result<void> draw_large(const Rendering& run, std::vector<AtomicFile>& outputs) {
+    cli::ProgressLine line("drawing", run.choice.terrain.quiet);
+    auto drawn = session::draw_large_picture({run.choice.output, parts_of(run.choice)}, run.scene,
+                                             run.maker, frame_options(run, line.callback()));
+    print_stats(run, drawn ? 1 : 0);
+    return add_output(std::move(drawn), outputs);
+}
+
+Result<HitBuffer> find_hits(const Rendering& run) {
+    cli::ProgressLine line("finding hits", run.choice.terrain.quiet);
+    auto hits = run.maker.draw_hits(run.scene.scene, frame_options(run, line.callback()));
+    if (!hits || run.interrupt.requested()) {
+        return hits ? Error{"interrupted"} : hits.error();
+    }
+    return session::in_source_rows(std::move(*hits), run.scene, run.choice.truth);
+}
+
+Result<void> prepare_found_hits(const Rendering& run, std::vector<AtomicFile>& outputs) {
+    if (run.choice.hits.empty()) {
+        return {};
+    }
+    const auto found = find_hits(run);
+    return found ? add_output(io::prepare_hits(run.choice.hits, *found), outputs)
+                 : Result<void>(found.error());
+}
+
+Result<std::optional<scene::CameraPath>> path_of(const Rendering& run) {
+    using Path = std::optional<scene::CameraPath>;
+    if (run.choice.view.path.empty()) {
+        return Path();
+    }
+    auto path = session::open_path(run.scene, run.choice.view.path, run.log);
+    return path ? Result<Path>(Path(std::move(*path))) : path.error();
+}
+
+} // namespace
+
+Result<void> draw_outputs(const Rendering& run, bool has_camera_of_file) {
+    const RenderChoice& choice = run.choice;
+    const auto path = path_of(run);
+    if (!path) {
+        return path.error();
+    }
+    session::Lift lift;
+    cli::LiftedFrames lifted;
+    if (*path) {
+        lifted.add(fly(run, **path, 0, 1));
+    } else {
+        lift = session::stand_above_ground(run.scene, run.maker, run.interrupt.token(),
+                                           underground(choice));
+    }
+    std::vector<AtomicFile> outputs;
+    if (auto prepared = prepare_found_hits(run, outputs); !prepared) {
+        return prepared;
+    }
+    if (is_large(choice)) {
+        if (auto drawn = draw_large(run, outputs); !drawn) {
+            return drawn;
+        }
+    } else if (!choice.output.empty()) {
+        auto drawn = draw_frames(run, *path, outputs);
+        if (!drawn) {
+            return drawn.error();
+        }
+        lifted = *drawn;
+    }
+    if (auto committed = commit_all(outputs); !committed) {
+        return committed;
+    }
+    for (const std::string& note : run.maker.error_notes()) {
+        run.log.note(note);
+    }
+    return *path ? lifted.report(run.log, choice.view.path)
+                 : cli::report_lift(lift, cli::camera_source(choice.view, choice.terrain),
+                                    has_camera_of_file, run.log);
+}
+
+} // namespace reljef::app
