@@ -15,13 +15,17 @@ namespace reljef::app {
 namespace {
 
 constexpr int views = 12; // of each kind
+// In each, the camera moves on as along the orbit at 25 frames a second. The first frame draws all
+// anew and is not measured.
+constexpr int frames_a_view = 4;
+constexpr double frame_angle = 2.0 * std::numbers::pi / (20.0 * 25.0);
 constexpr double ns_a_ms = 1e6;
 
-// A circle around the terrain; `pitch` as a share of its width.
-scene::Camera view_of(const session::TerrainScene& scene, int index, double height, double target) {
+// On a circle around the terrain; heights as shares of its width.
+scene::Camera camera_at(const session::TerrainScene& scene, double angle, double height,
+                        double target) {
     const Box& bounds = scene.bounds;
     const double width = bounds.size().x;
-    const double angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
     scene::Camera camera = *scene.camera->get<scene::Camera>();
     camera.eye = bounds.center() +
                  glm::dvec3(0.65 * width * std::cos(angle), 0.65 * width * std::sin(angle), 0.0);
@@ -72,18 +76,25 @@ double count_pixels(const session::TerrainScene& scene, const HitBuffer& hits, b
 Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& renderer,
                        const Kind& kind, int index, Samples& samples) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
-    *scene.camera->get<scene::Camera>() = view_of(scene, index, kind.height, kind.target);
-    const auto stats = renderer.draw(scene.scene, true);
-    if (!stats) {
-        return stats.error();
+    const double first_angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
+    for (int frame = 0; frame < frames_a_view; ++frame) {
+        *scene.camera->get<scene::Camera>() =
+            camera_at(scene, first_angle + frame * frame_angle, kind.height, kind.target);
+        const auto stats = renderer.draw(scene.scene, true);
+        if (!stats) {
+            return stats.error();
+        }
+        if (frame > 0) {
+            samples.ms.push_back(stats->cpu_ms + stats->gpu_ms);
+            samples.triangles +=
+                static_cast<double>(stats->triangles) / (views * (frames_a_view - 1.0));
+        }
     }
     const auto hits = renderer.draw_hits(scene.scene);
     if (!hits) {
         return hits.error();
     }
     const bool has_rays = kind.technique.id() == scene::TechniqueId::exact;
-    samples.ms.push_back(stats->cpu_ms + stats->gpu_ms);
-    samples.triangles += static_cast<double>(stats->triangles) / views;
     samples.pixels += count_pixels(scene, *hits, has_rays) / views;
     return {};
 }

@@ -6,12 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include "engine/core/geometry.h"
 #include "engine/truth/geometric_error.h"
-#include "engine/view/draw_list.h"
+#include "engine/view/choice/ray_error.h"
 
 namespace reljef::bench {
 namespace {
@@ -47,8 +43,8 @@ public:
         : surface_(*terrain.get<scene::TerrainNode>()->surface),
           view_{surface_.heightfield().heights.view(), surface_.placement(),
                 terrain.world_from_local(), scene.camera()},
-          size_(size), far_error_(0x1p-20 * farthest(terrain.world_bounds(), scene.camera().eye) /
-                                  view::metres_a_pixel(scene.camera(), size).y) {}
+          size_(size), error_of_rays_(scene.camera(), size, surface_, view::steepest(surface_),
+                                      glm::dvec3(terrain.world_from_local()[3])) {}
 
     // Keeps the hit that is the farthest for its tolerance; none is farther than one without place.
     void add(glm::ivec2 pixel, const Hit& hit, bool rounds, RowSkip::Difference& found) const {
@@ -56,7 +52,7 @@ public:
             return;
         }
         const double px = truth::reprojection_error(view_, size_, pixel, hit);
-        const double tolerance = rounds ? far_error_ / hit.depth : 0.0;
+        const double tolerance = rounds ? error_of_rays_.at(hit.depth) : 0.0;
         if (is_farther(px, tolerance, found)) {
             found.max_px = px;
             found.tolerance_px = tolerance;
@@ -72,14 +68,11 @@ private:
                    ? px > than.max_px
                    : px * than.tolerance_px >= than.max_px * tolerance;
     }
-    static double farthest(const Box& bounds, glm::dvec3 eye) {
-        return glm::length(glm::max(glm::abs(bounds.low - eye), glm::abs(bounds.high - eye)));
-    }
 
     const scene::TerrainSurface& surface_;
     truth::SurfaceView view_;
     glm::ivec2 size_;
-    double far_error_; // pixels, at a depth of one metre
+    view::RayError error_of_rays_;
 };
 
 } // namespace

@@ -17,10 +17,9 @@ struct DrawnPicture {
 /// Draws the scene's view once, and its hits.
 Result<DrawnPicture> draw_picture(const scene::Scene& scene, session::SceneRenderer& renderer);
 
-/// Compares two pictures of a scene in perspective, whose hits are on a terrain in memory. With
-/// `hits_round`, the tolerance of a hit with other bits is what floats round: places along a ray
-/// are sums of floats that are no larger than the distance of the terrain's farthest place, with a
-/// few errors of 2^-24 of it, at most 2^-20; from the hit's depth, that is an angle.
+/// Compares two pictures of a scene in perspective, whose hits are on a terrain in memory on a
+/// plane. With `hits_round`, the tolerance of a hit with other bits is the error of rounding along
+/// its ray (view::RayError).
 RowSkip::Difference difference_of(const scene::Scene& scene, const scene::Node& terrain,
                                   const DrawnPicture& all, const DrawnPicture& without,
                                   bool hits_round);

@@ -22,8 +22,6 @@ constexpr SkipKind cuts{"triangles", "new triangles for tiles that keep theirs",
                         [](Options& options) { options.opengl->skips.cuts = false; }};
 constexpr SkipKind uploads{"uploads", "content that is in GPU memory",
                            [](Options& options) { options.opengl->skips.uploads = false; }};
-constexpr SkipKind state{"state", "GL state that is set",
-                         [](Options& options) { options.opengl->skips.state = false; }};
 constexpr SkipKind features{"features", "shader code for a sun and air that the scene lacks",
                             [](Options& options) { options.opengl->skips.features = false; },
                             SkipRounding::colors};
@@ -81,9 +79,9 @@ std::vector<SkipTest> skip_tests() {
          false,
          day,
          false,
-         {frustum, occlusion, order, selection, cuts, uploads, state}},
+         {frustum, occlusion, order, selection, cuts, uploads}},
         {"polygons, every sample", every_sample, false, day, false, {frustum, occlusion, order}},
-        {"exact", exact, false, day, false, {beams, blocks, uploads, state}},
+        {"exact", exact, false, day, false, {beams, blocks, uploads}},
         {"exact, shadows", shadow, false, day, false, {beams, blocks, certain}},
         {"exact, low sun", shadow, false, Daylight::low_sun, false, {certain}},
         {"exact, shadows, night", shadow, false, Daylight::night, false, {features}},
@@ -100,7 +98,8 @@ std::vector<SkipTest> skip_tests() {
          false,
          {free_space, packet_beams, ray_blocks, ray_cells, ray_certain}},
         {"exact, low sun on cpu", shadow, true, Daylight::low_sun, false, {ray_certain}},
-        {"streamed polygons", polygons, false, day, true, {occlusion, cuts, uploads}},
+        {"auto", {scene::Automatic{}}, false, day, false, {selection}},
+        {"streamed polygons", polygons, false, day, true, {occlusion, selection, cuts, uploads}},
         {"streamed on cpu",
          polygons,
          true,

@@ -188,7 +188,7 @@ Result<void> Driver::draw_work(const view::DrawList& list, const gl::Framebuffer
     view::FrameStats ignored;
     picture.bind();
     picture.clear_color(glm::vec4(0.0F));
-    DrawState state(shaders_, blocks_, ignored, options_.skips.state);
+    DrawState state(shaders_, blocks_, ignored);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const FrameContext frame{.list = list,
@@ -274,7 +274,7 @@ Result<void> Driver::draw_sample_pass(const view::DrawList& list, int pass,
     if (auto drawn = draw_pass(list, sample_target_.picture(), stats); !drawn) {
         return drawn;
     }
-    DrawState state(shaders_, blocks_, stats, options_.skips.state);
+    DrawState state(shaders_, blocks_, stats);
     return sample_target_.add_pass(pass, color_target_, state, no_vertices_);
 }
 
@@ -287,7 +287,7 @@ Result<void> Driver::draw_pass(const view::DrawList& list, const gl::Framebuffer
 
 Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuffer& picture,
                                   bool hits, view::FrameStats& stats) {
-    DrawState state(shaders_, blocks_, stats, options_.skips.state);
+    DrawState state(shaders_, blocks_, stats);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const FrameContext frame{

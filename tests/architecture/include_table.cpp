@@ -153,7 +153,7 @@ const std::map<std::string_view, Names>& named_rooms() {
         {"bench/suites",
          {"app/cli", "bench/report", "bench/runner", "engine/core", "engine/io/formats",
           "engine/scene/graph", "engine/scene/motion", "engine/scene/streaming", "engine/session",
-          "engine/truth", "engine/view", "terrains", "terrains/natural"}},
+          "engine/truth", "engine/view", "engine/view/choice", "terrains", "terrains/natural"}},
         {"bench/stress",
          {"app/cli", "bench/report", "bench/runner", "bench/suites", "engine/core", "engine/geo",
           "engine/io/formats", "engine/scene/graph", "engine/scene/motion",

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
-#include <optional>
 #include <span>
 
 #include "engine/core/result.h"
@@ -16,14 +14,12 @@
 
 namespace reljef::render {
 
-/// The GL state of one frame's draw calls. Skips redundant changes; counts changes and draws. Each
-/// pass sets all state that it needs. Needs a current context.
+/// The GL state of one frame's draw calls. Counts changes and draws. Each pass sets all state that
+/// it needs. Needs a current context.
 class DrawState {
 public:
     /// Sets reversed depth, filled triangles, back-face culling, and colours that replace others.
-    /// `skips`: redundant changes.
-    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats,
-              bool skips = true);
+    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
 
     /// Binds the variant's program. Programs with a surface search run per sample. Fails as
     /// ShaderLibrary::program.
@@ -47,14 +43,6 @@ private:
     ShaderLibrary& shaders_;
     BlockBuffers& blocks_;
     view::FrameStats& stats_;
-    bool skips_;
-    std::optional<ShaderVariant> variant_;
-    gl::Program* program_ = nullptr;
-    std::map<unsigned int, const gl::Buffer*> bound_;
-    gl::Culling culling_ = gl::Culling::back;
-    bool wireframe_ = false;
-    bool adding_ = false;
-    bool shades_samples_ = false;
 };
 
 } // namespace reljef::render

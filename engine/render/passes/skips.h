@@ -9,7 +9,6 @@ struct Skips {
     bool blocks = true;   ///< blocks of the maximum mipmap that are below the ray
     bool uploads = true;  ///< content that is in GPU memory already
     bool cuts = true;     ///< new triangles for tiles that keep theirs
-    bool state = true;    ///< GL state that is set already
     bool features = true; ///< shader code for a sun or air that the scene lacks
     bool unlit = true;    ///< sun rays from where the sun adds nothing
     bool certain = true;  ///< sun rays from where it is certain whether the sun is seen

@@ -27,6 +27,8 @@ constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
 // longest, and views that change between plans cut tiles again. Measured up to 1.25 of the
 // estimate.
 constexpr double max_share_of_both = 0.75;
+// Triangles that cost up to that share more are drawn, too: a view at rest keeps them.
+constexpr double tie = 1.05;
 // Estimates of triangles are that near: more may not fit.
 constexpr double certain_share = 0.8;
 constexpr double max_lack = 1e4; // times the triangles that fit
@@ -230,7 +232,7 @@ namespace {
 ViewPlan cheaper_alone(const ViewCosts& view, const TechniqueCosts& costs) {
     const ViewPlan rays = plan_up_to(-1, view, costs);
     const ViewPlan triangles = plan_up_to(view.rings.back().ring, view, costs);
-    return triangles.ms <= rays.ms && triangles.triangles <= view.max_triangles ? triangles : rays;
+    return triangles.ms <= tie * rays.ms && triangles.triangles <= view.max_triangles ? triangles : rays;
 }
 
 } // namespace
