@@ -52,8 +52,9 @@ void add_choices(CLI::App& command, SkipOptions& options) {
                     options.poses.push_back(*pose);
                 }
             },
-            "camera pose: overview, oblique, low, grazing or map; may be repeated (overview, low "
-            "and grazing; with --quick low)")
+            "camera pose: overview, oblique, low, grazing, valley or map; may be repeated "
+            "(overview, "
+            "low, grazing and valley; with --quick low)")
         ->type_name("NAME")
         ->allow_extra_args(false);
     command

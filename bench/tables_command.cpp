@@ -32,7 +32,8 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
     cli::add_parsed(
         command, "--pose", choice.options.pose,
         [](const std::string& text) { return cli::parse_pose(text); },
-        "camera pose: overview, oblique, low, grazing or map (overview; gallery: oblique)", "NAME");
+        "camera pose: overview, oblique, low, grazing, valley or map (overview; gallery: oblique)",
+        "NAME");
     command.add_flag(
         "--distances", choice.distances,
         "instead of the tables: errors from 100 m to 10 km, without times, of texture, "

@@ -286,11 +286,11 @@ void add_camera_options(CLI::App& command, ViewChoice& choice) {
                               "position and direction of the camera on Earth, degrees and metres",
                               "LAT,LON,HEIGHT,HEADING,PITCH");
     camera->excludes(eye);
-    auto* pose =
-        add_parsed(command, "--pose", choice.pose, parse_pose,
-                   "camera pose: overview, oblique, low, grazing or map (by default, all of the "
-                   "terrain is seen)",
-                   "NAME");
+    auto* pose = add_parsed(
+        command, "--pose", choice.pose, parse_pose,
+        "camera pose: overview, oblique, low, grazing, valley or map (by default, all of the "
+        "terrain is seen)",
+        "NAME");
     pose->excludes(eye)->excludes(camera);
     command
         .add_option(
@@ -318,7 +318,8 @@ Result<scene::Pose> parse_pose(std::string_view text) {
     const auto pose = scene::pose_from_string(text);
     if (!pose) {
         return Error{fmt::format(
-            "--pose: '{}' found, one of overview, oblique, low, grazing, map was expected", text)};
+            "--pose: '{}' found, one of overview, oblique, low, grazing, valley, map was expected",
+            text)};
     }
     return *pose;
 }

@@ -40,8 +40,9 @@ std::vector<SkipGroup> skip_groups(const SkipOptions& options) {
         options.terrains.empty() ? std::vector<std::string>{"natural", "urban"} : options.terrains;
     std::vector<Pose> poses = options.poses;
     if (poses.empty()) {
-        poses = options.suite.quick ? std::vector<Pose>{Pose::low}
-                                    : std::vector<Pose>{Pose::overview, Pose::low, Pose::grazing};
+        poses = options.suite.quick
+                    ? std::vector<Pose>{Pose::low}
+                    : std::vector<Pose>{Pose::overview, Pose::low, Pose::grazing, Pose::valley};
     }
     std::vector<SkipGroup> groups;
     for (const std::string& terrain : terrains) {

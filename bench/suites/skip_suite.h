@@ -14,7 +14,7 @@ namespace reljef::bench {
 struct SkipOptions {
     SuiteOptions suite;
     std::vector<std::string> terrains; ///< empty: natural and urban
-    std::vector<scene::Pose> poses;    ///< empty: overview, low and grazing; in a quick run low
+    std::vector<scene::Pose> poses;    ///< empty: overview, low, grazing and valley; quick: low
     std::vector<std::string> kinds;    ///< names of SkipKind; empty: all
     /// For the tests of streams. Files that fit are not measured as streams; a note says so.
     int memory_megabytes = 16;

@@ -12,8 +12,30 @@ namespace reljef::scene {
 namespace {
 
 // In the order of Pose.
-constexpr std::array<std::string_view, 5> pose_names{"overview", "oblique", "low", "grazing",
-                                                     "map"};
+constexpr std::array<std::string_view, 6> pose_names{"overview", "oblique", "low",
+                                                     "grazing",  "valley",  "map"};
+
+using Ground = std::function<double(double x, double y)>;
+
+Camera valley_camera(const Box& bounds, const Ground& ground) {
+    constexpr int steps = 32; // of a lattice over the middle
+    const double side = 0.5 * bounds.size().x;
+    glm::dvec3 lowest(0.0, 0.0, std::numeric_limits<double>::infinity());
+    glm::dvec3 highest(0.0, 0.0, -std::numeric_limits<double>::infinity());
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            const double x = bounds.center().x + side * (1.0 * i / steps - 0.5);
+            const double y = bounds.center().y + side * (1.0 * j / steps - 0.5);
+            const double z = ground(x, y);
+            lowest = z < lowest.z ? glm::dvec3(x, y, z) : lowest;
+            highest = z > highest.z ? glm::dvec3(x, y, z) : highest;
+        }
+    }
+    Camera camera;
+    camera.eye = lowest + glm::dvec3(0.0, 0.0, 0.01 * bounds.size().z);
+    camera.target = lowest.z < highest.z ? highest : camera.eye + glm::dvec3(0.0, side, 0.0);
+    return camera;
+}
 
 Camera map_camera(const Box& bounds) {
     Camera camera;
@@ -85,8 +107,7 @@ std::optional<Pose> pose_from_string(std::string_view text) {
                                      : std::optional(static_cast<Pose>(found - pose_names.begin()));
 }
 
-Camera pose_camera(Pose pose, const Box& bounds,
-                   const std::function<double(double x, double y)>& ground) {
+Camera pose_camera(Pose pose, const Box& bounds, const Ground& ground) {
     const double w = bounds.size().x;
     const double h0 = bounds.low.z;
     const double h1 = bounds.high.z;
@@ -107,6 +128,8 @@ Camera pose_camera(Pose pose, const Box& bounds,
         camera.eye = middle + glm::dvec3(0.0, -0.6 * w, h1 + 0.03 * w);
         camera.target = middle + glm::dvec3(0.0, 0.0, h1);
         return camera;
+    case Pose::valley:
+        return valley_camera(bounds, ground);
     case Pose::map:
         return map_camera(bounds);
     }

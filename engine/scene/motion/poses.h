@@ -10,12 +10,13 @@
 namespace reljef::scene {
 
 /// The standard viewpoints of the benchmarks. w: width (x) of the bounds, centred at the origin;
-/// h0, h1: their lowest and highest z; vertical field of view 57.3°.
+/// h0, h1: their lowest and highest z; vertical field of view 57.3°. The middle is within 0.25w.
 enum class Pose {
     overview, ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h0)
     oblique,  ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h1): for reliefs below z = 0
     low,      ///< eye (0, −0.3w, ground + 0.15(h1 − h0)), target (0.05w, 0.4w, h0)
     grazing,  ///< eye (0, −0.6w, h1 + 0.03w), target (0, 0, h1)
+    valley,   ///< eye on the lowest ground of the middle + 0.01(h1 − h0), target: its highest ground
     map,      ///< straight down on everything, north up, orthographic
 };
 

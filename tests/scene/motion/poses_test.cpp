@@ -40,6 +40,21 @@ TEST(Poses, AreTheFormulasOfTheBenchmarks) {
     }
 }
 
+TEST(Poses, TheValleyIsTheLowestGroundOfTheMiddle) {
+    const auto pit_and_peak = [](double x, double y) {
+        const double pit = std::hypot(x - 0.125 * w, y + 0.0625 * w) < 1.0 ? -10.0 : 0.0;
+        const double peak = std::hypot(x + 0.25 * w, y - 0.25 * w) < 1.0 ? 50.0 : 0.0;
+        const double outside = std::abs(x) > 0.26 * w ? -40.0 : 0.0;
+        return 20.0 + pit + peak + outside;
+    };
+    const Camera valley = pose_camera(Pose::valley, bounds, pit_and_peak);
+    EXPECT_EQ(valley.eye, glm::dvec3(0.125 * w, -0.0625 * w, 10.0 + 0.01 * (h1 - h0)));
+    EXPECT_EQ(valley.target, glm::dvec3(-0.25 * w, 0.25 * w, 70.0));
+    const Camera flat = pose_camera(Pose::valley, bounds, [](double, double) { return 20.0; });
+    EXPECT_EQ(flat.target.z, flat.eye.z);
+    EXPECT_GT(glm::distance(flat.target, flat.eye), 1.0);
+}
+
 TEST(Poses, TheMapHoldsAllOfItNorthUp) {
     const glm::ivec2 size{1024, 768};
     for (const Box& box : {bounds, Box{{-10.0, -500.0, 0.0}, {10.0, 500.0, 5.0}},
@@ -105,7 +120,8 @@ TEST(WholeCamera, CropsNoCornerOfAnyBoxAndFillsThePicture) {
 }
 
 TEST(Poses, HaveNames) {
-    for (const Pose pose : {Pose::overview, Pose::oblique, Pose::low, Pose::grazing, Pose::map}) {
+    for (const Pose pose :
+         {Pose::overview, Pose::oblique, Pose::low, Pose::grazing, Pose::valley, Pose::map}) {
         EXPECT_EQ(pose_from_string(to_string(pose)), pose);
     }
     EXPECT_FALSE(pose_from_string("Overview"));
