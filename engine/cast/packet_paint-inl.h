@@ -335,10 +335,15 @@ struct WallLook {
     Floats t; // true
 };
 
+HWY_INLINE WallLook no_walls() {
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    return {no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
+}
+
 // The walls below the terrain: in front of all ground.
 HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    WallLook walls{no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
+    WallLook walls = no_walls();
     const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
                         hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
     const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
@@ -406,13 +411,12 @@ HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
 template <class Mode, class StartOf>
 HWY_INLINE WallLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
                                      const PixelOffsets& pixels, const StartOf& start_of) {
-    if (paint.walls.empty()) {
-        const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
-        return {no_lanes(), ground, ground.t};
-    }
-    const WallLook walls = wall_look_of(paint, pixels);
-    if (hn::AllTrue(floats, walls.found)) {
-        return walls;
+    WallLook walls = no_walls();
+    if (!paint.walls.empty()) {
+        walls = wall_look_of(paint, pixels);
+        if (hn::AllTrue(floats, walls.found)) {
+            return walls;
+        }
     }
     const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
     return {walls.found,
