@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -49,7 +51,8 @@ scene::Material colored(glm::vec3 color) {
 struct ObjectStage : Stage {
     scene::Light sun;
 
-    explicit ObjectStage(bool has_shadows = true) : Stage(test::hills(301, 257, 14.0)) {
+    explicit ObjectStage(bool has_shadows = true, Grid<float> heights = test::hills(301, 257, 14.0))
+        : Stage(std::move(heights)) {
         sun.azimuth = 250.0;
         sun.altitude = 20.0;
         scene.add_light(sun);
@@ -101,6 +104,17 @@ struct ObjectStage : Stage {
         }
     }
 };
+
+// The same hills, and a wall between the objects and the sun.
+Grid<float> hills_and_wall() {
+    Grid<float> heights = test::hills(301, 257, 14.0);
+    for (int row = 100; row < 240; ++row) {
+        for (int col = 84; col < 90; ++col) {
+            heights(col, row) += 35.0F;
+        }
+    }
+    return heights;
+}
 
 double share_that_differs(const Image& a, const Image& b, int levels) {
     int others = 0;
@@ -218,9 +232,18 @@ TEST(MeshFrame, MeshesAloneAreDrawnBeforeTheSky) {
     EXPECT_LE(share_that_differs(driver.read_color(), expected, 16), 0.01);
 }
 
+TEST(MeshFrame, GroundHidesTheSunFromMeshes) {
+    ObjectStage stage(true, hills_and_wall());
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image expected = stage.true_picture(truth::SunShadow::ray);
+        EXPECT_LE(share_that_differs(stage.drawn(), expected, 16), 0.01) << is_map;
+    }
+}
+
 TEST(MeshFrame, ShadowsOverAStreamAreThoseInMemory) {
-    ObjectStage stage;
-    ObjectStage streamed;
+    ObjectStage stage(true, hills_and_wall());
+    ObjectStage streamed(true, hills_and_wall());
     test::stream_samples(*streamed.terrain->get<scene::TerrainNode>());
     stage.look_near();
     streamed.look_near();

@@ -56,6 +56,15 @@ TEST(PictureLevels, AreTheMeanFarAway) {
     }
 }
 
+TEST(PictureLevels, WeighAllTexelsTheSame) {
+    for (int col = 0; col < 7; ++col) {
+        Image picture(7, 1, Rgba8{0, 0, 0, 255});
+        picture(col, 0) = {255, 255, 255, 255};
+        const PictureLevels levels(picture);
+        EXPECT_NEAR(levels.at({0.5, 0.5}, {1.0, 0.0}, {0.0, 1.0}).r, 1.0 / 7.0, 0.01) << col;
+    }
+}
+
 // A pixel that is 2 texels wide takes level 1, and at most 8 times its short side.
 TEST(PictureLevels, FollowThePixel) {
     Image stripes(64, 64, Rgba8{255, 255, 255, 255});
