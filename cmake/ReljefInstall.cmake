@@ -69,7 +69,7 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libreljef-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libglm-dev, libfmt-dev, libgdal-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libopenimageio-dev, libgeographiclib-dev, libhwy-dev")
+  "libglm-dev, libfmt-dev, libgdal-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libopenimageio-dev, libgeographiclib-dev, libhwy-dev, libembree-dev")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME reljef-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
 include(CPack)

@@ -185,7 +185,8 @@ void add_backend_options(CLI::App& command, ViewChoice& choice) {
     add_parsed(
         command, "--context", choice.context, parse_context,
         "what draws: OpenGL with glfw (window), egl (GPU without a window) or osmesa (CPU); cpu: "
-        "exact rays without OpenGL, for one terrain; auto: a GPU if there is one, else "
+        "exact rays without OpenGL, for one terrain with objects; auto: a GPU if there is one, "
+        "else "
         "cpu for what it draws, and osmesa (view: glfw) for all else (auto)",
         "KIND");
     command

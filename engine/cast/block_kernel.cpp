@@ -41,6 +41,16 @@ HWY_INLINE void store(Tag tag, hn::Vec<Tag> lanes, int col, int row, U* to) {
     }
 }
 
+// The values of a packet whose first pixel is (col, row).
+HWY_INLINE Floats load(const float* from, int col, int row) {
+    alignas(64) float values[static_cast<std::size_t>(lane_count)];
+    for (int i = 0; i < packet_rows; ++i) {
+        std::memcpy(values + i * packet_cols, from + (row + i) * block_side + col,
+                    sizeof(float) * packet_cols);
+    }
+    return hn::Load(floats, values);
+}
+
 // The hits of all tiles together.
 struct MergedHits {
     PacketHits hits;
@@ -127,7 +137,8 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
     for_each_packet([&](int col, int row) HWY_ATTR {
         const auto start_of = [&](const BlockJob& job)
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
-        const Look look = look_of<Mode>(jobs, paint, offsets_of(col, row), start_of);
+        const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
+        const Look look = look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
         store(ints, bytes_of(look.color), col, row, pixels.rgba.data());
         if (paint.needs_nearness) {
             store(floats, nearness_of(paint, look.t), col, row, pixels.nearness.data());
@@ -149,7 +160,9 @@ void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) 
     for_each_packet([&](int col, int row) HWY_ATTR {
         const auto start_of = [&](const BlockJob& job)
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
-        const Work found = look_of<Counted>(jobs, paint, offsets_of(col, row), start_of).work;
+        const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
+        const Work found =
+            look_of<Counted>(jobs, paint, offsets_of(col, row), start_of, mesh_values).work;
         store(ints, found.taps, col, row, work.taps.data());
         store(ints, found.steps, col, row, work.steps.data());
         store(ints, found.rays, col, row, work.rays.data());
@@ -249,7 +262,10 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         };
         const PixelOffsets offsets{hn::Load(floats, packet.right.data()),
                                    hn::Load(floats, packet.down.data())};
-        const Look look = look_of<Mode>(jobs, paint, offsets, start_of);
+        const auto number = static_cast<std::size_t>(first.pixel * sampled.samples + first.sample);
+        const auto mesh_values = [&](const float* of)
+                                     HWY_ATTR { return hn::LoadU(floats, of + number); };
+        const Look look = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values);
         first = add_samples(look.color, sampled, first, sums);
     }
 }
@@ -290,6 +306,41 @@ std::uint32_t bends_of(const NearnessRows& rows) {
     return bits;
 }
 
+// As if they were hits.
+HWY_INLINE PacketHits hits_at(const SunPlaces& places, int first) {
+    const Ints number = hn::Iota(ints, first);
+    const Lanes found = hn::RebindMask(floats, hn::Lt(number, all(places.count)));
+    const auto whole = [&](const std::int32_t* values) HWY_ATTR {
+        return hn::IfThenElseZero(hn::RebindMask(ints, found), hn::Load(ints, values + first));
+    };
+    const auto number_at = [&](const float* values) HWY_ATTR {
+        return hn::IfThenElseZero(found, hn::Load(floats, values + first));
+    };
+    PacketHits hits;
+    hits.found = found;
+    hits.col = whole(places.col.data());
+    hits.row = whole(places.row.data());
+    hits.col_part = number_at(places.col_part.data());
+    hits.row_part = number_at(places.row_part.data());
+    hits.height = number_at(places.height.data());
+    return hits;
+}
+
+void hide_all(const BlockJob& job, const SunPlaces& places,
+              std::array<std::uint8_t, block_pixels>& hidden) {
+    for (int first = 0; first < places.count; first += lane_count) {
+        Work none = Work::nothing();
+        const Lanes dark = hidden_from_sun<AmongTiles>(job, hits_at(places, first), none);
+        std::array<std::uint8_t, 8> bytes{};
+        hn::StoreMaskBits(floats, dark, bytes.data());
+        const unsigned lanes = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
+        for (int lane = 0; lane < lane_count && first + lane < places.count; ++lane) {
+            hidden[static_cast<std::size_t>(first + lane)] =
+                static_cast<std::uint8_t>(lanes >> static_cast<unsigned>(lane) & 1U);
+        }
+    }
+}
+
 } // namespace reljef::cast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -301,14 +352,15 @@ HWY_EXPORT(paint_all);
 HWY_EXPORT(count_all);
 HWY_EXPORT(sample_all);
 HWY_EXPORT(bends_of);
+HWY_EXPORT(hide_all);
 
 BlockKernel block_kernel(std::int64_t targets) {
     hwy::ChosenTarget chosen;
     chosen.Update(targets != 0 ? targets : hwy::SupportedTargets());
     const std::size_t index = chosen.GetIndex();
-    return {HWY_DISPATCH_TABLE(cast_all)[index], HWY_DISPATCH_TABLE(paint_all)[index],
+    return {HWY_DISPATCH_TABLE(cast_all)[index],  HWY_DISPATCH_TABLE(paint_all)[index],
             HWY_DISPATCH_TABLE(count_all)[index], HWY_DISPATCH_TABLE(sample_all)[index],
-            HWY_DISPATCH_TABLE(bends_of)[index]};
+            HWY_DISPATCH_TABLE(bends_of)[index],  HWY_DISPATCH_TABLE(hide_all)[index]};
 }
 
 std::int64_t compiled_targets() {

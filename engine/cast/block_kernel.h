@@ -145,9 +145,28 @@ struct WallTriangle {
     glm::vec2 high{0.0F};
 };
 
+/// What meshes look like in a block: a value for each of its pixels, row after row, or for each of
+/// its samples. As many follow the last one as a packet has lanes.
+struct BlockMeshes {
+    const float* t = nullptr;            ///< of the hits, as BlockHits::t
+    std::array<const float*, 3> color{}; ///< linear, lit
+    /// Times the inverse depth: differs from surface to surface, so that their borders get several
+    /// samples. In (0, 1).
+    const float* nearness = nullptr;
+};
+
+/// Meshes that may hide the sun from ground.
+struct MeshShadow {
+    const void* meshes = nullptr;
+    /// The lanes, as bits, that meshes hide. Places: metres from the eye. Null: none.
+    std::uint32_t (*hidden)(const void* meshes, std::array<const float*, 3> places,
+                            std::uint32_t lanes) = nullptr;
+};
+
 /// What all of a block looks like.
 struct BlockPaint {
     BlockRays::Vectors view;    ///< world directions of the rays, metres per t
+    BlockRays::Vectors origin;  ///< of the rays, metres from the eye; 0 in perspective
     float anchor = 0.0F;        ///< depth at t = 0, metres
     bool has_air = false;       ///< not on maps
     glm::vec3 extinction{0.0F}; ///< of the air at the base, 1/metre
@@ -169,6 +188,8 @@ struct BlockPaint {
     glm::vec3 sun{0.0F}; ///< 0 without a sun
     glm::vec3 to_sun{0.0F};
     std::span<const WallTriangle> walls = {}; ///< in front of all ground
+    const BlockMeshes* meshes = nullptr;      ///< null: none
+    MeshShadow mesh_shadow = {};
 };
 
 /// Colours of a block as bytes r, g, b, a, row after row.
@@ -205,6 +226,16 @@ struct SampledPixels {
     int samples = 1;
 };
 
+/// Places from which the sun may be seen: cells of a terrain relative to a base, and parts.
+struct SunPlaces {
+    alignas(64) std::array<std::int32_t, block_pixels> col;
+    alignas(64) std::array<std::int32_t, block_pixels> row;
+    alignas(64) std::array<float, block_pixels> col_part;
+    alignas(64) std::array<float, block_pixels> row_part;
+    alignas(64) std::array<float, block_pixels> height; ///< metres above the job's base height
+    int count = 0;
+};
+
 /// The functions of an instruction set.
 struct BlockKernel {
     void (*cast)(const BlockJobs& jobs, BlockHits& hits) = nullptr;
@@ -218,6 +249,9 @@ struct BlockKernel {
     /// The pixels of a row that are not on a plane with those beside them, or above and below:
     /// bits.
     std::uint32_t (*bends)(const NearnessRows& rows) = nullptr;
+    /// Whether the job's `sun_tiles` hide the sun from places; 1: they do.
+    void (*hide)(const BlockJob& job, const SunPlaces& places,
+                 std::array<std::uint8_t, block_pixels>& hidden) = nullptr;
 };
 
 /// Those of the fastest of Highway's targets (SimdTarget::bit); 0: of the machine's.

@@ -198,9 +198,10 @@ HWY_INLINE void count_texels(const PacketHits& hits, Floats level, Work& work) {
     work.tap(hn::And(hits.found, between), texels_of_level);
 }
 
-// Of the hits.
-template <class Mode>
-HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level, Work& work) {
+// Of the hits. `beside_meshes(lanes)`: those from which no mesh hides the sun.
+template <class Mode, class BesideMeshes>
+HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats level,
+                           const BesideMeshes& beside_meshes, Work& work) {
     Color lit = map_color(*job.paint, hits, level);
     if constexpr (Mode::counts) {
         count_texels(hits, level, work);
@@ -212,7 +213,7 @@ HWY_INLINE Color lit_color(const BlockJob& job, const PacketHits& hits, Floats l
         count_texels(hits, level, work);
     }
     const Color sun = map_color(*job.sun, hits, level);
-    const Lanes sunny = seen_by_sun<Mode>(job, hits, work);
+    const Lanes sunny = beside_meshes(seen_by_sun<Mode>(job, hits, work));
     if (!hn::AllFalse(floats, sunny)) {
         const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
             channel = hn::Add(channel, hn::IfThenElseZero(sunny, part));

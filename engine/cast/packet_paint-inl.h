@@ -258,12 +258,40 @@ HWY_INLINE Floats level_of(const BlockJob& job, const Rays& rays, const PacketHi
     return hn::Min(level, all(static_cast<float>(paint.level_count - 1)));
 }
 
+// The lanes from whose hits no mesh hides the sun.
+HWY_INLINE Lanes beside_meshes(const BlockPaint& paint, const PixelOffsets& pixels,
+                               const ViewRays& view, Floats t, Lanes sunny) {
+    constexpr auto count = static_cast<std::size_t>(lane_count);
+    alignas(64) std::array<std::array<float, count>, 3> places;
+    const Floats depth = hn::Add(t, all(paint.anchor));
+    const std::array<Floats, 3> directions{view.x, view.y, view.z};
+    for (std::size_t axis = 0; axis < places.size(); ++axis) {
+        const Floats origin = pixels.of(paint.origin, static_cast<int>(axis));
+        hn::Store(hn::MulAdd(directions[axis], depth, origin), floats, places[axis].data());
+    }
+    std::array<std::uint8_t, 8> bytes{};
+    hn::StoreMaskBits(floats, sunny, bytes.data());
+    const unsigned lanes = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
+    const std::uint32_t hidden = paint.mesh_shadow.hidden(
+        paint.mesh_shadow.meshes, {places[0].data(), places[1].data(), places[2].data()}, lanes);
+    const std::uint32_t left = lanes & ~hidden;
+    bytes = {static_cast<std::uint8_t>(left & 255U), static_cast<std::uint8_t>(left >> 8U)};
+    return hn::LoadMaskBits(floats, bytes.data());
+}
+
 // Of the hits, seen through the air (Koschmieder 1924).
 template <class Mode>
-HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
-                              const ViewRays& view, const PacketHits& hits, Work& work) {
+HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
+                              const PixelOffsets& pixels, const Rays& rays, const ViewRays& view,
+                              const PacketHits& hits, Work& work) {
     const Floats metres = hn::Mul(hn::Add(hits.t, all(paint.anchor)), view.length);
-    const Color lit = lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), work);
+    const auto without_shadow = [&](Lanes sunny) HWY_ATTR {
+        const bool is_open =
+            Mode::counts || paint.mesh_shadow.hidden == nullptr || hn::AllFalse(floats, sunny);
+        return is_open ? sunny : beside_meshes(paint, pixels, view, hits.t, sunny);
+    };
+    const Color lit =
+        lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), without_shadow, work);
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }
 
@@ -304,12 +332,18 @@ HWY_INLINE Floats inside_of(const WallTriangle& wall, const PixelOffsets& pixels
 struct WallLook {
     Lanes found;
     Look look;
+    Floats t; // true
 };
+
+HWY_INLINE WallLook no_walls() {
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    return {no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
+}
 
 // The walls below the terrain: in front of all ground.
 HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    WallLook walls{no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}};
+    WallLook walls = no_walls();
     const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
                         hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
     const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
@@ -325,6 +359,7 @@ HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pi
         walls.look.t = hn::IfThenElse(found, hn::Sub(depth, all(paint.anchor)), walls.look.t);
         walls.found = hn::Or(walls.found, found);
     }
+    walls.t = walls.look.t;
     if (!hn::AllFalse(floats, walls.found)) {
         const Floats depth = hn::Add(walls.look.t, all(paint.anchor));
         const ViewRays view = view_rays(paint, pixels);
@@ -357,7 +392,7 @@ HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
         const Rays rays = rays_of(job, pixels);
         const PacketHits hits = hits_of<Mode>(rays, job, start, met);
         if (!hn::AllFalse(floats, hits.found)) {
-            const Color color = ground_color<Mode>(job, paint, rays, view, hits, met.work);
+            const Color color = ground_color<Mode>(job, paint, pixels, rays, view, hits, met.work);
             look.color = chosen(hits.found, color, look.color);
             look.t = hn::IfThenElse(hits.found, hits.t, look.t);
         }
@@ -372,19 +407,55 @@ HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
     return look;
 }
 
+// Ground behind walls.
 template <class Mode, class StartOf>
-HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
-                        const StartOf& start_of) {
-    if (paint.walls.empty()) {
-        return ground_look_of<Mode>(jobs, paint, pixels, start_of);
-    }
-    const WallLook walls = wall_look_of(paint, pixels);
-    if (hn::AllTrue(floats, walls.found)) {
-        return walls.look;
+HWY_INLINE WallLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
+                                     const PixelOffsets& pixels, const StartOf& start_of) {
+    WallLook walls = no_walls();
+    if (!paint.walls.empty()) {
+        walls = wall_look_of(paint, pixels);
+        if (hn::AllTrue(floats, walls.found)) {
+            return walls;
+        }
     }
     const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
-    return {chosen(walls.found, walls.look.color, ground.color),
-            hn::IfThenElse(walls.found, walls.look.t, ground.t), ground.work};
+    return {walls.found,
+            {chosen(walls.found, walls.look.color, ground.color),
+             hn::IfThenElse(walls.found, walls.look.t, ground.t), ground.work},
+            hn::IfThenElse(walls.found, walls.t, ground.t)};
+}
+
+// Meshes in front of or behind all else. `mesh_values(values)`: those of the packet's pixels.
+template <class MeshValues>
+HWY_INLINE Look with_meshes(const WallLook& behind, const BlockPaint& paint,
+                            const PixelOffsets& pixels, const MeshValues& mesh_values) {
+    const BlockMeshes& meshes = *paint.meshes;
+    const Floats t = mesh_values(meshes.t);
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    const Lanes found = hn::And(hn::Le(t, behind.t), hn::Lt(t, never));
+    if (hn::AllFalse(floats, found)) {
+        return behind.look;
+    }
+    Color color{mesh_values(meshes.color[0]), mesh_values(meshes.color[1]),
+                mesh_values(meshes.color[2])};
+    const Floats depth = hn::IfThenElseZero(found, hn::Add(t, all(paint.anchor)));
+    if (paint.has_air) {
+        const ViewRays view = view_rays(paint, pixels);
+        color = through_air(paint, angles_of(paint, view), color, hn::Mul(depth, view.length));
+    }
+    const Floats nearer = hn::Sub(hn::Mul(depth, mesh_values(meshes.nearness)), all(paint.anchor));
+    return {chosen(found, color, behind.look.color), hn::IfThenElse(found, nearer, behind.look.t),
+            behind.look.work};
+}
+
+template <class Mode, class StartOf, class MeshValues>
+HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
+                        const StartOf& start_of, const MeshValues& mesh_values) {
+    if (paint.walls.empty() && paint.meshes == nullptr) {
+        return ground_look_of<Mode>(jobs, paint, pixels, start_of);
+    }
+    const WallLook behind = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
+    return paint.meshes == nullptr ? behind.look : with_meshes(behind, paint, pixels, mesh_values);
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

@@ -159,11 +159,10 @@ Error refused_technique(const Error& reason, const SceneOptions& view) {
 
 // That of rays if no technique is named and they draw the terrain.
 std::optional<scene::Technique> default_technique(const scene::TerrainNode& terrain,
-                                                  bool has_objects, const SceneOptions& view) {
+                                                  const SceneOptions& view) {
     const scene::Technique exact{scene::Exact{}};
     const bool is_named = view.technique || view.max_error;
     const bool is_exact = view.rays != RayUse::none && !is_named && terrain.stream == nullptr &&
-                          !has_objects &&
                           terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
                           cast::obstacle_of(terrain, exact).empty();
     return is_exact ? std::optional(exact) : std::nullopt;
@@ -177,8 +176,7 @@ Result<void> choose_technique(TerrainScene& scene, const SceneOptions& view) {
     }
     auto& node = *scene.terrain->get<scene::TerrainNode>();
     node.material.wireframe = view.wireframe;
-    const scene::Technique technique =
-        default_technique(node, !scene.objects.empty(), view).value_or(technique_of(view));
+    const scene::Technique technique = default_technique(node, view).value_or(technique_of(view));
     if (auto good = scene.check(technique); !good) {
         return refused_technique(good.error(), view);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -20,6 +21,15 @@ namespace reljef::truth {
 namespace {
 
 constexpr std::size_t leaf_triangles = 4;
+
+enum class Sides { outside, both };
+
+// The other side of a triangle.
+scene::TriangleEdges turned(scene::TriangleEdges edges) {
+    std::swap(edges.p, edges.q);
+    std::swap(edges.s, edges.t);
+    return edges;
+}
 
 // Möller and Trumbore 1997; only from outside.
 std::optional<MeshHit> triangle_hit(const scene::TriangleEdges& edges, const Ray& ray,
@@ -91,7 +101,8 @@ struct MeshCaster::Tree {
         }
     }
 
-    [[nodiscard]] std::optional<MeshHit> first_hit(const Ray& ray, Interval range) const {
+    [[nodiscard]] std::optional<MeshHit> first_hit(const Ray& ray, Interval range,
+                                                   Sides sides) const {
         std::optional<MeshHit> nearest;
         std::vector<std::uint32_t> open;
         if (!branches_.empty()) {
@@ -110,7 +121,12 @@ struct MeshCaster::Tree {
             }
             for (std::uint32_t i = 0; i < branch.count; ++i) {
                 const std::size_t triangle = std::size_t{3} * order_[branch.first + i];
-                if (auto hit = triangle_hit(scene::triangle_edges(mesh_, triangle), ray, range)) {
+                const scene::TriangleEdges edges = scene::triangle_edges(mesh_, triangle);
+                auto hit = triangle_hit(edges, ray, range);
+                if (!hit && sides == Sides::both) {
+                    hit = triangle_hit(turned(edges), ray, range);
+                }
+                if (hit) {
                     hit->triangle = triangle;
                     range.end = hit->t;
                     nearest = hit;
@@ -201,8 +217,8 @@ std::optional<MeshHit> MeshCaster::first_hit(const Ray& world_ray, Interval rang
         if (!intersect(world_ray, instance.bounds, range)) {
             continue;
         }
-        auto hit =
-            instance.tree->first_hit(transformed(instance.local_from_world, world_ray), range);
+        auto hit = instance.tree->first_hit(transformed(instance.local_from_world, world_ray),
+                                            range, Sides::outside);
         if (hit) {
             hit->mesh = i;
             range.end = hit->t;
@@ -212,7 +228,23 @@ std::optional<MeshHit> MeshCaster::first_hit(const Ray& world_ray, Interval rang
     return nearest;
 }
 
-glm::vec3 MeshCaster::color_at(const MeshHit& hit, const std::optional<scene::Light>& sun) const {
+bool MeshCaster::hides(const Ray& world_ray) const {
+    constexpr Interval onward{0.0, std::numeric_limits<double>::infinity()};
+    return std::any_of(instances_.begin(), instances_.end(), [&](const Instance& instance) {
+        return intersect(world_ray, instance.bounds, onward) &&
+               instance.tree->first_hit(transformed(instance.local_from_world, world_ray), onward,
+                                        Sides::both);
+    });
+}
+
+glm::dvec3 MeshCaster::face_at(const MeshHit& hit) const {
+    const Instance& instance = instances_[hit.mesh];
+    const scene::TriangleEdges edges = scene::triangle_edges(*instance.node.mesh, hit.triangle);
+    return glm::normalize(instance.world_from_normal * glm::cross(edges.p, edges.q));
+}
+
+glm::vec3 MeshCaster::color_at(const MeshHit& hit, const std::optional<scene::Light>& sun,
+                               bool sees_sun) const {
     const Instance& instance = instances_[hit.mesh];
     const scene::Mesh& mesh = *instance.node.mesh;
     const scene::Material& material = instance.node.material;
@@ -227,7 +259,8 @@ glm::vec3 MeshCaster::color_at(const MeshHit& hit, const std::optional<scene::Li
     }
     const glm::vec3 normal(
         glm::normalize(instance.world_from_normal * glm::dvec3(mixed(mesh.normals, mesh, hit))));
-    const float facing = std::max(glm::dot(normal, glm::vec3(scene::to_light(*sun))), 0.0F);
+    const float facing =
+        sees_sun ? std::max(glm::dot(normal, glm::vec3(scene::to_light(*sun))), 0.0F) : 0.0F;
     return albedo * (sun->color * facing + sun->ambient * (0.5F + 0.5F * normal.z));
 }
 

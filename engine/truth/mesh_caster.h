@@ -38,10 +38,16 @@ public:
     /// The nearest triangle with t in `range`. Of equal ones any.
     [[nodiscard]] std::optional<MeshHit> first_hit(const Ray& world_ray, Interval range) const;
 
+    /// Whether a ray meets a triangle, from outside or from inside.
+    [[nodiscard]] bool hides(const Ray& world_ray) const;
+
+    /// Out of the hit's triangle: a unit vector in the world.
+    [[nodiscard]] glm::dvec3 face_at(const MeshHit& hit) const;
+
     /// Linear: the colour, or the picture's bilinear one, times the light of the sun and the sky
-    /// (shaders/frame/surface_light.glsl); nothing casts shadows on it.
-    [[nodiscard]] glm::vec3 color_at(const MeshHit& hit,
-                                     const std::optional<scene::Light>& sun) const;
+    /// (shaders/frame/surface_light.glsl). `sees_sun`: nothing hides the sun.
+    [[nodiscard]] glm::vec3 color_at(const MeshHit& hit, const std::optional<scene::Light>& sun,
+                                     bool sees_sun = true) const;
 
     /// As in a hit buffer: no place on the terrain, and the depth.
     [[nodiscard]] static Hit as_shown(const MeshHit& hit);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/truth/eye.h"
 
 namespace reljef::truth {
 namespace {
@@ -121,7 +122,10 @@ glm::vec3 Shading::at(const SceneHit& hit, const Ray& ray, double distance) cons
 
 glm::vec3 Shading::at(const MeshHit& hit, const SceneCaster& caster, const Ray& ray,
                       double distance) const {
-    return backdrop_.through_air(caster.meshes().color_at(hit, backdrop_.sun), ray, distance);
+    const bool is_lit = caster_ == nullptr || !backdrop_.sun ||
+                        sees_sun(caster, hit, ray, scene::to_light(*backdrop_.sun));
+    return backdrop_.through_air(caster.meshes().color_at(hit, backdrop_.sun, is_lit), ray,
+                                 distance);
 }
 
 glm::vec3 Backdrop::through_air(glm::vec3 color, const Ray& ray, double distance) const {
@@ -145,7 +149,22 @@ bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun)
     constexpr double start = 1e-3; // samples
     const glm::dvec2 spacing = surface.heightfield().spacing;
     ray.origin = ray.at(start * std::min(spacing.x, spacing.y));
-    return !is_below(surface, ray.origin) && !terrain.caster.first_hit(ray);
+    return !is_below(surface, ray.origin) && !terrain.caster.first_hit(ray) &&
+           !caster.meshes().hides(transformed(terrain.world_from_local, ray));
+}
+
+bool sees_sun(const SceneCaster& caster, const MeshHit& hit, const Ray& ray, glm::dvec3 to_sun) {
+    constexpr double start = 1e-6; // metres: doubles of places on the Earth are rounded by less
+    const glm::dvec3 face = caster.meshes().face_at(hit);
+    const Ray onward{ray.at(hit.t) + start * face, to_sun};
+    if (glm::dot(face, to_sun) <= 0.0 || caster.meshes().hides(onward)) {
+        return false;
+    }
+    return std::none_of(
+        caster.terrains().begin(), caster.terrains().end(), [&](const PlacedTerrain& terrain) {
+            const Ray local = transformed(terrain.local_from_world, onward);
+            return is_below(*terrain.surface, local.origin) || terrain.caster.first_hit(local);
+        });
 }
 
 } // namespace reljef::truth

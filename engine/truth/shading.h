@@ -34,12 +34,16 @@ struct Backdrop {
 
 enum class SunShadow {
     sweep, ///< precomputed per sample, with penumbra (scene/terrain_light.h)
-    ray,   ///< exact, see sees_sun()
+    ray,   ///< exact, see sees_sun(); meshes cast and get shadows, too
 };
 
-/// Whether the ray from a hit to the sun meets nothing of the hit's terrain: exact, no penumbra.
-/// The ray starts a thousandth of a sample away. `to_sun`: unit vector in the world.
+/// Whether the ray from a hit to the sun meets nothing of the hit's terrain, and no mesh: exact, no
+/// penumbra. The ray starts a thousandth of a sample away. `to_sun`: unit vector in the world.
 bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun);
+
+/// The same of a hit of a mesh, along `ray`: of all terrains and meshes. A triangle that is turned
+/// away from the sun does not see it. The ray starts a micrometre outside of the triangle.
+bool sees_sun(const SceneCaster& caster, const MeshHit& hit, const Ray& ray, glm::dvec3 to_sun);
 
 /// Linear colours of a scene's hits. The constructor computes albedo, slopes and shadows of all
 /// terrains; later changes of the scene have no effect. Thread-safe.

@@ -90,6 +90,7 @@ struct DrawList {
     std::vector<TileDraw> tiles;       ///< of `terrains`, front to back
     std::vector<TerrainDraw> reliefs;  ///< by rays, front to back
     std::vector<MeshDraw> meshes;
+    std::vector<MeshDraw> meshes_beside; ///< outside the frustum: they may cast shadows into it
     std::vector<MeshDraw> bases; ///< walls below terrains (TerrainNode::base), in pictures only
     FrameStats stats;            ///< of the selection
 

@@ -188,6 +188,7 @@ private:
             }
             list_.meshes.push_back({&mesh, world_from_local, false});
         } else {
+            list_.meshes_beside.push_back({&mesh, world_from_local, false});
             ++list_.stats.skipped.nodes_outside_frustum;
             list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;
         }

@@ -16,7 +16,7 @@
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
 #include "engine/cast/frame/painter.h"
-#include "engine/cast/frame/sun_tiles.h"
+#include "engine/cast/frame/sun_light.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/streaming/certain_sun.h"
 #include "engine/scene/streaming/tile_stream.h"
@@ -75,6 +75,13 @@ StreamedList with_tiles_of_reliefs(view::DrawList list) {
 // Tiles of a stream are drawn in up to four pieces.
 int tile_count(const view::DrawList& list, const PlacedTiles& placed) {
     return static_cast<int>(list.tiles.empty() ? placed.tiles.size() : list.tiles.size());
+}
+
+// Those of the picture's middles, unless they can only meet the sky.
+std::size_t ray_count(const view::DrawList& list, const PlacedTiles& placed) {
+    const bool is_empty = placed.tiles.empty() && list.meshes.empty();
+    return is_empty ? 0
+                    : static_cast<std::size_t>(list.size.x) * static_cast<std::size_t>(list.size.y);
 }
 
 } // namespace
@@ -183,6 +190,8 @@ Result<void> Driver::add_light(const view::PreparedLight& prepared) {
 void Driver::forget_content() {
     surfaces_.clear();
     streamed_ = {};
+    mesh_trees_ = {};
+    mesh_pictures_ = {};
 }
 
 namespace {
@@ -215,73 +224,6 @@ std::vector<TileContents::SharedTile> tiles_of(const view::DrawList& list) {
         tiles.push_back(draw.tile);
     }
     return tiles;
-}
-
-constexpr int cells_a_word = 16;
-constexpr double share_of_heights = 1.0 / 2048.0; // that sun rays may begin above the surface
-
-int words_a_row(int cells) {
-    return (cells + cells_a_word - 1) / cells_a_word;
-}
-
-static_assert(static_cast<std::int32_t>(scene::CertainSun::unknown) == 0 &&
-              static_cast<std::int32_t>(scene::CertainSun::lit) == sun_certain &&
-              static_cast<std::int32_t>(scene::CertainSun::dark) == shadow_certain);
-
-// As BlockJob::certain_sun.
-std::vector<std::int32_t> packed(const Grid<scene::CertainSun>& known) {
-    const auto stride = static_cast<std::size_t>(words_a_row(known.cols()));
-    std::vector<std::uint32_t> words(stride * static_cast<std::size_t>(known.rows()));
-    for (int row = 0; row < known.rows(); ++row) {
-        for (int col = 0; col < known.cols(); ++col) {
-            const std::size_t word = static_cast<std::size_t>(row) * stride +
-                                     static_cast<std::size_t>(col / cells_a_word);
-            words[word] |= static_cast<std::uint32_t>(known(col, row))
-                           << static_cast<unsigned>(2 * (col % cells_a_word));
-        }
-    }
-    return {words.begin(), words.end()};
-}
-
-// Metres by which sun rays begin above the surface at most: packet_light-inl.h adds what floats
-// round of the tile's heights and of the ray's, from the height at which it begins.
-double max_sun_lift(const RayTile& tile, const PictureRays& rays) {
-    constexpr double rounding = 0x1p-18; // a few of 2^-20
-    const glm::dvec3 first = rays.origin.first + rays.anchor * rays.direction.first;
-    const glm::dvec3 extent = glm::abs(rays.origin.right + rays.anchor * rays.direction.right) *
-                                  static_cast<double>(rays.size.x) +
-                              glm::abs(rays.origin.down + rays.anchor * rays.direction.down) *
-                                  static_cast<double>(rays.size.y);
-    const terrain::MinMax total = tile.total();
-    return rounding *
-           (std::max(std::abs(total.low), std::abs(total.high)) + std::abs(first.z) + extent.z);
-}
-
-// Metres within a cell for which sun rays begin above the surface: they begin at least 2^-19 of the
-// heights above a place whose column and row are rounded by 2^-25 of the side. Half of it is left.
-double max_variation(const RayTile& tile) {
-    const terrain::MinMax total = tile.total();
-    const double lift = 0x1p-19 * std::max(std::abs(total.low), std::abs(total.high));
-    const double rounded = 0x1p-25 * std::max(tile.cells().x, tile.cells().y);
-    return 0.5 * lift / (2.0 * rounded);
-}
-
-// Where hits have the light of the sun: its map has no shadows. Of a terrain on a plane.
-void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::span<const SunSource> beside,
-             PlacedTiles& placed) {
-    const auto light = view::light_on(list, seen.world_from_local);
-    if (!light) {
-        return;
-    }
-    const glm::dvec3 local = glm::inverse(light->world_from_local) * scene::to_light(light->sun);
-    const scene::TerrainNode& node = *seen.node;
-    glm::dvec3 to_sun = direction_in_samples(node.surface->placement(), local);
-    if (seen.has_tiles) {
-        to_sun *= glm::dvec3(glm::dvec2(node.stream->maker().reduction()), 1.0);
-    }
-    if (to_sun.z > 0.0) { // else there is no such light
-        add_sun_tiles(placed, beside, to_sun);
-    }
 }
 
 } // namespace
@@ -332,23 +274,17 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
 // Of a terrain in memory.
 void Driver::add_certain_sun(const view::DrawList& list, const SeenTerrain& seen,
                              PlacedTile& tile) {
-    const scene::TerrainSurface& surface = *seen.node->surface;
-    Light& light = surface_of(seen.node->surface).light;
-    const auto on = view::light_on(list, seen.world_from_local);
-    const auto to_sun =
-        on ? scene::sun_in_samples(surface.placement(), *on) : std::optional<glm::dvec3>();
-    const terrain::MinMax total = tile.tile->total();
-    const double max_lift = share_of_heights * (total.high - total.low);
-    if (!to_sun || tile.sun_tiles.empty() || !options_.skips.certain ||
-        max_sun_lift(*tile.tile, tile.rays) > max_lift) {
+    const auto rays = options_.skips.certain ? certain_sun_rays(list, seen, tile)
+                                             : std::optional<scene::SunRays>();
+    if (!rays) {
         return;
     }
+    Light& light = surface_of(seen.node->surface).light;
     if (light.certain_sun.empty()) {
-        light.certain_sun = packed(scene::certain_sun(
-            surface.heightfield().heights.view(), {*to_sun, max_lift, max_variation(*tile.tile)}));
+        light.certain_sun = packed_certain_sun(*seen.node->surface, *rays);
     }
     tile.certain_sun = light.certain_sun;
-    tile.certain_stride = words_a_row(tile.tile->cells().x);
+    tile.certain_stride = certain_stride(tile.tile->cells().x);
 }
 
 // A terrain in memory.
@@ -364,7 +300,37 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     }
 }
 
-void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
+Result<std::unique_ptr<const MeshFrame>> Driver::mesh_frame(const StreamedList& frame,
+                                                            const PlacedTiles& placed) {
+    const view::DrawList& list = frame.list;
+    if (list.meshes.empty() && list.meshes_beside.empty()) {
+        return std::unique_ptr<const MeshFrame>();
+    }
+    const std::vector<SeenTerrain> terrains = seen_terrains(list);
+    MeshFrame::Options options;
+    if (!terrains.empty() && casts_shadows(terrains.front())) {
+        const SeenTerrain& seen = terrains.front();
+        auto beside = seen.has_tiles ? streamed_.beside(seen.node->stream->maker(), tiles_of(list),
+                                                        frame.above)
+                                     : std::vector<SunSource>();
+        options.ground = shadow_ground(list, seen, placed, std::move(beside));
+    }
+    if (list.meshes.empty() && !options.ground) {
+        return std::unique_ptr<const MeshFrame>(); // those beside the picture cast no shadows
+    }
+    auto meshes = mesh_trees_.place(list.meshes, list.meshes_beside, list.camera.eye);
+    if (!meshes) {
+        return meshes.error();
+    }
+    mesh_pictures_.prepare(*meshes);
+    options.anchor = placed.tiles.empty() ? 0.0 : placed.tiles.front().rays.anchor;
+    options.kernel = block_kernel(options_.target.value_or(SimdTarget{}).bit);
+    options.skips = options_.skips;
+    return std::unique_ptr<const MeshFrame>(
+        std::make_unique<MeshFrame>(list, std::move(*meshes), mesh_pictures_, std::move(options)));
+}
+
+void Driver::paint(const view::DrawList& list, const PlacedTiles& placed, const MeshFrame* meshes) {
     // Of a pixel's width: a step of this depth shows another surface.
     constexpr double step_in_pixels = 2.0;
     const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
@@ -372,7 +338,8 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed) {
     first_.samples_all = options_.samples_all;
     first_.disagreement =
         static_cast<float>(step_in_pixels) * (first_.is_perspective ? pixel.y : pixel.x);
-    Painter painter(list, placed, {options_.target, options_.skips, options_.samples}, first_);
+    Painter painter(list, placed, {options_.target, options_.skips, options_.samples, meshes},
+                    first_);
     ParallelOptions parallel;
     parallel.threads = options_.threads;
     for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
@@ -420,8 +387,12 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
     const StreamedList streamed = with_tiles_of_reliefs(frame.list);
     view::FrameStats stats = frame.list.stats;
     const PlacedTiles placed = placed_tiles(streamed, true, stats);
-    paint(streamed.list, placed);
-    stats.rays = placed.tiles.empty() ? 0 : first_.picture.size();
+    const auto meshes = mesh_frame(streamed, placed);
+    if (!meshes) {
+        return meshes.error();
+    }
+    paint(streamed.list, placed, meshes->get());
+    stats.rays = ray_count(streamed.list, placed);
     stats.tiles = tile_count(streamed.list, placed);
     stats.cpu_ms = watch.milliseconds();
     return stats;
@@ -444,7 +415,14 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
         return hits.error();
     }
     drawn.hits = std::move(*hits);
-    drawn.stats.rays = placed.tiles.empty() ? 0 : drawn.hits.size();
+    const auto meshes = mesh_frame(streamed, placed);
+    if (!meshes) {
+        return meshes.error();
+    }
+    if (*meshes != nullptr) {
+        (*meshes)->add_hits(drawn.hits, options.parallel);
+    }
+    drawn.stats.rays = ray_count(streamed.list, placed);
     drawn.stats.tiles = tile_count(streamed.list, placed);
     return drawn;
 }

@@ -10,10 +10,13 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/mesh_frame.h"
 #include "engine/cast/frame/ray_support.h"
 #include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/tile_contents.h"
 #include "engine/cast/lit_levels.h"
+#include "engine/cast/mesh/mesh_surface.h"
+#include "engine/cast/mesh/mesh_trees.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/picture_samples.h"
 #include "engine/cast/ray_tile.h"
@@ -51,18 +54,19 @@ struct StreamedList {
     std::vector<TileContents::SharedTile> above; ///< those above the drawn ones in their tree
 };
 
-/// Draws selected frames by rays on the CPU (cast_hits.h); light, air and sky are those of
-/// render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
+/// Draws selected frames by rays on the CPU (cast_hits.h, mesh_frame.h); light, air and sky are
+/// those of render::Driver. Keeps what it makes of a terrain as long as the scene has its surface.
 class Driver {
 public:
     /// Fails on a size that is out of range, and as view::check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame of size(), and has finished when it returns. Fails as check_support().
+    /// Draws a frame of size(), and has finished when it returns. Fails as check_support() and
+    /// MeshTrees::place().
     Result<view::FrameStats> draw(const view::FrameView& frame);
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
-    /// What each pixel of draw() costs with one sample: exactly what its rays read and where they
-    /// step. Without the few steps of the beams of whole blocks (RaySkips::free_space).
+    /// What each pixel of draw() costs with one sample: exactly what its rays read of the ground,
+    /// and their steps. Without the few steps of the beams of whole blocks (RaySkips::free_space).
     Result<view::PictureWork> count_work(const view::FrameView& frame);
 
     /// The last frame.
@@ -104,7 +108,10 @@ private:
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
-    void paint(const view::DrawList& list, const PlacedTiles& placed);
+    // Null without meshes.
+    Result<std::unique_ptr<const MeshFrame>> mesh_frame(const StreamedList& frame,
+                                                        const PlacedTiles& placed);
+    void paint(const view::DrawList& list, const PlacedTiles& placed, const MeshFrame* meshes);
     view::PictureWork count(const view::DrawList& list, const PlacedTiles& placed);
 
     DriverOptions options_;
@@ -112,6 +119,8 @@ private:
     Image picture_;      // while samples are drawn
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     TileContents streamed_;
+    MeshTrees mesh_trees_;
+    MeshPictures mesh_pictures_;
 };
 
 } // namespace reljef::cast

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <optional>
 #include <span>
 
 #include "engine/cast/frame/base_walls.h"
@@ -59,6 +60,29 @@ BlockPaint backdrop_of(const view::DrawList& list) {
 // The bytes of a pixel are those of Rgba8.
 static_assert(std::endian::native == std::endian::little);
 
+// The middles of a block's pixels, also of those beside the picture.
+std::vector<glm::dvec2> middles_of(const PixelBlock& block) {
+    std::vector<glm::dvec2> places(block_pixels);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const glm::ivec2 pixel(static_cast<int>(i) % block_side, static_cast<int>(i) / block_side);
+        places[i] = glm::dvec2(block.first + pixel) + 0.5;
+    }
+    return places;
+}
+
+std::vector<glm::dvec2> places_of(const SampledPixels& sampled, const PixelBlock& block) {
+    std::vector<glm::dvec2> places;
+    for (int i = 0; i < sampled.count; ++i) {
+        const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
+        const glm::ivec2 in_block(pixel % block_side, pixel / block_side);
+        for (int sample = 0; sample < sampled.samples; ++sample) {
+            places.push_back(glm::dvec2(block.first + in_block) + 0.5 +
+                             glm::dvec2(sampled.places[static_cast<std::size_t>(sample)]));
+        }
+    }
+    return places;
+}
+
 void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& picture) {
     const auto width = static_cast<std::size_t>(block.size.x);
     for (int row = 0; row < block.size.y; ++row) {
@@ -73,7 +97,7 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
 
 Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
                  const PainterOptions& options, FirstSamples& first)
-    : placed_(placed), skips_(options.skips),
+    : placed_(placed), skips_(options.skips), meshes_(options.meshes),
       kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)), shared_(backdrop_of(list)),
       view_(view_of(list)), walls_(base_walls(list)),
       corner_(view::dither_origin(list.camera, list.size)), picture_{-list.camera.first,
@@ -86,6 +110,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     samples_.samples = static_cast<int>(places.size());
     shared_.is_perspective = first.is_perspective;
     shared_.needs_nearness = has_samples();
+    shared_.mesh_shadow = meshes_ != nullptr ? meshes_->shadow() : MeshShadow{};
     std::transform(places.begin(), places.end(), samples_.places.begin(),
                    [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
 }
@@ -93,7 +118,12 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
 void Painter::paint(const PixelBlock& block, std::size_t index) {
     std::vector<BlockJob> jobs = block_jobs(placed_, block, skips_);
     BlockPixels pixels;
-    kernel_.paint({jobs, placed_.has_walls}, paint_of(block, index), pixels);
+    BlockPaint paint = paint_of(block, index);
+    const auto meshes =
+        shows_meshes(index) ? std::optional(meshes_->look(index, middles_of(block))) : std::nullopt;
+    const BlockMeshes values = meshes ? meshes->values() : BlockMeshes{};
+    paint.meshes = meshes ? &values : nullptr;
+    kernel_.paint({jobs, placed_.has_walls}, paint, pixels);
     write_block(pixels, block, first_.picture);
     if (samples_.samples > 1) {
         first_.write_nearness(pixels, block, picture_);
@@ -128,7 +158,13 @@ void Painter::sample(const PixelBlock& block, std::size_t index, Image& picture)
         return;
     }
     BlockPixels pixels;
-    kernel_.sample({jobs_[index], placed_.has_walls}, paint_of(block, index), sampled, pixels);
+    BlockPaint paint = paint_of(block, index);
+    const auto meshes = shows_meshes(index)
+                            ? std::optional(meshes_->look(index, places_of(sampled, block)))
+                            : std::nullopt;
+    const BlockMeshes values = meshes ? meshes->values() : BlockMeshes{};
+    paint.meshes = meshes ? &values : nullptr;
+    kernel_.sample({jobs_[index], placed_.has_walls}, paint, sampled, pixels);
     for (int i = 0; i < sampled.count; ++i) {
         const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
         std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
@@ -143,6 +179,11 @@ BlockPaint Painter::paint_of(const PixelBlock& block, std::size_t index) const {
         paint.walls = walls_[index];
     }
     const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
+    if (meshes_ != nullptr) {
+        const PictureRays::Vectors& origin = meshes_->origin();
+        paint.origin = {glm::vec3(origin.at(middle)), glm::vec3(origin.right),
+                        glm::vec3(origin.down)};
+    }
     paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
     paint.from_corner = corner_ + glm::vec2(middle.x, first_.picture.rows() - middle.y);
     return paint;

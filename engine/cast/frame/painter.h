@@ -6,6 +6,7 @@
 
 #include "engine/cast/block_kernel.h"
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/mesh_frame.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/picture_samples.h"
 #include "engine/cast/simd_target.h"
@@ -19,7 +20,8 @@ namespace reljef::cast {
 struct PainterOptions {
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
     RaySkips skips = {};
-    int samples = 1; ///< of a pixel
+    int samples = 1;                   ///< of a pixel
+    const MeshFrame* meshes = nullptr; ///< null: none; outlives the painter
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.
@@ -41,9 +43,13 @@ public:
 
 private:
     [[nodiscard]] BlockPaint paint_of(const PixelBlock& block, std::size_t index) const;
+    [[nodiscard]] bool shows_meshes(std::size_t block) const {
+        return meshes_ != nullptr && meshes_->may_show(block);
+    }
 
     const PlacedTiles& placed_;
     RaySkips skips_;
+    const MeshFrame* meshes_;
     BlockKernel kernel_;
     BlockPaint shared_;
     PictureRays::Vectors view_;

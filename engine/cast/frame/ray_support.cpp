@@ -14,6 +14,7 @@ namespace reljef::cast {
 
 bool draws_technique(const scene::Technique& technique) {
     scene::TechniqueOptions drawn;
+    drawn.writes_depth = technique.options.writes_depth; // rays always order by depth
     if (technique.options.shadow) {
         drawn.shadow = scene::Shadow{.depth = 0.0};
     }
@@ -41,9 +42,28 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     return terrain.detail != nullptr ? "a detail texture" : "";
 }
 
+std::string obstacle_of(const scene::MeshNode& mesh) {
+    const scene::Material& material = mesh.material;
+    if (material.wireframe) {
+        return "a wireframe";
+    }
+    if (material.detail.set == nullptr) {
+        return {};
+    }
+    if (material.technique.id() != scene::TechniqueId::texture) {
+        return fmt::format("a mesh with technique {}", scene::to_string(material.technique));
+    }
+    return scene::visible_detail(material).border == material::WrapMode::wrap &&
+                   !scene::is_seen_from_behind(material)
+               ? std::string()
+               : "a mesh whose texture ends or is seen from behind";
+}
+
 std::string obstacle_of(const view::DrawList& list) {
-    if (!list.meshes.empty()) {
-        return "a mesh";
+    for (const view::MeshDraw& mesh : list.meshes) {
+        if (auto found = obstacle_of(*mesh.mesh); !found.empty()) {
+            return found;
+        }
     }
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     for (const SeenTerrain& terrain : terrains) {

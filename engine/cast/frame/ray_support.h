@@ -8,13 +8,16 @@
 namespace reljef::cast {
 
 /// Whether rays draw terrains with a technique: `exact`, or an error bound, which they keep;
-/// without options, except hard shadows.
+/// without options, except hard shadows and the depth of hits.
 bool draws_technique(const scene::Technique& technique);
 
 /// What rays on the CPU cannot draw of a terrain with a technique; empty if they draw it.
 std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Technique& technique);
 
-/// The same of a list, which has at most one terrain and no meshes.
+/// The same of a mesh: rays draw its colour, or the colours of a texture that repeats.
+std::string obstacle_of(const scene::MeshNode& mesh);
+
+/// The same of a list, which has at most one terrain.
 std::string obstacle_of(const view::DrawList& list);
 /// Fails if there is an obstacle.
 Result<void> check_support(const view::DrawList& list);

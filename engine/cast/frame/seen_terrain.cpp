@@ -1,6 +1,10 @@
 #include "engine/cast/frame/seen_terrain.h"
 
 #include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/vec4.hpp>
 
 #include "engine/scene/streaming/tile_stream.h"
 
@@ -67,6 +71,37 @@ std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
 
 bool is_curved(const scene::TerrainNode& node) {
     return node.surface->placement().kind() == terrain::PlacementKind::ellipsoid;
+}
+
+std::array<glm::dvec3, 8> corners_of(const Box& box) {
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        corners[i] = {(i & 1U) != 0 ? box.high.x : box.low.x,
+                      (i & 2U) != 0 ? box.high.y : box.low.y,
+                      (i & 4U) != 0 ? box.high.z : box.low.z};
+    }
+    return corners;
+}
+
+PixelBlock seen_pixels(const glm::dmat4& clip_from_local, glm::ivec2 size,
+                       const std::array<glm::dvec3, 8>& corners) {
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high = -low;
+    for (const glm::dvec3& corner : corners) {
+        const glm::dvec4 clip = clip_from_local * glm::dvec4(corner, 1.0);
+        if (!(clip.w > 0.0)) {
+            return {{0, 0}, size}; // reaches behind the eye
+        }
+        const glm::dvec2 pixel =
+            (0.5 + glm::dvec2(0.5, -0.5) * glm::dvec2(clip) / clip.w) * glm::dvec2(size);
+        low = glm::min(low, pixel);
+        high = glm::max(high, pixel);
+    }
+    constexpr double margin = 1.0; // floats of rays are off by far less
+    const glm::dvec2 end(size);
+    const glm::ivec2 first(glm::floor(glm::clamp(low - margin, glm::dvec2(0.0), end)));
+    const glm::ivec2 last(glm::ceil(glm::clamp(high + margin, glm::dvec2(0.0), end)));
+    return {first, last - first};
 }
 
 } // namespace reljef::cast

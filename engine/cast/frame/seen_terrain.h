@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
+#include "engine/cast/beam.h"
 #include "engine/core/geometry.h"
 #include "engine/view/draw_list.h"
 
@@ -22,5 +26,12 @@ struct SeenTerrain {
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list);
 
 bool is_curved(const scene::TerrainNode& node);
+
+std::array<glm::dvec3, 8> corners_of(const Box& box);
+
+/// A rectangle of a picture of `size` pixels around all that is seen of a convex body with these
+/// corners; all of the picture if it reaches behind the eye.
+PixelBlock seen_pixels(const glm::dmat4& clip_from_local, glm::ivec2 size,
+                       const std::array<glm::dvec3, 8>& corners);
 
 } // namespace reljef::cast

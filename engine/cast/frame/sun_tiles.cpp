@@ -53,13 +53,13 @@ SunTile tile_between(const SunSource& from, const SunSource& to, glm::dvec3 to_s
     return made;
 }
 
-// The boxes that places of one may meet on their way to the sun: itself, then the nearest first.
-std::vector<std::size_t> met_from(std::size_t from, const std::vector<Box>& boxes,
+// The boxes that places of one may meet on their way to the sun: `first`, then the nearest first.
+std::vector<std::size_t> met_from(const Box& from, std::size_t first, const std::vector<Box>& boxes,
                                   glm::dvec3 to_sun) {
     std::vector<std::pair<double, std::size_t>> met;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-        if (const auto way = way_between(boxes[from], boxes[i], to_sun)) {
-            met.emplace_back(i == from ? -1.0 : *way, i);
+        if (const auto way = way_between(from, boxes[i], to_sun)) {
+            met.emplace_back(i == first ? -1.0 : *way, i);
         }
     }
     std::sort(met.begin(), met.end());
@@ -69,7 +69,22 @@ std::vector<std::size_t> met_from(std::size_t from, const std::vector<Box>& boxe
     return indices;
 }
 
+std::vector<Box> boxes_of(std::span<const SunSource> sources) {
+    std::vector<Box> boxes(sources.size());
+    std::transform(sources.begin(), sources.end(), boxes.begin(), box_of);
+    return boxes;
+}
+
 } // namespace
+
+std::vector<std::size_t> sun_sources(const Box& box, std::span<const SunSource> sources,
+                                     glm::dvec3 to_sun) {
+    return met_from(box, sources.size(), boxes_of(sources), to_sun);
+}
+
+SunTile sun_tile_from(glm::ivec2 base, const SunSource& source, glm::dvec3 to_sun) {
+    return tile_between({nullptr, glm::dvec2(base), glm::dvec2(1.0)}, source, to_sun);
+}
 
 void add_sun_tiles(PlacedTiles& placed, std::span<const SunSource> beside, glm::dvec3 to_sun) {
     std::vector<SunSource> sources;
@@ -77,10 +92,9 @@ void add_sun_tiles(PlacedTiles& placed, std::span<const SunSource> beside, glm::
         sources.push_back({tile.tile, tile.first, tile.step});
     }
     sources.insert(sources.end(), beside.begin(), beside.end());
-    std::vector<Box> boxes(sources.size());
-    std::transform(sources.begin(), sources.end(), boxes.begin(), box_of);
+    const std::vector<Box> boxes = boxes_of(sources);
     for (std::size_t i = 0; i < placed.tiles.size(); ++i) {
-        for (const std::size_t source : met_from(i, boxes, to_sun)) {
+        for (const std::size_t source : met_from(boxes[i], i, boxes, to_sun)) {
             placed.tiles[i].sun_tiles.push_back(tile_between(sources[i], sources[source], to_sun));
         }
     }

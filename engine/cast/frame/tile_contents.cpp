@@ -34,38 +34,17 @@ public:
           clip_from_local_(scene::clip_from_world(list.camera, list.size) * world_from_local) {}
 
     [[nodiscard]] PixelBlock of(const Box& samples) const {
-        return around(samples,
-                      [&](glm::dvec3 corner) { return overview_.world_from_sample(corner); });
+        std::array<glm::dvec3, 8> corners = corners_of(samples);
+        for (glm::dvec3& corner : corners) {
+            corner = overview_.world_from_sample(corner);
+        }
+        return seen_pixels(clip_from_local_, size_, corners);
     }
     [[nodiscard]] PixelBlock of_local(const Box& local) const {
-        return around(local, [](glm::dvec3 corner) { return corner; });
+        return seen_pixels(clip_from_local_, size_, corners_of(local));
     }
 
 private:
-    template <class ToLocal>
-    [[nodiscard]] PixelBlock around(const Box& box, const ToLocal& to_local) const {
-        glm::dvec2 low(std::numeric_limits<double>::infinity());
-        glm::dvec2 high = -low;
-        for (int i = 0; i < 8; ++i) {
-            const glm::dvec3 corner((i & 1) != 0 ? box.high.x : box.low.x,
-                                    (i & 2) != 0 ? box.high.y : box.low.y,
-                                    (i & 4) != 0 ? box.high.z : box.low.z);
-            const glm::dvec4 clip = clip_from_local_ * glm::dvec4(to_local(corner), 1.0);
-            if (!(clip.w > 0.0)) {
-                return {{0, 0}, size_}; // reaches behind the eye
-            }
-            const glm::dvec2 pixel =
-                (0.5 + glm::dvec2(0.5, -0.5) * glm::dvec2(clip) / clip.w) * glm::dvec2(size_);
-            low = glm::min(low, pixel);
-            high = glm::max(high, pixel);
-        }
-        constexpr double margin = 1.0; // floats of rays are off by far less
-        const glm::dvec2 end(size_);
-        const glm::ivec2 first(glm::floor(glm::clamp(low - margin, glm::dvec2(0.0), end)));
-        const glm::ivec2 last(glm::ceil(glm::clamp(high + margin, glm::dvec2(0.0), end)));
-        return {first, last - first};
-    }
-
     glm::ivec2 size_;
     const terrain::Placement& overview_;
     glm::dmat4 clip_from_local_;

@@ -71,7 +71,7 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
     };
     test::expect_refusal(with({"urban", "--technique", "texture"}), 1,
                          {"technique texture found", "--context osmesa"});
-    test::expect_refusal(with({"gallery"}), 1, {"a mesh found", "--context osmesa"});
+    test::expect_refusal(with({"gallery"}), 1, {"a mesh with technique", "--context osmesa"});
     test::expect_refusal(with({"urban", "--samples", "3"}), 2, {"--samples", "3", "16"});
     test::expect_refusal(with({"urban", "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
 }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/graph/daylight.h"
+#include "engine/scene/graph/picture_detail.h"
 #include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
@@ -298,8 +299,16 @@ TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
     stage.use(shadowed);
     EXPECT_NE(reason_against(stage.scene).find("shadow"), std::string::npos);
     stage.use({scene::Exact{}});
-    stage.scene.add_mesh(scene::plane_mesh(glm::vec2(30.0F)));
-    EXPECT_NE(reason_against(stage.scene).find("a mesh found"), std::string::npos);
+    auto& mesh = *stage.scene.add_mesh(scene::plane_mesh(glm::vec2(300.0F))).get<scene::MeshNode>();
+    EXPECT_EQ(reason_against(stage.scene), "");
+    mesh.material.detail.set =
+        scene::picture_material(Image(1, 1, Rgba8{9, 9, 9, 255}), "grey").value();
+    mesh.material.technique = scene::make_technique(scene::TechniqueId::relief);
+    EXPECT_NE(reason_against(stage.scene).find("a mesh with technique relief"), std::string::npos);
+    mesh.material.technique = scene::make_technique(scene::TechniqueId::texture);
+    EXPECT_EQ(reason_against(stage.scene), "");
+    mesh.material.wireframe = true;
+    EXPECT_NE(reason_against(stage.scene).find("a wireframe"), std::string::npos);
 }
 
 TEST(CastDriver, RefusesSizesAndSamplesOutOfRange) {

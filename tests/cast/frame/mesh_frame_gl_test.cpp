@@ -1,0 +1,276 @@
+#include "engine/cast/frame/mesh_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/cast/frame/driver.h"
+#include "engine/scene/graph/picture_detail.h"
+#include "engine/scene/motion/poses.h"
+#include "engine/truth/image_error.h"
+#include "tests/cast/made_rays.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
+#include "tests/session/made_session.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr glm::ivec2 mesh_picture{320, 240};
+
+scene::Material picture_on_mesh() {
+    Image picture(32, 32);
+    for (int row = 0; row < 32; ++row) {
+        for (int col = 0; col < 32; ++col) {
+            const bool is_red = (col / 4 + row / 4) % 2 == 0;
+            picture(col, row) = is_red ? Rgba8{200, 40, 30, 255} : Rgba8{240, 220, 180, 255};
+        }
+    }
+    scene::Material material;
+    material.detail.set = scene::picture_material(picture, "checks").value();
+    material.detail.repeats = glm::vec2(2.0F, 1.0F);
+    material.technique = scene::make_technique(scene::TechniqueId::texture);
+    return material;
+}
+
+scene::Material colored(glm::vec3 color) {
+    scene::Material material;
+    material.color = color;
+    return material;
+}
+
+// Hills with objects on them, some half in the ground, in the afternoon.
+struct ObjectStage : Stage {
+    scene::Light sun;
+
+    explicit ObjectStage(bool has_shadows = true, Grid<float> heights = test::hills(301, 257, 14.0))
+        : Stage(std::move(heights)) {
+        sun.azimuth = 250.0;
+        sun.altitude = 20.0;
+        scene.add_light(sun);
+        scene.set_sky({.visibility = 4000.0, .plane = {}});
+        set_shadow(has_shadows);
+        add(scene::box_mesh({14.0F, 10.0F, 40.0F}), {0.0, -40.0}, colored({0.7F, 0.2F, 0.1F}));
+        add(scene::sphere_mesh(12.0F), {-30.0, -20.0}, picture_on_mesh());
+        add(scene::torus_mesh(14.0F, 4.0F), {35.0, -30.0}, colored({0.1F, 0.3F, 0.8F}));
+        add(scene::cylinder_mesh(3.0F, 60.0F), {10.0, 20.0}, picture_on_mesh());
+    }
+    void set_shadow(bool has_shadows) {
+        scene::Technique technique{scene::Exact{}};
+        if (has_shadows) {
+            technique.options.shadow = scene::Shadow{.depth = 0.0};
+        }
+        terrain->get<scene::TerrainNode>()->material.technique = technique;
+    }
+    void add(scene::Mesh mesh, glm::dvec2 at, const scene::Material& material) {
+        const double ground = surface().height_at(at.x, at.y).value();
+        scene.add_mesh(std::move(mesh), material).set_position({at, ground + 3.0});
+    }
+    void look_near() {
+        look(test::camera_at({10.0, -120.0, surface().bounds().high.z + 20.0}, {0.0, -10.0, 5.0}));
+    }
+    void look_from_above() {
+        scene::Camera map = test::camera_at({0.0, -10.0, 500.0}, {0.0, -10.0, 0.0});
+        map.projection = scene::ProjectionKind::orthographic;
+        map.view_height = 120.0;
+        look(map);
+    }
+    [[nodiscard]] Image drawn(const DriverOptions& options = {.size = mesh_picture}) const {
+        Driver driver = test::must(Driver::create(options));
+        test::must(driver.draw(view::select(scene, options.size)));
+        return driver.read_color();
+    }
+    [[nodiscard]] Image true_picture(truth::SunShadow shadow) const {
+        return test::must(truth::draw(scene, mesh_picture, {.rays_per_side = 1, .shadow = shadow}))
+            .image;
+    }
+    void remove_meshes() {
+        std::vector<const scene::Node*> meshes;
+        for (const auto& node : scene.root().children()) {
+            if (node->get<scene::MeshNode>() != nullptr) {
+                meshes.push_back(node.get());
+            }
+        }
+        for (const scene::Node* const mesh : meshes) {
+            scene.root().remove(*mesh);
+        }
+    }
+};
+
+// The same hills, and a wall between the objects and the sun.
+Grid<float> hills_and_wall() {
+    Grid<float> heights = test::hills(301, 257, 14.0);
+    for (int row = 100; row < 240; ++row) {
+        for (int col = 84; col < 90; ++col) {
+            heights(col, row) += 35.0F;
+        }
+    }
+    return heights;
+}
+
+double share_that_differs(const Image& a, const Image& b, int levels) {
+    int others = 0;
+    for (int row = 0; row < a.rows(); ++row) {
+        for (int col = 0; col < a.cols(); ++col) {
+            const Rgba8 p = a(col, row);
+            const Rgba8 q = b(col, row);
+            const int off =
+                std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
+            others += off > levels ? 1 : 0;
+        }
+    }
+    return static_cast<double>(others) / (a.cols() * a.rows());
+}
+
+bool are_same(const HitBuffer& a, const HitBuffer& b) {
+    return std::memcmp(a.samples().data(), b.samples().data(), a.size() * sizeof(Hit)) == 0;
+}
+
+// The truth has no mip levels, so textures may differ a little where they are small.
+TEST(MeshFrame, MeshesAndShadowsAreThoseOfTheTruth) {
+    ObjectStage stage;
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image shown = stage.drawn();
+        const Image expected = stage.true_picture(truth::SunShadow::ray);
+        const auto errors = truth::image_errors(shown, expected);
+        ASSERT_TRUE(errors);
+        EXPECT_LE(errors->rmse, 0.02) << is_map;
+        EXPECT_LE(share_that_differs(shown, expected, 16), 0.01) << is_map;
+        // Without shadows of meshes it is another picture, and without meshes yet another one.
+        const Image unshadowed = stage.true_picture(truth::SunShadow::sweep);
+        EXPECT_GE(share_that_differs(shown, unshadowed, 16), 0.03) << is_map;
+    }
+}
+
+TEST(MeshFrame, WithoutTheOptionNothingCastsShadows) {
+    ObjectStage stage(false);
+    stage.look_near();
+    const Image expected = stage.true_picture(truth::SunShadow::sweep);
+    const Image shown = stage.drawn();
+    EXPECT_LE(share_that_differs(shown, expected, 16), 0.01);
+}
+
+TEST(MeshFrame, HitsAreThoseOfTheTruth) {
+    ObjectStage stage;
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        Driver driver = test::must(Driver::create({.size = mesh_picture}));
+        const auto frame = view::select(stage.scene, mesh_picture);
+        const HitBuffer shown = test::must(driver.draw_hits(frame)).hits;
+        const HitBuffer expected = stage.truth(mesh_picture);
+        int meshes = 0;
+        int others = 0;
+        for (int row = 0; row < shown.rows(); ++row) {
+            for (int col = 0; col < shown.cols(); ++col) {
+                const Hit& a = shown(col, row);
+                const Hit& b = expected(col, row);
+                meshes += b.col < 0.0F && !b.is_sky() ? 1 : 0;
+                const bool is_same = a.is_sky() == b.is_sky() && (a.col < 0.0F) == (b.col < 0.0F) &&
+                                     (a.is_sky() || std::abs(a.depth - b.depth) <= 0.01F);
+                others += is_same ? 0 : 1;
+            }
+        }
+        EXPECT_GT(meshes, 3000) << is_map;
+        EXPECT_LE(others, 15) << is_map; // at outlines, where a float decides
+    }
+}
+
+TEST(MeshFrame, HasTheSameBitsOnAnyThreads) {
+    ObjectStage stage;
+    stage.look_near();
+    for (const int samples : {1, 4}) {
+        EXPECT_EQ(stage.drawn({.size = mesh_picture, .threads = 1, .samples = samples}),
+                  stage.drawn({.size = mesh_picture, .threads = 3, .samples = samples}));
+    }
+    const auto frame = view::select(stage.scene, mesh_picture);
+    Driver one = test::must(Driver::create({.size = mesh_picture, .threads = 1}));
+    Driver three = test::must(Driver::create({.size = mesh_picture, .threads = 3}));
+    EXPECT_TRUE(
+        are_same(test::must(one.draw_hits(frame)).hits, test::must(three.draw_hits(frame)).hits));
+}
+
+TEST(MeshFrame, OutlinesGetSeveralSamples) {
+    ObjectStage stage;
+    stage.look_near();
+    const Image one = stage.drawn();
+    const Image some = stage.drawn({.size = mesh_picture, .samples = 4});
+    const Image all = stage.drawn({.size = mesh_picture, .samples = 4, .samples_all = true});
+    EXPECT_GE(share_that_differs(one, all, 16), 0.01);
+    EXPECT_LE(share_that_differs(some, all, 16), 0.25 * share_that_differs(one, all, 16));
+}
+
+// A mesh whose picture has left the frame still casts its shadow into it.
+TEST(MeshFrame, MeshesBesideThePictureCastShadows) {
+    ObjectStage stage;
+    stage.look(test::camera_at({30.0, -43.0, 70.0}, {32.0, -43.0, 0.0}));
+    stage.camera->get<scene::Camera>()->vertical_fov = 20.0;
+    ASSERT_FALSE(view::select(stage.scene, mesh_picture).list.meshes_beside.empty());
+    const Image shown = stage.drawn();
+    const Image expected = stage.true_picture(truth::SunShadow::ray);
+    EXPECT_LE(share_that_differs(shown, expected, 16), 0.02);
+    stage.remove_meshes();
+    EXPECT_GE(share_that_differs(shown, stage.drawn(), 16), 0.05);
+}
+
+TEST(MeshFrame, MeshesAloneAreDrawnBeforeTheSky) {
+    ObjectStage stage;
+    stage.terrain->set_visible(false);
+    stage.look_near();
+    Driver driver = test::must(Driver::create({.size = mesh_picture}));
+    const auto stats = test::must(driver.draw(view::select(stage.scene, mesh_picture)));
+    EXPECT_EQ(stats.rays, static_cast<std::size_t>(mesh_picture.x * mesh_picture.y));
+    const Image expected = stage.true_picture(truth::SunShadow::sweep);
+    EXPECT_LE(share_that_differs(driver.read_color(), expected, 16), 0.01);
+}
+
+TEST(MeshFrame, GroundHidesTheSunFromMeshes) {
+    ObjectStage stage(true, hills_and_wall());
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image expected = stage.true_picture(truth::SunShadow::ray);
+        EXPECT_LE(share_that_differs(stage.drawn(), expected, 16), 0.01) << is_map;
+    }
+}
+
+TEST(MeshFrame, ShadowsOverAStreamAreThoseInMemory) {
+    ObjectStage stage(true, hills_and_wall());
+    ObjectStage streamed(true, hills_and_wall());
+    test::stream_samples(*streamed.terrain->get<scene::TerrainNode>());
+    stage.look_near();
+    streamed.look_near();
+    render::bring_tiles(streamed.scene, mesh_picture);
+    const Image in_memory = stage.drawn();
+    EXPECT_LE(share_that_differs(streamed.drawn(), in_memory, 24), 0.03);
+}
+
+class MeshFrameGlTest : public test::GlTest {};
+
+// OpenGL casts no shadows of meshes, and filters textures with derivatives of four pixels.
+TEST_F(MeshFrameGlTest, MeshesAreThoseOfTheShaders) {
+    ObjectStage stage(false);
+    stage.terrain->get<scene::TerrainNode>()->material.technique.options.writes_depth = true;
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));
+        test::must(made.draw(stage.scene));
+        const Image shaders = made.read_color();
+        const Image rays = stage.drawn();
+        const auto errors = truth::image_errors(rays, shaders);
+        ASSERT_TRUE(errors);
+        EXPECT_LE(errors->rmse, 0.02) << is_map;
+        EXPECT_LE(errors->flip.mean, 0.02) << is_map;
+        EXPECT_LE(share_that_differs(rays, shaders, 8), 0.02) << is_map;
+    }
+}
+
+} // namespace
+} // namespace reljef::cast
