@@ -91,13 +91,17 @@ std::vector<Face> building_below(const std::vector<RoofPart>& roof, const Ring& 
     return faces;
 }
 
+bool has_hips(const Footprint& footprint, RoofKind roof) {
+    return roof == RoofKind::hipped && footprint.rings.size() == 1 &&
+           is_convex(without_straight_corners(footprint.rings.front()));
+}
+
 std::vector<Face> building_of(const Footprint& footprint, RoofKind roof, double foot,
                               double height) {
-    const Ring outline =
-        footprint.rings.size() == 1 ? without_straight_corners(footprint.rings.front()) : Ring();
-    if (roof == RoofKind::flat || !is_convex(outline)) {
+    if (!has_hips(footprint, roof)) {
         return flat_building(footprint, {foot, 0.0, height});
     }
+    const Ring outline = without_straight_corners(footprint.rings.front());
     const double run = largest_run(outline, {});
     const double rise = std::min(hip_slope * run, 0.5 * height);
     SlopedRoof hips;

@@ -42,6 +42,8 @@ std::vector<Face> building_below(const std::vector<RoofPart>& roof, const Ring& 
 /// flat.
 std::vector<Face> building_of(const Footprint& footprint, RoofKind roof, double foot,
                               double height);
+/// Whether it has a hipped roof then.
+bool has_hips(const Footprint& footprint, RoofKind roof);
 inline constexpr double hip_slope = 0.7; ///< rise over run, 35 degrees
 
 /// The sides and the top of an upright box.

@@ -274,15 +274,15 @@ Result<std::string> stand(const BuildingGround& ground,
 }
 
 // A few colours of roofs, by the order in the files.
-glm::vec3 roof_color(std::size_t index, building::RoofKind roof) {
+glm::vec3 roof_color(std::size_t index, bool is_hipped) {
     constexpr std::array tiles{glm::vec3(0.24F, 0.095F, 0.06F), glm::vec3(0.28F, 0.12F, 0.075F),
                                glm::vec3(0.20F, 0.10F, 0.075F)};
     constexpr std::array gravel{glm::vec3(0.27F, 0.26F, 0.24F), glm::vec3(0.21F, 0.20F, 0.19F),
                                 glm::vec3(0.33F, 0.31F, 0.28F)};
-    return (roof == building::RoofKind::hipped ? tiles : gravel)[index % tiles.size()];
+    return (is_hipped ? tiles : gravel)[index % tiles.size()];
 }
 
-void add_building(const terrain::Placement& placement, const Standing& standing, glm::vec3 color,
+void add_building(const terrain::Placement& placement, const Standing& standing, std::size_t index,
                   BuildingMeshes& meshes) {
     const auto on_ground = [&](glm::dvec2 sample) {
         return placement.world_from_sample({sample, standing.ground});
@@ -298,16 +298,17 @@ void add_building(const terrain::Placement& placement, const Standing& standing,
     }
     glm::dmat4 world_from_building(axes);
     world_from_building[3] = glm::dvec4(middle, 1.0);
-    meshes.add({building::building_of(footprint, standing.roof, -foot_depth, standing.height),
-                glm::dvec3(0.0), color},
-               world_from_building);
+    building::PaintedFaces painted;
+    painted.faces = building::building_of(footprint, standing.roof, -foot_depth, standing.height);
+    painted.color = roof_color(index, building::has_hips(footprint, standing.roof));
+    meshes.add(painted, world_from_building);
 }
 
 Result<void> add_meshes(const terrain::Placement& placement, const std::vector<Standing>& standing,
                         scene::Node& node) {
     BuildingMeshes meshes;
     for (std::size_t i = 0; i < standing.size(); ++i) {
-        add_building(placement, standing[i], roof_color(i, standing[i].roof), meshes);
+        add_building(placement, standing[i], i, meshes);
     }
     return meshes.add_to(node);
 }
