@@ -161,7 +161,7 @@ private:
         made.technique = technique;
         made.row.suite = "objects";
         made.row.test = test_name(view);
-        made.row.scene = fmt::format("{}, {} buildings", city.name(), city.buildings());
+        made.row.scene = city.name();
         made.row.setting = setting_of(technique);
         const auto form_name = building::city_form_names[static_cast<std::size_t>(form)];
         made.row.setting.label = fmt::format("{}: {}", form_name, made.row.setting.label);

@@ -75,7 +75,7 @@ function dropOf(row) {
 
 // The views of the suite objects are no pose.
 function viewOf(row) {
-  return [row.scene, row.objects ? '' : row.pose].filter(Boolean).join(', ');
+  return [row.scene, row.objects ? row.objects.buildings + ' buildings' : row.pose].filter(Boolean).join(', ');
 }
 
 function titleOf(row) {

@@ -31,7 +31,8 @@ std::string null_row_text(std::span<const Row> rows) {
 std::string heading_of(std::span<const Row> rows) {
     const Row& row = rows.front();
     const Timing& timing = row.timing;
-    const std::string pose = row.objects ? "" : fmt::format(", {}", scene::to_string(row.pose));
+    const std::string pose = row.objects ? fmt::format(", {} buildings", row.objects->buildings)
+                                         : fmt::format(", {}", scene::to_string(row.pose));
     return fmt::format("{}{}{}, {}x{}, {} frame{}, noise floor{}{}",
                        row.test.empty() ? "" : row.test + ": ", row.scene, pose, row.size.x,
                        row.size.y, timing.frames, timing.frames == 1 ? "" : "s",

@@ -43,7 +43,7 @@ TEST(ObjectsSuite, MeshesAreTheTruthAndHeightsAreBesideIt) {
     const Row& exact = row_of(results, "heights: exact");
     const Row& texture = row_of(results, "heights: texture");
     const auto rms = [](const Row& row) { return row.error->hit_texels->distribution.rms; };
-    EXPECT_LT(meshes.error->wrong_percent, 0.5) << "the bare ground is within a pixel";
+    EXPECT_LT(meshes.error->wrong_percent, 1.0) << "the bare ground may be a pixel off, 2 samples";
     EXPECT_LT(meshes.error->wrong_percent, exact.error->wrong_percent);
     EXPECT_LT(exact.error->wrong_percent, texture.error->wrong_percent);
     EXPECT_LT(rms(exact), rms(texture));
