@@ -118,9 +118,10 @@ TEST_F(FootprintsOnTerrain, WrongOnesAreOneSentence) {
     test::expect_refusal(render(houses_ + ":roof=hipped"), 2, {"--footprints", "height=ATTRIBUTE"});
     test::expect_refusal(render(houses_ + ":height=floors"), 1,
                          {"no attribute 'floors'", "one of h"});
+    const auto file = folder_.write("b.exr", "").string();
     test::expect_refusal(
-        test::reljef({"render", dem_, "-o", houses_, "--footprints", houses_ + ":height=h"}), 2,
-        {"-o", "which is read as --footprints"});
+        test::reljef({"render", dem_, "--hit", file, "--footprints", file + ":height=h"}), 2,
+        {"--hit", "which is read as --footprints"});
 }
 
 } // namespace
