@@ -200,7 +200,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<ViewerChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
-    add_object_option(*arguments, choice->view.objects);
+    add_object_options(*arguments, choice->view.objects, choice->view.footprints);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
     arguments->add_flag("--no-panels", choice->hides_panels,

@@ -5,7 +5,7 @@
 
 #include "app/cli/standard_input.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
+#include "bench/options/output_options.h"
 #include "bench/suites/flight_suite.h"
 
 namespace reljef::bench {

@@ -5,10 +5,10 @@
 
 #include "app/cli/shard_option.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
-#include "bench/part_options.h"
+#include "bench/options/output_options.h"
+#include "bench/options/part_options.h"
+#include "bench/options/suite_arguments.h"
 #include "bench/runner/gallery_tiles.h"
-#include "bench/suite_arguments.h"
 #include "bench/suites/pareto_suite.h"
 
 namespace reljef::bench {

@@ -4,8 +4,8 @@
 
 #include "bench/baselines/baseline_suite.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
-#include "bench/suite_arguments.h"
+#include "bench/options/output_options.h"
+#include "bench/options/suite_arguments.h"
 
 namespace reljef::bench {
 namespace {

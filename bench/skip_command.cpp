@@ -9,9 +9,9 @@
 #include "app/cli/parsed_option.h"
 #include "app/cli/shard_option.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
-#include "bench/part_options.h"
-#include "bench/suite_arguments.h"
+#include "bench/options/output_options.h"
+#include "bench/options/part_options.h"
+#include "bench/options/suite_arguments.h"
 #include "bench/suites/skip_kinds.h"
 #include "bench/suites/skip_suite.h"
 

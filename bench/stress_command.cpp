@@ -8,11 +8,11 @@
 #include "app/cli/parsed_option.h"
 #include "app/cli/usage_error.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
+#include "bench/options/output_options.h"
+#include "bench/options/part_options.h"
+#include "bench/options/suite_arguments.h"
 #include "bench/page/page.h"
-#include "bench/part_options.h"
 #include "bench/stress/stress_suite.h"
-#include "bench/suite_arguments.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {

@@ -6,9 +6,9 @@
 #include "bench/claims/distance_suite.h"
 #include "bench/claims/guess_suite.h"
 #include "bench/commands.h"
-#include "bench/output_options.h"
+#include "bench/options/output_options.h"
+#include "bench/options/suite_arguments.h"
 #include "bench/runner/gallery_tiles.h"
-#include "bench/suite_arguments.h"
 #include "bench/suites/tables_suite.h"
 
 namespace reljef::bench {

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <stop_token>
+#include <vector>
 
+#include "engine/building/building_faces.h"
+#include "engine/building/city_form.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/terrain/field/heightfield.h"
@@ -26,5 +29,15 @@ Result<terrain::Terrain> generate_natural(const GeneratorOptions& options);
 /// A city with streets, buildings, trees and cars. Heights are metres above the street. Errors: a
 /// size or spacing out of range.
 Result<terrain::Terrain> generate_urban(const GeneratorOptions& options);
+
+/// The same city, whose buildings and what stands on them may be meshes.
+struct City {
+    terrain::Terrain terrain;
+    /// On a plane, metres from the middle of the terrain, and above the street; cut at its border.
+    std::vector<building::PaintedFaces> buildings;
+};
+/// The bare ground keeps trees, cars and hedges. On a level plane these are painted only. Colours
+/// of the ground get the same darkening in all forms.
+Result<City> generate_city(const GeneratorOptions& options, building::CityForm form);
 
 } // namespace reljef::terrains

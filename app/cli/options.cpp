@@ -10,6 +10,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "app/cli/parsed_option.h"
+#include "engine/building/city_form.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/daylight.h"
 #include "engine/scene/graph/terrain_node.h"
@@ -399,6 +400,14 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                     "gallery only: brick, rock, cobble, fence, rings, copper, mixed, or a folder "
                     "of pictures (colour, height, normal)")
         ->type_name("NAME|FOLDER");
+    using building::CityForm;
+    add_parsed(command, "--buildings", choice.buildings,
+               word_of<CityForm>("--buildings", {{"heights", CityForm::heights},
+                                                 {"meshes", CityForm::meshes},
+                                                 {"meshes-only", CityForm::meshes_only}}),
+               "urban only: its buildings are heights of the terrain (default), meshes on the bare "
+               "ground, or meshes alone on a level plane",
+               "FORM");
     command
         .add_option("--ramp", choice.ramp,
                     "colours by height: relief, natural, swiss, desert, clay, stretched, or a "

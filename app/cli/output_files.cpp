@@ -53,6 +53,10 @@ std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoic
     for (const auto& object : view.objects) {
         files.push_back({"--object", object.file});
     }
+    for (const auto& footprints : view.footprints) {
+        files.push_back({"--footprints", footprints.file});
+        files.push_back({"--footprints", footprints.surface});
+    }
     return files;
 }
 

@@ -8,37 +8,14 @@
 #include <fmt/format.h>
 
 #include "app/cli/parsed_option.h"
+#include "app/objects/assignments.h"
+#include "app/objects/footprints_option.h"
 #include "engine/core/geometry.h"
 
 namespace reljef::app {
 namespace {
 
 constexpr const char* form = "FILE:at=LAT,LON[,height=M][,heading=DEG][,scale=S]";
-
-struct Assignment {
-    std::string key;
-    std::string value;
-};
-
-// "at=46.1,7.2,height=3": a part without '=' belongs to the value before it.
-std::vector<Assignment> assignments_of(const std::string& text) {
-    std::vector<Assignment> found;
-    std::size_t begin = 0;
-    while (begin <= text.size()) {
-        const std::size_t comma = std::min(text.find(',', begin), text.size());
-        const std::string part = text.substr(begin, comma - begin);
-        const std::size_t equals = part.find('=');
-        if (equals != std::string::npos) {
-            found.push_back({part.substr(0, equals), part.substr(equals + 1)});
-        } else if (!found.empty()) {
-            found.back().value += "," + part;
-        } else {
-            found.push_back({part, ""});
-        }
-        begin = comma + 1;
-    }
-    return found;
-}
 
 Result<void> set_place(io::ObjectDescription& object, const std::string& value) {
     const auto place =
@@ -96,13 +73,11 @@ Result<io::ObjectDescription> parse_object(const std::string& text) {
     if (colon == std::string::npos) {
         return object;
     }
-    std::vector<std::string> seen;
-    for (const Assignment& assignment : assignments_of(text.substr(colon + 1))) {
-        if (std::find(seen.begin(), seen.end(), assignment.key) != seen.end()) {
-            return Error{
-                fmt::format("--object: {} found twice, once was expected", assignment.key)};
-        }
-        seen.push_back(assignment.key);
+    const auto assignments = assignments_of(text.substr(colon + 1), "--object");
+    if (!assignments) {
+        return assignments.error();
+    }
+    for (const Assignment& assignment : *assignments) {
         if (auto set = set_key(object, assignment); !set) {
             return set.error();
         }
@@ -128,7 +103,8 @@ std::string to_text(const io::ObjectDescription& object) {
     return text;
 }
 
-void add_object_option(CLI::App& command, std::vector<io::ObjectDescription>& objects) {
+void add_object_options(CLI::App& command, std::vector<io::ObjectDescription>& objects,
+                        std::vector<io::FootprintsDescription>& footprints) {
     command
         .add_option_function<std::vector<std::string>>(
             "--object",
@@ -154,6 +130,7 @@ void add_object_option(CLI::App& command, std::vector<io::ObjectDescription>& ob
             "with every technique")
         ->allow_extra_args(false)
         ->type_name(form);
+    add_footprints_option(command, footprints);
 }
 
 } // namespace reljef::app

@@ -18,7 +18,8 @@ Result<io::ObjectDescription> parse_object(const std::string& text);
 /// The text that parse_object() reads as this object.
 std::string to_text(const io::ObjectDescription& object);
 
-/// Adds --object, which may be repeated. Wrong values throw CLI::ParseError.
-void add_object_option(CLI::App& command, std::vector<io::ObjectDescription>& objects);
+/// Adds --object and --footprints, which may be repeated. Wrong values throw CLI::ParseError.
+void add_object_options(CLI::App& command, std::vector<io::ObjectDescription>& objects,
+                        std::vector<io::FootprintsDescription>& footprints);
 
 } // namespace reljef::app

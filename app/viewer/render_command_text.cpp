@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "app/objects/footprints_option.h"
 #include "app/objects/object_option.h"
 
 namespace reljef::app {
@@ -37,6 +38,11 @@ std::string point_text(glm::dvec3 point) {
 void add_source(CommandText& command, const session::SourceOptions& source) {
     for (const auto& file : source.imagery) {
         command.add("--imagery", file.string());
+    }
+    if (source.buildings) {
+        command.add(
+            "--buildings",
+            std::string(building::city_form_names[static_cast<std::size_t>(*source.buildings)]));
     }
     if (source.textures) {
         command.add("--textures", *source.textures);
@@ -189,6 +195,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     add_detail(command, start.scene);
     for (const io::ObjectDescription& object : start.scene.objects) {
         command.add("--object", to_text(object));
+    }
+    for (const io::FootprintsDescription& footprints : start.scene.footprints) {
+        command.add("--footprints", to_text(footprints));
     }
     add_surroundings(command, scene, start, shown);
     if (scene.materials().front()->wireframe) {

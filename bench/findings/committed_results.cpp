@@ -42,6 +42,8 @@ QuantityInfo info_of(Quantity quantity) {
         return {"/taps"};
     case Quantity::percent:
         return {.pointer = "/value", .high = 100.0};
+    case Quantity::bytes:
+        return {.pointer = "/objects/bytes"};
     }
     return {};
 }

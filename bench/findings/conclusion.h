@@ -18,6 +18,7 @@ enum class Quantity {
     triangles, ///< drawn
     taps,      ///< reads of maps, for each pixel
     percent,   ///< "value" of a stress
+    bytes,     ///< sent to the GPU for a city
 };
 
 /// The row of a results file whose members equal all of `members`; null rows never do.

@@ -51,6 +51,14 @@ RowName seen(const View& view, const scene::Technique& technique) {
             {{"scene", view.scene}, {"pose", view.pose}, {"label", scene::to_string(technique)}}};
 }
 
+RowName city(const std::string& scene, int distance, const std::string& form,
+             const scene::Technique& technique) {
+    return {"objects.json",
+            {{"scene", scene},
+             {"test", fmt::format("from {} m, 15 degrees down", distance)},
+             {"label", fmt::format("{}: {}", form, scene::to_string(technique))}}};
+}
+
 RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique) {
     return {"stress.json",

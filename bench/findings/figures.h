@@ -21,6 +21,10 @@ struct View {
     std::string pose;
 };
 RowName seen(const View& view, const scene::Technique& technique);
+/// A city from a distance in metres, 15 degrees down, in objects.json. `form`: a name of
+/// building::city_form_names.
+RowName city(const std::string& scene, int distance, const std::string& form,
+             const scene::Technique& technique);
 /// A grazing view of `terrain`, "10 degrees" above the horizon, in stress.json.
 RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique);

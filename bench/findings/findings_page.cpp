@@ -231,6 +231,8 @@ std::string number_text(const Figure& figure, const Number& number) {
     case Quantity::triangles:
     case Quantity::taps:
         return fmt::format("{:.1f}", value);
+    case Quantity::bytes:
+        return fmt::format("{:.1f}\u00a0MB", value / 1e6);
     }
     return {};
 }

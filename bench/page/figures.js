@@ -73,8 +73,9 @@ function dropOf(row) {
   return isNumber(row.ratio_to_texture) && row.ratio_to_texture > 0 ? 1 - 1 / row.ratio_to_texture : undefined;
 }
 
+// The views of the suite objects are no pose.
 function viewOf(row) {
-  return [row.scene, row.pose].filter(Boolean).join(', ');
+  return [row.scene, row.objects ? row.objects.buildings + ' buildings' : row.pose].filter(Boolean).join(', ');
 }
 
 function titleOf(row) {

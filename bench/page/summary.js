@@ -4,10 +4,15 @@ function isOfSkips(report) {
   return report.rows.some(row => row.skip);
 }
 
+function isOfObjects(report) {
+  return report.rows.some(row => row.objects);
+}
+
 function headline(report) {
   const techniques = techniquesOf(report.rows).length;
   const scenes = unique(report.rows.map(row => row.scene)).length;
   if (isOfSkips(report)) return 'What skipping saves on ' + counted(scenes, 'terrain');
+  if (isOfObjects(report)) return 'Buildings as heights and as meshes in ' + counted(scenes, 'city', 'cities');
   return 'Frame time and error of ' + counted(techniques, 'technique') + ' on ' + counted(scenes, 'terrain');
 }
 
@@ -18,6 +23,9 @@ function subtitle(report) {
   const least = Math.min(...frames);
   const most = Math.max(...frames);
   const drawn = !frames.length ? '' : least === most ? ', ' + least + ' frames each' : ', ' + least + ' to ' + most + ' frames each';
+  if (isOfObjects(report)) {
+    return sizes.join(' and ') + ' pixels' + drawn + '. Every picture is compared with the exact one of the meshes.';
+  }
   return sizes.join(' and ') + ' pixels, ' + (poses.length === 1 ? 'pose ' : 'poses ') + poses.join(', ') + drawn +
     (isOfSkips(report) ? '. Pictures with and without each kind of skipping are compared.' : '. Every picture is compared with the exact one.');
 }

@@ -14,6 +14,7 @@ const columns = [
   {group: 'Reprojection error, px', title: 'p95', value: row => at(row, 'error.reprojection_px.p95'), text: figure},
   {group: 'Reprojection error, px', title: 'p99', value: row => at(row, 'error.reprojection_px.p99'), text: figure},
   {group: 'Reprojection error, px', title: 'max', value: row => at(row, 'error.reprojection_px.max'), cell: row => unboundedCell(row, 'max')},
+  {group: 'Off the meshes', title: 'samples', value: row => (row.objects ? at(row, 'error.hit_texels.rms') : undefined), text: figure},
   {group: 'Surface', title: 'wrong %', value: row => at(row, 'error.wrong_percent'), text: figure},
   {group: 'Surface', title: 'holes', value: row => at(row, 'error.holes'), text: grouped},
   {group: 'Picture', title: 'PSNR dB', value: psnrOf, cell: psnrCell},
@@ -29,6 +30,7 @@ const columns = [
   {group: 'Work of a pixel', title: 'taps', value: row => row.taps, text: figure},
   {group: 'Work of a pixel', title: 'steps', value: row => perPixel(row, at(row, 'work.steps')), text: figure},
   {group: 'Work of a pixel', title: 'rays', value: row => perPixel(row, at(row, 'work.rays')), text: figure},
+  {group: 'Run', title: 'MB sent', value: row => (row.objects ? row.objects.bytes / 1e6 : undefined), text: figure},
   {group: 'Run', title: 'triangles', value: row => row.triangles, text: grouped},
   {group: 'Run', title: 'noise %', value: row => row.noise_floor, text: percent},
 ];

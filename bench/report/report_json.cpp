@@ -178,6 +178,15 @@ static void describe(Fields& fields, typename Fields::template Of<RowSkip>& skip
 }
 
 template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RowObjects>& objects) {
+    fields.field("form", objects.form);
+    fields.field("buildings", objects.buildings);
+    fields.field("distance", objects.distance, figure_range);
+    fields.field("down", objects.down, JsonRange{-90.0, 90.0});
+    fields.field("bytes", objects.bytes);
+}
+
+template <class Fields>
 static void describe_setting(Fields& fields, typename Fields::template Of<Row>& row) {
     fields.field("scene", row.scene);
     fields.field("pose", row.pose);
@@ -204,6 +213,7 @@ static void describe(JsonWriter& fields, const Row& row) {
     fields.object("source", row.source);
     fields.object("skipped", [&](auto& inner) { describe(inner, row.timing.stats.skipped); });
     fields.object("skip", row.skip);
+    fields.object("objects", row.objects);
 }
 
 static void describe(JsonReader& fields, Row& row) {
@@ -222,6 +232,7 @@ static void describe(JsonReader& fields, Row& row) {
     fields.object("source", row.source);
     fields.object("work", row.work);
     fields.object("skip", row.skip);
+    fields.object("objects", row.objects);
 }
 
 namespace {

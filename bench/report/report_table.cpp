@@ -31,10 +31,11 @@ std::string null_row_text(std::span<const Row> rows) {
 std::string heading_of(std::span<const Row> rows) {
     const Row& row = rows.front();
     const Timing& timing = row.timing;
-    return fmt::format("{}{}, {}, {}x{}, {} frame{}, noise floor{}{}",
-                       row.test.empty() ? "" : row.test + ": ", row.scene,
-                       scene::to_string(row.pose), row.size.x, row.size.y, timing.frames,
-                       timing.frames == 1 ? "" : "s",
+    const std::string pose = row.objects ? fmt::format(", {} buildings", row.objects->buildings)
+                                         : fmt::format(", {}", scene::to_string(row.pose));
+    return fmt::format("{}{}{}, {}x{}, {} frame{}, noise floor{}{}",
+                       row.test.empty() ? "" : row.test + ": ", row.scene, pose, row.size.x,
+                       row.size.y, timing.frames, timing.frames == 1 ? "" : "s",
                        timing.noise_floor ? fmt::format("{} {:.1f} %", null_row_text(rows),
                                                         100.0 * *timing.noise_floor)
                                           : " unknown",
@@ -195,6 +196,39 @@ ReportTable skip_table(std::span<const Row> rows) {
     return table;
 }
 
+std::vector<std::string> objects_columns() {
+    return {"form and technique", "ms", "±", "ratio", "triangles", "MB", "off", "wrong", "FLIP"};
+}
+
+std::string off_cell(const Row& row) {
+    return row.error && row.error->hit_texels ? figure(row.error->hit_texels->distribution.rms)
+                                              : no_figure;
+}
+
+std::vector<std::string> objects_cells(const Row& row) {
+    constexpr double megabyte = 1e6;
+    const auto& ratio = row.timing.ratio_to_texture;
+    return {row.setting.label,
+            figure(row.timing.ms.median),
+            half_width_cell(row.timing),
+            ratio ? fmt::format("{:.2f}", *ratio) : no_figure,
+            fmt::format("{}", row.timing.stats.triangles),
+            figure(static_cast<double>(row.objects->bytes) / megabyte),
+            off_cell(row),
+            row.error ? fmt::format("{:.1f} %", row.error->wrong_percent) : no_figure,
+            row.error ? fmt::format("{:.3f}", row.error->flip) : no_figure};
+}
+
+ReportTable objects_table(std::span<const Row> rows) {
+    ReportTable table{heading_of(rows), objects_columns(), {}, {}};
+    for (const Row& row : rows) {
+        if (!row.null_row) {
+            table.lines.push_back(objects_cells(row));
+        }
+    }
+    return table;
+}
+
 std::string unbounded_text(const Row& row) {
     return fmt::format("{} {}", row.setting.label, row.error->reprojection_px->unbounded);
 }
@@ -239,6 +273,9 @@ ReportTable table_of_rows(std::span<const Row> rows) {
     if (is_of_skips(rows)) {
         return skip_table(rows);
     }
+    if (rows.front().objects) {
+        return objects_table(rows);
+    }
     const bool with_sources = has_sources(rows);
     const bool with_levels = is_of_levels(rows);
     ReportTable table{heading_of(rows), columns_of(with_sources, with_levels), {}, notes_of(rows)};
@@ -282,6 +319,9 @@ Results printable(Results results) {
             clean(row.skip->without);
             clean(row.skip->meaning);
         }
+        if (row.objects) {
+            clean(row.objects->form);
+        }
     }
     for (Front& front : results.fronts) {
         clean(front.scene);
@@ -316,6 +356,15 @@ std::vector<std::string> notes_of_techniques() {
         "error px: reprojection, RMS. wrong: pixels whose surface is over a texel off, or a hole."};
 }
 
+std::vector<std::string> notes_of_objects() {
+    return {
+        "heights: the buildings are heights of the terrain; meshes: meshes on the bare ground; "
+        "meshes-only: meshes on a level plane. The truth is the exact picture of meshes.",
+        "ms: median; ratio: over that of the texture. MB: sent to the GPU for the first frame.",
+        "off: how far pixels are from the place they should show, RMS, in samples of the heights; "
+        "wrong: pixels that are over a sample off, or show sky for city, or city for sky."};
+}
+
 std::vector<std::string> notes_of_skips(std::span<const Row> rows) {
     std::vector<std::string> notes{
         "ms: median without that kind of skipping; ±: half of its 95 % interval. saves: what the "
@@ -335,8 +384,10 @@ std::vector<std::string> notes_of_skips(std::span<const Row> rows) {
 } // namespace
 
 std::vector<std::string> column_notes(const Results& results) {
-    std::vector<std::string> notes =
-        is_of_skips(results.rows) ? notes_of_skips(results.rows) : notes_of_techniques();
+    const bool is_of_objects = !results.rows.empty() && results.rows.front().objects;
+    std::vector<std::string> notes = is_of_objects               ? notes_of_objects()
+                                     : is_of_skips(results.rows) ? notes_of_skips(results.rows)
+                                                                 : notes_of_techniques();
     const auto begin = results.rows.begin();
     const auto end = results.rows.end();
     if (has_sources(results.rows)) {

@@ -135,6 +135,15 @@ struct RowSkip {
     Savings saved; ///< by the kind
 };
 
+/// What a row of the suite objects draws, and from where.
+struct RowObjects {
+    std::string form;          ///< building::city_form_names
+    std::size_t buildings = 0; ///< of the city
+    double distance = 0.0;     ///< of the eye from the middle, metres
+    double down = 0.0;         ///< degrees that it looks down
+    std::size_t bytes = 0;     ///< sent to the GPU to draw the first frame, which it keeps
+};
+
 struct Row {
     std::string suite;
     std::string test;  ///< of the sources, "relief-4"; may be empty
@@ -149,6 +158,7 @@ struct Row {
     std::optional<SourceFigure> source;
     std::optional<view::WorkTotals> work; ///< of terrains; absent if it was not counted
     std::optional<RowSkip> skip;          ///< of the suite skip
+    std::optional<RowObjects> objects;    ///< of the suite objects, whose views are no pose
     std::shared_ptr<const RowView> view;  ///< only with SuiteOptions::keep_views; not in the JSON
 
     /// Taps per pixel.

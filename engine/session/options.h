@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/building/city_form.h"
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
 #include "engine/geo/sun_position.h"
@@ -45,6 +46,8 @@ struct SourceOptions {
     std::vector<std::filesystem::path> imagery; ///< files, folders, addresses
     /// The gallery's materials: a built-in one, "mixed" or a folder; absent: the scene file's.
     std::optional<std::string> textures;
+    /// The form of the city `urban`; absent: the scene file's, else heights.
+    std::optional<building::CityForm> buildings;
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else
     /// "relief".
@@ -111,7 +114,8 @@ struct SceneOptions {
     std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
     std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
-    std::vector<io::ObjectDescription> objects; ///< besides the scene file's
+    std::vector<io::ObjectDescription> objects;        ///< besides the scene file's
+    std::vector<io::FootprintsDescription> footprints; ///< besides the scene file's
     bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.

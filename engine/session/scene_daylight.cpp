@@ -40,10 +40,10 @@ bool is_in_sea(const terrain::Heightfield& heightfield) {
 }
 
 // The sea around an island; else pale and of no colour, so that the terrain stands out from it.
-// The gallery's floor, level at 0, is no sea.
+// The floor of the gallery and the plane of a city, level at 0, are no sea.
 glm::vec3 base_albedo(const TerrainScene& scene) {
     const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
-    return !scene.is_gallery && is_in_sea(surface.heightfield())
+    return !scene.is_gallery && scene.city == nullptr && is_in_sea(surface.heightfield())
                ? linear_from_rgba8(terrain::HeightTint::water)
                : glm::vec3(0.42F, 0.42F, 0.41F);
 }

@@ -234,15 +234,24 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
 }
 
 // The source's heights where the terrain is the overview of a stream.
-SourceHeight height_of(const TerrainSource& source) {
+SourceHeights heights_of(const TerrainSource& source) {
     if (!source.stream || !source.tiles) {
         return {};
     }
-    return [&tiles = *source.tiles](glm::dvec2 place) -> std::optional<double> {
-        const io::HeightSample found = tiles.heights(std::span(&place, 1)).answers.front();
-        return found.kind == io::HeightSample::Kind::height ? std::optional(found.height)
-                                                            : std::nullopt;
+    return [&tiles = *source.tiles](std::span<const glm::dvec2> places) {
+        std::vector<std::optional<double>> heights;
+        for (const io::HeightSample& found : tiles.heights(places).answers) {
+            const bool is_known = found.kind == io::HeightSample::Kind::height;
+            heights.push_back(is_known ? std::optional(found.height) : std::nullopt);
+        }
+        return heights;
     };
+}
+
+SourceHeight height_of(SourceHeights heights) {
+    return heights ? [heights = std::move(heights)](
+                         glm::dvec2 place) { return heights(std::span(&place, 1)).front(); }
+                   : SourceHeight();
 }
 
 // Those of the scene file, then those of the options.
@@ -255,7 +264,7 @@ Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
         }
     }
     auto placed = add_objects(scene.scene, *scene.terrain->get<scene::TerrainNode>()->surface,
-                              objects, height_of(source), stop);
+                              objects, height_of(heights_of(source)), stop);
     if (!placed) {
         return placed.error();
     }
@@ -263,6 +272,35 @@ Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
         log.note(note);
     }
     scene.objects = std::move(placed->objects);
+    return {};
+}
+
+// Those of the scene file, then those of the options.
+Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
+                             const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    if (!source.buildings.empty()) {
+        auto city = add_city(scene.scene, source.buildings);
+        if (!city) {
+            return city.error();
+        }
+        scene.city = *city;
+    }
+    std::vector<io::FootprintsDescription> files = source.description.footprints;
+    files.insert(files.end(), view.footprints.begin(), view.footprints.end());
+    if (files.empty()) {
+        return {};
+    }
+    const auto task = log.start("placing buildings");
+    const BuildingGround ground{*scene.terrain->get<scene::TerrainNode>()->surface,
+                                heights_of(source)};
+    auto placed = add_buildings(scene.scene, ground, files, stop);
+    if (!placed) {
+        return placed.error();
+    }
+    for (const std::string& note : placed->notes) {
+        log.note(note);
+    }
+    scene.buildings = std::move(*placed);
     return {};
 }
 
@@ -315,6 +353,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     shown.detail = std::move(*detail);
     if (auto done = place_objects(result, source, view, log, stop); !done) {
+        return done.error();
+    }
+    if (auto done = place_buildings(result, source, view, log, stop); !done) {
         return done.error();
     }
     if (result.is_gallery) {

@@ -10,6 +10,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/motion/camera_path.h"
 #include "engine/session/log.h"
+#include "engine/session/objects/placed_buildings.h"
 #include "engine/session/objects/placed_objects.h"
 #include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
@@ -30,7 +31,9 @@ struct TerrainScene {
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     std::vector<PlacedObject> objects;
-    Box bounds; ///< of the terrain, scene metres
+    PlacedBuildings buildings;   ///< on footprints
+    scene::Node* city = nullptr; ///< the buildings of `urban` as meshes, owned by the scene
+    Box bounds;                  ///< of the terrain, scene metres
     Surroundings surroundings;
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened

@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<terrain::Terrain> generate(const SourceOptions& choice,
-                                  const io::SceneDescription& description, Log& log,
-                                  const std::stop_token& stop) {
+Result<terrains::City> generate(const SourceOptions& choice,
+                                const io::SceneDescription& description, Log& log,
+                                const std::stop_token& stop) {
     const auto task = log.start("generating " + description.name);
     const terrains::GeneratorOptions options{.size = description.size,
                                              .seed = description.seed,
@@ -36,11 +36,17 @@ Result<terrain::Terrain> generate(const SourceOptions& choice,
         return usage_error(fmt::format("--imagery: {} found, but {} brings its own colours",
                                        choice.imagery.front().string(), description.name));
     }
-    if (description.generator == "gallery") {
-        return terrains::generate_gallery(options);
+    if (choice.buildings && description.generator != "urban") {
+        return usage_error(
+            fmt::format("--buildings: found, but {} was expected to be urban", description.name));
     }
-    return description.generator == "natural" ? terrains::generate_natural(options)
-                                              : terrains::generate_urban(options);
+    if (description.generator == "urban") {
+        return terrains::generate_city(options, choice.buildings.value_or(description.buildings));
+    }
+    auto terrain = description.generator == "gallery" ? terrains::generate_gallery(options)
+                                                      : terrains::generate_natural(options);
+    return terrain ? Result<terrains::City>(terrains::City{std::move(*terrain), {}})
+                   : terrain.error();
 }
 
 io::RasterOptions raster_options(const SourceOptions& choice,
@@ -222,6 +228,11 @@ Result<void> check_folder_options(const SourceOptions& choice,
 
 Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description,
                                   Log& log, const std::stop_token& stop) {
+    if (choice.buildings && description.generator.empty()) {
+        return usage_error(fmt::format("--buildings: found with {}, urban was expected; "
+                                       "--footprints puts buildings on other terrains",
+                                       description.name));
+    }
     if (has_many_files(description)) {
         auto tiles = open_set(choice, description, stop);
         if (!tiles) {
@@ -241,9 +252,16 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
     if (found->set) {
         return read_tiles(std::move(*found->set), choice, std::move(description), log, stop);
     }
-    auto terrain = description.generator.empty()
-                       ? read(choice, description, found->imagery_white, log, stop)
-                       : generate(choice, description, log, stop);
+    if (!description.generator.empty()) {
+        auto city = generate(choice, description, log, stop);
+        if (!city) {
+            return city.error();
+        }
+        TerrainSource source{std::move(city->terrain), std::move(description), {}, {}, {}};
+        source.buildings = std::move(city->buildings);
+        return source;
+    }
+    auto terrain = read(choice, description, found->imagery_white, log, stop);
     return terrain ? Result<TerrainSource>(
                          TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
                    : terrain.error();

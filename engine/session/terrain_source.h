@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
+#include "engine/building/building_faces.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
@@ -36,6 +38,8 @@ struct TerrainSource {
     std::optional<StreamSource> stream = {};
     std::shared_ptr<const io::ImagerySet> imagery;  ///< if tiles have images of their own
     std::shared_ptr<const ProvenTiles> proofs = {}; ///< null: no streamed tile is proven
+    /// Meshes of the city `urban` (terrains::City).
+    std::vector<building::PaintedFaces> buildings = {};
 };
 
 /// The part of a folder or of web tiles to use; absent: all.

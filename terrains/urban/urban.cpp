@@ -2,9 +2,11 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/core/parallel_for.h"
 #include "terrains/generators.h"
+#include "terrains/urban/urban_meshes.h"
 #include "terrains/urban/urban_tile.h"
 
 namespace reljef::terrains {
@@ -31,38 +33,19 @@ std::optional<Error> urban_option_error(const GeneratorOptions& options) {
     return std::nullopt;
 }
 
-Raster raster_of(const GeneratorOptions& options, float spacing, float period) {
+Raster raster_of(const GeneratorOptions& options, double spacing, float period) {
     Random random(hash(options.seed, 1, 1));
     const float x = random.unit() * period;
-    return {options.size, spacing, {x, random.unit() * period}, hash(options.seed, 2, 2)};
+    return {options.size,
+            static_cast<float>(spacing),
+            {x, random.unit() * period},
+            hash(options.seed, 2, 2),
+            spacing};
 }
 
-/// A copy of a block on the repeating plane.
-struct BlockCopy {
-    const Block* block;
-    glm::vec2 shift;
-};
-
-// The copies that touch a tile.
-std::vector<BlockCopy> copies_in(const City& city, const Tile& tile) {
-    const float period = city.plan.period;
-    const auto first = [&](float from, float to) { return std::ceil((from - to) / period); };
-    std::vector<BlockCopy> copies;
-    for (const Block& block : city.blocks) {
-        const Box& b = block.bounds;
-        for (float y = first(tile.bounds.low.y, b.high.y);
-             b.low.y + y * period <= tile.bounds.high.y; y += 1.0F) {
-            for (float x = first(tile.bounds.low.x, b.high.x);
-                 b.low.x + x * period <= tile.bounds.high.x; x += 1.0F) {
-                copies.push_back({&block, {x * period, y * period}});
-            }
-        }
-    }
-    return copies;
-}
-
-void paint(Tile& tile, const City& city) {
-    const std::vector<BlockCopy> copies = copies_in(city, tile);
+// `with_buildings`: and what stands on them.
+void paint(Tile& tile, const CityPlan& city, bool with_buildings) {
+    const std::vector<BlockCopy> copies = copies_in(city, tile.bounds);
     for (const BlockCopy& copy : copies) {
         paint_ground(tile, city.plan, *copy.block, copy.shift);
     }
@@ -74,8 +57,15 @@ void paint(Tile& tile, const City& city) {
         }
     };
     paint_each(&Block::patches, paint_patch);
-    paint_each(&Block::buildings, paint_building);
-    paint_each(&Block::prisms, paint_prism);
+    if (with_buildings) {
+        paint_each(&Block::buildings, paint_building);
+    }
+    paint_each(&Block::prisms,
+               [&](Tile& into, const Warp& warp, const Prism& prism, glm::vec2 shift) {
+                   if (with_buildings || stands_on_ground(prism.kind)) {
+                       paint_prism(into, warp, prism, shift);
+                   }
+               });
     paint_each(&Block::trees, paint_tree);
 }
 
@@ -90,42 +80,69 @@ void store(const Tile& tile, terrain::Terrain& terrain) {
 }
 
 // Paints the tile that begins at a sample.
-void paint_tile(terrain::Terrain& terrain, const City& city, const Raster& raster,
-                glm::ivec2 first) {
+void paint_tile(terrain::Terrain& terrain, const CityPlan& city, const Raster& raster,
+                glm::ivec2 first, bool with_buildings) {
     const glm::ivec2 size = glm::min(raster.size - first, glm::ivec2(tile_size));
     Tile tile = make_tile(raster, city.plan.warp, first.x, first.y, size.x, size.y);
-    paint(tile, city);
+    paint(tile, city, with_buildings);
     store(tile, terrain);
+}
+
+// Without the darkening of hollows; empty if it was stopped.
+std::optional<terrain::Terrain> painted(const CityPlan& city, const Raster& raster,
+                                        const GeneratorOptions& options, bool with_buildings) {
+    terrain::Terrain terrain;
+    terrain.name = "urban";
+    terrain.heightfield.heights = Grid<float>(options.size, options.size);
+    terrain.heightfield.spacing = glm::dvec2(raster.spacing_in_metres);
+    terrain.color = Image(options.size, options.size);
+    const int across = (options.size + tile_size - 1) / tile_size;
+    const auto paint_nth = [&](int index) {
+        paint_tile(terrain, city, raster, tile_size * glm::ivec2(index % across, index / across),
+                   with_buildings);
+    };
+    const bool is_whole =
+        parallel_for(across * across, paint_nth, {options.threads, options.stop, options.progress});
+    return is_whole ? std::optional(std::move(terrain)) : std::nullopt;
 }
 
 } // namespace
 
-Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
+Result<City> generate_city(const GeneratorOptions& options, building::CityForm form) {
     if (const auto error = urban_option_error(options)) {
         return *error;
     }
     const double spacing = options.spacing == 0.0 ? default_spacing : options.spacing;
     const auto extent = static_cast<float>(spacing * options.size);
     const float period = options.tileable ? extent : std::max(extent, min_city);
-    const City city = build_city(period, hash(options.seed, 3, 3), options.threads);
-
-    terrain::Terrain terrain;
-    terrain.name = "urban";
-    terrain.heightfield.heights = Grid<float>(options.size, options.size);
-    terrain.heightfield.spacing = {spacing, spacing};
-    terrain.color = Image(options.size, options.size);
-    const Raster raster = raster_of(options, static_cast<float>(spacing), period);
-    const int across = (options.size + tile_size - 1) / tile_size;
-    const auto paint_nth = [&](int index) {
-        paint_tile(terrain, city, raster, tile_size * glm::ivec2(index % across, index / across));
-    };
-    if (!parallel_for(across * across, paint_nth,
-                      {options.threads, options.stop, options.progress})) {
+    const CityPlan city = build_city(period, hash(options.seed, 3, 3), options.threads);
+    const Raster raster = raster_of(options, spacing, period);
+    auto all = painted(city, raster, options, true);
+    const bool has_meshes = form != building::CityForm::heights;
+    auto bare = all && has_meshes ? painted(city, raster, options, false) : std::nullopt;
+    if (!all || (has_meshes && !bare)) {
         return Error{"urban: generating was stopped"};
     }
-    darken_hollows(terrain, {static_cast<float>(spacing), options.tileable, options.threads});
-    terrain.heightfield.range = terrain::height_range(terrain.heightfield.heights, {});
-    return terrain;
+    if (bare) {
+        std::swap(all->color, bare->color); // buildings darken the bare ground, too
+    }
+    darken_hollows(*all, {raster.spacing, options.tileable, options.threads});
+    City made;
+    if (bare) {
+        std::swap(all->color, bare->color);
+        made.buildings = mesh_buildings(city, raster);
+    }
+    made.terrain = bare ? std::move(*bare) : std::move(*all);
+    if (form == building::CityForm::meshes_only) {
+        made.terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);
+    }
+    made.terrain.heightfield.range = terrain::height_range(made.terrain.heightfield.heights, {});
+    return made;
+}
+
+Result<terrain::Terrain> generate_urban(const GeneratorOptions& options) {
+    auto city = generate_city(options, building::CityForm::heights);
+    return city ? Result<terrain::Terrain>(std::move(city->terrain)) : city.error();
 }
 
 } // namespace reljef::terrains

@@ -124,6 +124,7 @@ void BlockBuilder::building(const Convex& shape, Building building) {
         return;
     }
     building.shape = Footprint(shape);
+    building.outline = shape;
     building.axis = frame_of(shape).axis;
     building.seed = random.bits();
     block_.bounds.add(building.shape.bounds);

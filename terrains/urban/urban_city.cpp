@@ -162,8 +162,24 @@ void furnish_streets(const StreetPlan& plan, const Cell& cell, BlockBuilder& bui
 
 } // namespace
 
-City build_city(float period, std::uint32_t seed, unsigned threads) {
-    City city;
+std::vector<BlockCopy> copies_in(const CityPlan& city, const Box& box) {
+    const float period = city.plan.period;
+    const auto first = [&](float from, float to) { return std::ceil((from - to) / period); };
+    std::vector<BlockCopy> copies;
+    for (const Block& block : city.blocks) {
+        const Box& b = block.bounds;
+        for (float y = first(box.low.y, b.high.y); b.low.y + y * period <= box.high.y; y += 1.0F) {
+            for (float x = first(box.low.x, b.high.x); b.low.x + x * period <= box.high.x;
+                 x += 1.0F) {
+                copies.push_back({&block, {x * period, y * period}});
+            }
+        }
+    }
+    return copies;
+}
+
+CityPlan build_city(float period, std::uint32_t seed, unsigned threads) {
+    CityPlan city;
     city.plan = plan_streets(period, seed);
     const int count = static_cast<int>(city.plan.cells.size());
     city.blocks.resize(city.plan.cells.size());

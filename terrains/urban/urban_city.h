@@ -38,6 +38,7 @@ enum class Cover : std::uint8_t { gravel, tar, membrane, concrete, tiles, metal,
 
 struct Building {
     Footprint shape;
+    Convex outline;
     glm::vec2 axis{1.0F, 0.0F};
     float eaves = 9.0F;       ///< metres above the street
     float slope = 0.0F;       ///< rise over run from the sloped edges; 0: flat
@@ -51,6 +52,10 @@ struct Building {
 };
 
 enum class PrismKind : std::uint8_t { box, car, hedge, panel, glass, well };
+/// Others stand on roofs, or cut into them.
+constexpr bool stands_on_ground(PrismKind kind) {
+    return kind == PrismKind::car || kind == PrismKind::hedge;
+}
 
 /// An upright box, for example a car or a hedge. A well goes down to `top`.
 struct Prism {
@@ -118,12 +123,21 @@ void build_halls(BlockBuilder& builder);     ///< halls, yards and parking
 void build_park(BlockBuilder& builder);
 void build_square(BlockBuilder& builder); ///< a paved square with a church
 
-struct City {
+struct CityPlan {
     StreetPlan plan;
     std::vector<Block> blocks;
 };
 
+/// A copy of a block on the repeating plane.
+struct BlockCopy {
+    const Block* block;
+    glm::vec2 shift;
+};
+
+/// The copies that touch a box of the city.
+std::vector<BlockCopy> copies_in(const CityPlan& city, const Box& box);
+
 /// Precondition: period > 0.
-City build_city(float period, std::uint32_t seed, unsigned threads);
+CityPlan build_city(float period, std::uint32_t seed, unsigned threads);
 
 } // namespace reljef::terrains::urban

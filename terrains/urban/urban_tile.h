@@ -15,6 +15,7 @@ struct Raster {
     float spacing = 0.5F;
     glm::vec2 origin{0.0F, 0.0F}; ///< ground position of sample (0,0), metres
     std::uint32_t seed = 0;
+    double spacing_in_metres = 0.5; ///< the same, not rounded
 };
 
 /// A rectangle of samples while it is painted; all arrays row after row.

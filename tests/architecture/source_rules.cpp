@@ -79,6 +79,7 @@ const std::vector<Library>& guarded_libraries() {
     static const std::vector<Library> libraries{
         {"GeographicLib", {"GeographicLib/"}, {"engine/geo/", "tests/geo/"}},
         {"GDAL", {"gdal", "ogr", "cpl_", "vrtdataset"}, {"engine/io/", "tests/io/"}},
+        {"GEOS", {"geos"}, {"engine/io/footprints/"}},
         {"libcurl", {"curl/"}, {"engine/io/remote/"}},
         {"Assimp", {"assimp/"}, {"engine/io/mesh/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},

@@ -1,4 +1,4 @@
-#include "bench/output_options.h"
+#include "bench/options/output_options.h"
 
 #include <array>
 #include <filesystem>

@@ -10,6 +10,7 @@ namespace reljef::fuzz {
 void cache_target(std::string_view input);
 void error_index_target(std::string_view input);
 void flight_target(std::string_view input);
+void footprints_target(std::string_view input);
 void geoid_target(std::string_view input);
 void hits_target(std::string_view input);
 void imagery_target(std::string_view input);

@@ -34,6 +34,7 @@ constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr NumberRange object_heights{-max_object_height, max_object_height, false};
 constexpr NumberRange object_scales{0.0, max_object_scale, true};
+constexpr std::array<std::string_view, 2> roofs{"flat", "hipped"};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
 
@@ -62,6 +63,19 @@ void check_source(TomlTable& table) {
     }
 }
 
+void read_buildings(TomlTable& table, SceneDescription& scene) {
+    const auto& names = building::city_form_names;
+    std::string form;
+    table.read("buildings", form, names);
+    if (table.has("buildings") && scene.generator != "urban") {
+        fail_usage(table, {"buildings"}, "the generator urban");
+    }
+    const auto found = std::find(names.begin(), names.end(), form);
+    if (found != names.end()) {
+        scene.buildings = static_cast<building::CityForm>(found - names.begin());
+    }
+}
+
 void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
                        SceneDescription& scene) {
     table.read("heights", scene.heights, folder);
@@ -69,6 +83,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("size", scene.size, sizes);
     table.read("seed", scene.seed, seeds);
     table.read("tileable", scene.tileable);
+    read_buildings(table, scene);
     table.read("spacing", scene.spacing, spacings);
     table.read("height_scale", scene.height_scale, height_scales);
     table.read("height_offset", scene.height_offset, height_offsets);
@@ -168,6 +183,23 @@ void read_object_keys(TomlTable& table, const std::filesystem::path& folder,
     scene.objects.push_back(std::move(object));
 }
 
+void read_footprint_keys(TomlTable& table, const std::filesystem::path& folder,
+                         SceneDescription& scene) {
+    FootprintsDescription footprints;
+    std::string roof;
+    table.require({"file"});
+    table.read("file", footprints.file, folder);
+    table.read("height", footprints.height);
+    table.read("surface", footprints.surface, folder);
+    table.read("roof", roof, roofs);
+    footprints.roof = roof == "hipped" ? building::RoofKind::hipped : building::RoofKind::flat;
+    if (footprints.height.empty() == footprints.surface.empty()) {
+        table.fail("height", fmt::format("and surface are {} given, exactly one was expected",
+                                         footprints.height.empty() ? "neither" : "both"));
+    }
+    scene.footprints.push_back(std::move(footprints));
+}
+
 void read_sun_keys(TomlTable& table, SceneDescription& scene) {
     table.read("azimuth", scene.sun_azimuth, azimuths);
     table.read("altitude", scene.sun_altitude, altitudes);
@@ -186,6 +218,32 @@ void read_sun_keys(TomlTable& table, SceneDescription& scene) {
         return;
     }
     scene.sun_time = *time;
+}
+
+// [[KEY]], each by `read`.
+template <class Read>
+Result<void> read_each(TomlTable& root, std::string_view key, std::size_t max, const Read& read) {
+    std::vector<TomlTable> tables = root.tables(key);
+    if (tables.size() > max) {
+        root.fail(key,
+                  fmt::format("is given {} times, at most {} were expected", tables.size(), max));
+    }
+    for (TomlTable& table : tables) {
+        read(table);
+        if (auto good = table.finish(); !good) {
+            return good;
+        }
+    }
+    return {};
+}
+
+Result<void> read_arrays(TomlTable& root, const std::filesystem::path& folder,
+                         SceneDescription& scene) {
+    auto good = read_each(root, "object", max_objects,
+                          [&](TomlTable& table) { read_object_keys(table, folder, scene); });
+    return good ? read_each(root, "footprints", max_footprint_files,
+                            [&](TomlTable& table) { read_footprint_keys(table, folder, scene); })
+                : good;
 }
 
 } // namespace
@@ -215,16 +273,8 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     air.read("turbidity", scene.turbidity, turbidities);
     air.read("base", scene.base, bases);
     read_camera_keys(camera, scene);
-    std::vector<TomlTable> objects = root.tables("object");
-    if (objects.size() > max_objects) {
-        root.fail("object", fmt::format("is given {} times, at most {} were expected",
-                                        objects.size(), max_objects));
-    }
-    for (TomlTable& object : objects) {
-        read_object_keys(object, folder, scene);
-        if (auto good = object.finish(); !good) {
-            return good.error();
-        }
+    if (auto good = read_arrays(root, folder, scene); !good) {
+        return good.error();
     }
     for (const TomlTable* table :
          {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
@@ -259,6 +309,10 @@ named_files(const SceneDescription& scene) {
     }
     for (const ObjectDescription& object : scene.objects) {
         files.emplace_back("an object", object.file);
+    }
+    for (const FootprintsDescription& footprints : scene.footprints) {
+        files.emplace_back("the footprints", footprints.file);
+        files.emplace_back("the footprints' surface", footprints.surface);
     }
     return files;
 }

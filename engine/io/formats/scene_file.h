@@ -12,6 +12,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/building/city_form.h"
+#include "engine/building/roof.h"
 #include "engine/core/result.h"
 #include "engine/geo/sun_position.h"
 #include "engine/io/tile_set.h"
@@ -41,6 +43,16 @@ inline constexpr double max_object_height = 1e5; ///< metres, also below the gro
 inline constexpr double max_object_scale = 1e4;
 inline constexpr std::size_t max_objects = 10'000;
 
+/// [[footprints]]: buildings on outlines. Either `height` or `surface` is given.
+struct FootprintsDescription {
+    std::filesystem::path file; ///< vector file (engine/io/footprints); relative to the scene file
+    std::string height;         ///< attribute: metres above the lowest ground at the outline
+    /// Surface model, as TERRAIN: roofs are as high as its median within the outline.
+    std::filesystem::path surface;
+    building::RoofKind roof = building::RoofKind::flat;
+};
+inline constexpr std::size_t max_footprint_files = 100;
+
 /// Content of a scene file (TOML). Only the source of the heights is required.
 /// terrains/natural.toml, urban.toml and gallery.toml show every key.
 struct SceneDescription {
@@ -52,6 +64,7 @@ struct SceneDescription {
     int size = 1025;               ///< generator only, samples per side, 16 to 4096
     std::uint32_t seed = 1;        ///< generator only
     bool tileable = false;         ///< generator only
+    building::CityForm buildings = building::CityForm::heights; ///< generator "urban" only
     std::optional<double> spacing; ///< metres; see RasterOptions::spacing
     double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
     double height_offset = 0.0;    ///< file only
@@ -72,6 +85,7 @@ struct SceneDescription {
 
     std::optional<DetailDescription> detail;
     std::vector<ObjectDescription> objects;
+    std::vector<FootprintsDescription> footprints;
 
     // [sun]: degrees, or a time
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude

@@ -1,5 +1,6 @@
 #include "engine/io/mesh/mesh_file.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -42,7 +43,14 @@ public:
 
     std::shared_ptr<const Image> of(const MeshPart& part) {
         if (!part.picture.empty()) {
-            return taken("a picture in it", picture_in(part.picture));
+            const auto same =
+                std::find_if(embedded_.begin(), embedded_.end(),
+                             [&](const Embedded& other) { return other.bytes == part.picture; });
+            if (same != embedded_.end()) {
+                return same->picture;
+            }
+            embedded_.push_back({part.picture, taken("a picture in it", picture_in(part.picture))});
+            return embedded_.back().picture;
         }
         if (part.texture.empty()) {
             return nullptr;
@@ -69,8 +77,10 @@ private:
                                               : Result<Image>(Error{"no such file"});
     }
 
+    // Small files may hold large pictures, and a mesh thousands of them.
     std::shared_ptr<const Image> taken(const std::string& what, Result<Image> picture) {
-        if (picture) {
+        if (picture && picture->size() <= max_mesh_texels - texels_) {
+            texels_ += picture->size();
             return std::make_shared<const Image>(std::move(*picture));
         }
         if (missing_.empty()) {
@@ -81,8 +91,15 @@ private:
         return nullptr;
     }
 
+    struct Embedded {
+        std::vector<std::byte> bytes;
+        std::shared_ptr<const Image> picture;
+    };
+
     fs::path file_;
     fs::path folder_;
+    std::vector<Embedded> embedded_;
+    std::size_t texels_ = 0;
     std::map<std::string, std::shared_ptr<const Image>> by_name_;
     std::string missing_; // the first
     int more_ = 0;

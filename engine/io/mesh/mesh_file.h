@@ -28,8 +28,11 @@ struct MeshFile {
     std::vector<std::string> notes; ///< at most one: pictures that cannot be read
 };
 
+inline constexpr std::size_t max_mesh_texels = std::size_t{1} << 26U; ///< of a file's pictures
+
 /// Reads an OBJ or glTF 2.0 file as import_mesh(), in a process of its own with limits. Pictures
-/// must lie in or below the file's folder, or in the file; without them a part has one colour.
+/// must lie in or below the file's folder, or in the file, and have max_mesh_texels together;
+/// without them a part has one colour.
 /// Errors name the file, what was found and what was expected.
 Result<MeshFile> read_mesh_file(const std::filesystem::path& file, const ImportLimits& limits = {},
                                 const std::stop_token& stop = {});

@@ -236,6 +236,9 @@ void register_formats() {
     RegisterOGRLIBKML();
     RegisterOGRKML();
     RegisterOGRGeoJSON();
+    RegisterOGRShape(); // footprints, besides those of tracks
+    RegisterOGRGeoPackage();
+    RegisterOGRFlatGeobuf();
 }
 
 CPLStringList format_names() {

@@ -6,11 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "engine/io/mesh/mesh_file.h"
 #include "engine/scene/graph/picture_detail.h"
+#include "engine/session/objects/upright_axes.h"
 
 namespace reljef::session {
 namespace {
@@ -47,16 +46,6 @@ Result<glm::dvec2> sample_of(const scene::TerrainSurface& surface,
         return misplaced(object, "a place outside the terrain", "one on " + surface.terrain().name);
     }
     return glm::dvec2(*sample);
-}
-
-// The columns are the mesh's axes on the Earth.
-glm::dmat3 axes_at(const terrain::Placement& placement, glm::dvec3 ground, double heading) {
-    const glm::dvec3 up = placement.up(ground);
-    const glm::dvec3 north = placement.north(ground);
-    const glm::dvec3 east = glm::cross(north, up);
-    const double angle = glm::radians(heading);
-    return {std::cos(angle) * east - std::sin(angle) * north,
-            std::cos(angle) * north + std::sin(angle) * east, up};
 }
 
 // Reads each file once, and makes each picture once.
@@ -138,7 +127,7 @@ Result<glm::dmat4> scene_from_object(const scene::TerrainSurface& surface,
     const double height =
         object.ground_height.value_or(terrain::bilinear_height(field.heights.view(), *sample));
     const glm::dvec3 ground = placement.world_from_sample({*sample, height});
-    const glm::dmat3 axes = axes_at(placement, ground, described.heading);
+    const glm::dmat3 axes = upright_axes(placement, ground, described.heading);
     const glm::dvec3 origin =
         ground + axes[2] * (described.height - described.scale * object.lowest);
     glm::dmat4 placed(described.scale * axes);

@@ -107,6 +107,24 @@ TEST_F(MeshFileTest, AMissingTextureIsOneNoteAndAPlainColour) {
     EXPECT_THAT(file->notes[0], HasSubstr("'wall.png' cannot be used"));
 }
 
+TEST_F(MeshFileTest, PicturesHaveALimitTogether) {
+    const Image large(8192, 4097); // half of max_mesh_texels, and a row
+    static_assert(8192U * 4096U * 2U == max_mesh_texels);
+    ASSERT_TRUE(write_image(folder_.path() / "a.png", large));
+    std::filesystem::copy_file(folder_.path() / "a.png", folder_.path() / "b.png");
+    folder_.write("two.mtl", "newmtl a\nmap_Kd a.png\nnewmtl b\nmap_Kd b.png\n");
+    const auto file = read_mesh_file(folder_.write(
+        "two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+                   "usemtl a\nf 1/1 2/2 3/3\nusemtl b\nf 1/1 3/2 4/3\nusemtl a\nf 1/1 2/2 4/3\n"));
+    ASSERT_TRUE(file) << file.error().message;
+    std::size_t pictures = 0;
+    for (const ColoredMesh& part : file->parts) {
+        pictures += static_cast<std::size_t>(part.picture != nullptr);
+    }
+    EXPECT_EQ(pictures, 1U);
+    EXPECT_EQ(file->notes.size(), 1U);
+}
+
 TEST_F(MeshFileTest, OpensNothingOutsideItsFolder) {
     Image picture(2, 2);
     ASSERT_TRUE(write_image(folder_.path() / "wall.png", picture));

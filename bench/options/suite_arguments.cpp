@@ -1,4 +1,4 @@
-#include "bench/suite_arguments.h"
+#include "bench/options/suite_arguments.h"
 
 #include <filesystem>
 
@@ -94,9 +94,8 @@ std::vector<cli::NamedFile> terrain_files(std::span<const std::string> terrains)
         if (std::filesystem::path(terrain).extension() == ".toml") {
             const auto scene = io::read_scene_file(terrain);
             if (scene) { // opening the terrain reports the error
-                files.push_back({"the terrain's heights", scene->heights});
-                for (const std::filesystem::path& image : scene->imagery) {
-                    files.push_back({"the terrain's imagery", image});
+                for (const auto& [what, path] : io::named_files(*scene)) {
+                    files.push_back({what, path});
                 }
             }
         }

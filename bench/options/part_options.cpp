@@ -1,4 +1,4 @@
-#include "bench/part_options.h"
+#include "bench/options/part_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

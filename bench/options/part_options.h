@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bench/output_options.h"
+#include "bench/options/output_options.h"
 #include "engine/core/parallel_for.h"
 
 namespace CLI {

@@ -1,0 +1,32 @@
+#include "app/objects/assignments.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+namespace reljef::app {
+
+Result<std::vector<Assignment>> assignments_of(const std::string& text, const std::string& option) {
+    std::vector<Assignment> found;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        const std::string part = text.substr(begin, comma - begin);
+        const std::size_t equals = part.find('=');
+        if (equals == std::string::npos && !found.empty()) {
+            found.back().value += "," + part;
+        } else {
+            const std::string key = part.substr(0, equals);
+            if (std::any_of(found.begin(), found.end(),
+                            [&](const Assignment& other) { return other.key == key; })) {
+                return Error{fmt::format("{}: {} found twice, once was expected", option, key)};
+            }
+            found.push_back({key, equals == std::string::npos ? "" : part.substr(equals + 1)});
+        }
+        begin = comma + 1;
+    }
+    return found;
+}
+
+} // namespace reljef::app

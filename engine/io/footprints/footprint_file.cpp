@@ -1,0 +1,245 @@
+#include "engine/io/footprints/footprint_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <ogrsf_frmts.h>
+
+#include "engine/io/footprints/polygon_parts.h"
+#include "engine/io/raster/crs_transform.h"
+#include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/raster/gdal_drivers.h"
+
+namespace reljef::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each holds its data in one file, or beside it under its own name.
+constexpr std::array<const char*, 7> vector_formats{
+    "GeoJSON", "ESRI Shapefile", "GPKG", "FlatGeobuf", "LIBKML", "KML", nullptr};
+constexpr std::string_view expected_file =
+    "a file with outlines of buildings (GeoJSON, Shapefile, GeoPackage, FlatGeobuf, KML)";
+
+Result<void> check_file(const fs::path& path) {
+    std::error_code code;
+    if (!fs::is_regular_file(path, code)) {
+        return Error{fmt::format("{}: {} found, {} was expected", path.string(),
+                                 fs::exists(path, code) ? "no file" : "nothing", expected_file)};
+    }
+    const std::uintmax_t size = fs::file_size(path, code);
+    if (code || size > max_footprint_bytes) {
+        return Error{fmt::format("{}: {} found, a file of at most {} was expected", path.string(),
+                                 size_text(static_cast<double>(size)),
+                                 size_text(static_cast<double>(max_footprint_bytes)))};
+    }
+    return {};
+}
+
+Result<Dataset> open_footprints(const fs::path& path, const GdalMessages& messages) {
+    if (auto good = check_file(path); !good) {
+        return good.error();
+    }
+    Dataset dataset(GDALDataset::Open(path.string().c_str(),
+                                      GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                      allows_external() ? nullptr : vector_formats.data()));
+    if (dataset == nullptr) {
+        return Error{fmt::format("{}: cannot be opened{}, {} was expected", path.string(),
+                                 messages.reason(), expected_file)};
+    }
+    return dataset;
+}
+
+// The number of metres in "12.5" or "12.5 m".
+std::optional<double> metres_in(std::string text) {
+    for (const std::string_view end : {" m", "m", " "}) {
+        if (text.ends_with(end)) {
+            text.resize(text.size() - end.size());
+            break;
+        }
+    }
+    char* end = nullptr;
+    const double number = CPLStrtod(text.c_str(), &end);
+    const bool is_number = !text.empty() && end == text.c_str() + text.size();
+    return is_number && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+std::optional<double> height_of(const OGRFeature& feature, int field) {
+    if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
+        return std::nullopt;
+    }
+    return metres_in(feature.GetFieldAsString(field));
+}
+
+class FootprintReader {
+public:
+    FootprintReader(std::string name, const FootprintOptions& options)
+        : name_(std::move(name)), options_(options) {}
+
+    Result<void> add_layer(OGRLayer& layer, const std::stop_token& stop) {
+        const OGRFeatureDefn& fields = *layer.GetLayerDefn();
+        const int field =
+            options_.height.empty() ? -1 : fields.GetFieldIndex(options_.height.c_str());
+        has_field_ = has_field_ || field >= 0;
+        for (int i = 0; i < fields.GetFieldCount(); ++i) {
+            field_names_.emplace_back(fields.GetFieldDefn(i)->GetNameRef());
+        }
+        layer.ResetReading();
+        while (OGRFeatureUniquePtr feature{layer.GetNextFeature()}) {
+            if (stop.stop_requested()) {
+                return Error{fmt::format("{}: reading was stopped", name_)};
+            }
+            if (auto added = add(*feature, field); !added) {
+                return added;
+            }
+        }
+        return {};
+    }
+
+    Result<FootprintFile> finish() {
+        if (file_.footprints.empty() && !has_polygons_) {
+            return Error{
+                fmt::format("{}: no polygon found, outlines of buildings were expected", name_)};
+        }
+        if (!options_.height.empty() && !has_field_) {
+            constexpr std::size_t max_names = 20;
+            field_names_.resize(std::min(field_names_.size(), max_names));
+            return Error{fmt::format(
+                "{}: no attribute '{}' found, {} was expected", name_, options_.height,
+                field_names_.empty() ? std::string("one with heights")
+                                     : fmt::format("one of {}", fmt::join(field_names_, ", ")))};
+        }
+        return std::move(file_);
+    }
+
+private:
+    Result<void> add(const OGRFeature& feature, int field) {
+        const OGRGeometry* const geometry = feature.GetGeometryRef();
+        PolygonParts found = polygon_parts(geometry);
+        if (!found.is_polygon) {
+            ++file_.counts.no_polygons;
+            return {};
+        }
+        has_polygons_ = true;
+        if (auto placed = place(found, geometry->getSpatialReference()); !placed) {
+            return placed;
+        }
+        file_.counts.repaired +=
+            static_cast<std::size_t>(found.is_repaired && !found.parts.empty());
+        file_.counts.broken += static_cast<std::size_t>(found.broken > 0);
+        const auto height = height_of(feature, field);
+        if (found.parts.empty() || !is_height(height)) {
+            return {};
+        }
+        for (building::Footprint& part : found.parts) {
+            file_.footprints.push_back({std::move(part), height});
+        }
+        return {};
+    }
+
+    // Counts heights that are none.
+    bool is_height(std::optional<double> height) {
+        if (options_.height.empty()) {
+            return true;
+        }
+        const bool is_odd = height && !(*height > 0.0 && *height <= max_building_height);
+        file_.counts.no_height += static_cast<std::size_t>(!height);
+        file_.counts.odd_height += static_cast<std::size_t>(is_odd);
+        return height && !is_odd;
+    }
+
+    // Transforms the corners; parts that leave the domain of the transform are broken.
+    Result<void> place(PolygonParts& found, const OGRSpatialReference* crs) {
+        for (building::Footprint& part : found.parts) {
+            for (building::Ring& ring : part.rings) {
+                corners_ += ring.size();
+            }
+        }
+        if (corners_ > max_footprint_corners) {
+            return Error{fmt::format("{}: more than {} corners found, at most as many were "
+                                     "expected",
+                                     name_, max_footprint_corners)};
+        }
+        if (!options_.on_earth) {
+            return {};
+        }
+        if (auto known = set_crs(crs); !known) {
+            return known;
+        }
+        const std::size_t parts = found.parts.size();
+        std::erase_if(found.parts,
+                      [&](building::Footprint& part) { return !is_placed(part.rings); });
+        found.broken += parts - found.parts.size();
+        return {};
+    }
+
+    Result<void> set_crs(const OGRSpatialReference* crs) {
+        if (crs == nullptr) {
+            return Error{fmt::format("{}: names no coordinate system, one that leads to WGS 84 was "
+                                     "expected",
+                                     name_)};
+        }
+        if (transform_ && crs == crs_) {
+            return {};
+        }
+        OGRSpatialReference from(*crs);
+        from.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        transform_ = CrsTransform::create(from, crs_from_text(wgs84_degrees));
+        crs_ = crs;
+        return transform_ ? Result<void>()
+                          : Error{fmt::format("{}: its coordinate system does not lead to WGS 84, "
+                                              "one that does was expected",
+                                              name_)};
+    }
+
+    bool is_placed(std::vector<building::Ring>& rings) const {
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            transform_->apply(rings[i]);
+            const bool is_on_earth =
+                std::all_of(rings[i].begin(), rings[i].end(), [](glm::dvec2 corner) {
+                    return std::abs(corner.x) <= 720.0 && std::abs(corner.y) <= 90.0;
+                });
+            const bool keeps_its_side = (building::signed_area(rings[i]) > 0.0) == (i == 0);
+            if (!is_on_earth || !keeps_its_side) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    std::string name_;
+    const FootprintOptions& options_;
+    FootprintFile file_;
+    std::vector<std::string> field_names_;
+    std::optional<CrsTransform> transform_;
+    const OGRSpatialReference* crs_ = nullptr; // of the transform
+    std::size_t corners_ = 0;
+    bool has_polygons_ = false;
+    bool has_field_ = false;
+};
+
+} // namespace
+
+Result<FootprintFile> read_footprints(const fs::path& path, const FootprintOptions& options,
+                                      const std::stop_token& stop) {
+    register_drivers();
+    const GdalMessages messages;
+    const auto dataset = open_footprints(path, messages);
+    if (!dataset) {
+        return dataset.error();
+    }
+    FootprintReader reader(path.string(), options);
+    for (OGRLayer* layer : (*dataset)->GetLayers()) {
+        if (auto added = reader.add_layer(*layer, stop); !added) {
+            return added.error();
+        }
+    }
+    return reader.finish();
+}
+
+} // namespace reljef::io
