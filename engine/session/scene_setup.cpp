@@ -364,6 +364,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
             return models.error();
         }
         result.models = std::move(*models);
+        if (view.rays == RayUse::only) { // which draw no floor of triangles
+            shown.material.technique = {scene::Exact{}};
+        }
     } else if (auto done = choose_technique(result, view); !done) {
         return done.error();
     }

@@ -56,6 +56,40 @@ TEST(Shading, OfAPlaneIsLambertsLaw) {
                 white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
 }
 
+// Boxes of a metre; the sun is in the east, at 45 degrees.
+TEST(Shading, MeshesHideTheSunFromGroundAndFromEachOther) {
+    scene::Scene scene = sloped_scene(0.0);
+    const auto add_box = [&](glm::dvec3 at) {
+        scene.add_mesh(scene::box_mesh(glm::vec3(1.0F))).set_position(at);
+    };
+    add_box({1.0, 0.0, 2.0});
+    const glm::dvec3 to_sun = scene::to_light(white_sun);
+    const auto sees = [&](double x, double y) {
+        const auto caster = SceneCaster::create(scene).value();
+        return sees_sun(caster, place_at(x + 4.0, 4.0 - y), to_sun);
+    };
+    // Its shadow goes from 2 m west of the middle to the middle.
+    EXPECT_FALSE(sees(-1.9, 0.0));
+    EXPECT_FALSE(sees(-0.1, 0.4));
+    EXPECT_TRUE(sees(0.1, 0.0));
+    EXPECT_TRUE(sees(-2.1, 0.0));
+    EXPECT_TRUE(sees(-1.0, 0.6));
+    const auto top_sees = [&] {
+        const auto caster = SceneCaster::create(scene).value();
+        const Ray down{{1.0, 0.0, 2.7}, {0.0, 0.0, -1.0}};
+        const auto hit = caster.meshes().first_hit(down, {0.0, 1.0});
+        return sees_sun(caster, hit.value(), down, to_sun);
+    };
+    EXPECT_TRUE(top_sees());
+    add_box({3.0, 0.0, 4.5});
+    EXPECT_FALSE(top_sees());
+    const auto caster = SceneCaster::create(scene).value();
+    const Ray east{{-3.0, 0.0, 2.0}, {1.0, 0.0, 0.0}};
+    const auto west_side = caster.meshes().first_hit(east, {0.0, 10.0});
+    EXPECT_NEAR(west_side->t, 3.5, 1e-9);
+    EXPECT_FALSE(sees_sun(caster, *west_side, east, to_sun)) << "it is turned away";
+}
+
 TEST(Shading, WithoutALightItIsTheAlbedoBilinearInLinearColour) {
     Image color(2, 2, Rgba8{0, 0, 0, 255});
     color(1, 0) = {255, 128, 0, 255};

@@ -32,6 +32,9 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (is_curved(terrain) && terrain.surface->placement().columns_all_around()) {
         return "a globe";
     }
+    if (is_curved(terrain) && technique.options.shadow) {
+        return "shadows by rays on the ellipsoid, where they bend,";
+    }
     if (terrain.material.wireframe) {
         return "a wireframe";
     }

@@ -76,6 +76,43 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
     test::expect_refusal(with({"urban", "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
 }
 
+TEST_F(CpuContext, DrawsTheGallerysTexturesAsOpenGlDoes) {
+    RELJEF_RELEASE_ONLY("the room cast has tests of its own");
+    const auto with = [&](const char* context) {
+        return render({"gallery", "--technique", "texture", "--context", context});
+    };
+    const auto rays = with("cpu");
+    ASSERT_EQ(rays.exit_code, 0) << rays.err;
+    const Image on_cpu = shown();
+    ASSERT_EQ(with("osmesa").exit_code, 0);
+    const auto errors = truth::image_errors(on_cpu, shown());
+    ASSERT_TRUE(errors);
+    EXPECT_LE(errors->rmse, 0.02);
+    EXPECT_LE(errors->flip.mean, 0.03);
+}
+
+TEST_F(CpuContext, DrawsObjects) {
+    RELJEF_RELEASE_ONLY("the room cast has tests of its own");
+    const test::TemporaryFolder folder;
+    const auto roof = folder
+                          .write("roof.obj", "v -40 90 -40\nv 40 90 -40\nv 40 90 40\nv -40 90 40\n"
+                                             "v 0 0 0\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\n"
+                                             "f 4 1 5\n")
+                          .string();
+    const auto with = [&](const std::string& technique, bool has_object) {
+        std::vector<std::string> options{"urban", "--context", "cpu", "--technique", technique};
+        if (has_object) {
+            options.insert(options.end(), {"--object", roof + ":at=0,0,height=150"});
+        }
+        const auto result = render(options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return shown();
+    };
+    const Image hard = with("exact:shadow=hard", true);
+    EXPECT_NE(with("exact:shadow=hard", false), hard);
+    EXPECT_NE(with("exact", true), with("exact", false));
+}
+
 // Where the machine has no GPU, as here.
 TEST_F(CpuContext, IsTheDefaultForWhatItDraws) {
     RELJEF_RELEASE_ONLY("the room session has tests of its own");
@@ -111,6 +148,10 @@ TEST_F(CpuContext, PlacesGeoreferencedTerrainOnTheEllipsoid) {
     };
     const Image usual = drawn({});
     EXPECT_EQ(usual, drawn({"--placement", "ellipsoid"}));
+    test::expect_refusal(
+        test::reljef({"render", hill, "--quiet", "--context", "cpu", "--placement", "ellipsoid",
+                      "--technique", "exact:shadow=hard", "-o", file("a.png")}),
+        1, {"shadows by rays on the ellipsoid", "--context osmesa"});
     EXPECT_NE(usual, drawn({"--placement", "plane"}));
     EXPECT_EQ(drawn({"--technique", "exact"}),
               drawn({"--technique", "exact", "--placement", "plane"}));
