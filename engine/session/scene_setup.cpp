@@ -38,6 +38,14 @@ std::size_t triangles_within(int megabytes) {
     return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
 }
 
+// Of a terrain that is read whole, of a vertex at each sample, and of what a software renderer with
+// four samples per pixel keeps of its two triangles until they are drawn (measured: 117 each).
+constexpr std::size_t bytes_per_whole_sample = 24 + 40 + 2 * 117;
+
+std::size_t vertices_within(int megabytes) {
+    return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;
+}
+
 Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice,
                                    const io::SceneDescription& description) {
     const std::string& name = choice.ramp ? *choice.ramp : description.ramp;
@@ -309,6 +317,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     auto& shown = *result.terrain->get<scene::TerrainNode>();
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
+    shown.max_vertices = vertices_within(terrain.memory_megabytes);
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
     auto detail = open_detail(source.description, terrain, view, log, stop);
@@ -348,6 +357,20 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         result.source = std::make_shared<const TerrainSource>(std::move(source));
     }
     return result;
+}
+
+int megabytes_for_every_sample(const scene::Scene& scene) {
+    std::size_t bytes = 0;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        const bool draws_fewer = terrain != nullptr &&
+                                 scene::error_bound(terrain->material.technique) == 0.0 &&
+                                 scene::triangle_bound(*terrain, terrain->material.technique) > 0.0;
+        bytes += draws_fewer
+                     ? bytes_per_whole_sample * terrain->surface->heightfield().heights.size()
+                     : 0;
+    });
+    return static_cast<int>(bytes >> 20U) + (bytes > 0 ? 1 : 0);
 }
 
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {

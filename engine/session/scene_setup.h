@@ -56,6 +56,10 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                                 const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
 
+/// The memory that holds all samples of terrains as vertices, where their technique draws every
+/// sample and their memory does not hold them (scene::triangle_bound), MiB; 0: all are drawn.
+int megabytes_for_every_sample(const scene::Scene& scene);
+
 /// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
 /// user, or if the geoid is not the one that they count from.
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
