@@ -19,6 +19,7 @@
 #include "app/viewer/viewer.h"
 #include "app/viewer/window_loop.h"
 #include "engine/platform/window.h"
+#include "engine/session/flight_keys.h"
 #include "engine/session/ground.h"
 #include "engine/session/picture/picture_parts.h"
 #include "engine/session/scene_renderer.h"

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/session/flight_keys.h"
 #include "engine/session/scene_setup.h"
 
 namespace reljef::cli {

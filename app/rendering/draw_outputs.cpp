@@ -11,6 +11,7 @@
 #include "app/rendering/frame_sink.h"
 #include "engine/io/image/image.h"
 #include "engine/io/image/picture_writer.h"
+#include "engine/session/flight_keys.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::app {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <variant>
 
+#include "bench/suites/frame_check.h"
 #include "engine/truth/draw.h"
 
 namespace reljef::bench {
@@ -86,20 +87,6 @@ std::size_t count_not_finite(const HitBuffer& hits) {
 }
 
 namespace {
-
-// Whether a ray starts over the terrain, or is more than `metres` above its border where it enters:
-// beneath the triangles of the border it meets no front face.
-bool enters_above(const scene::TerrainSurface& surface, const Ray& ray, double metres) {
-    Box column = surface.bounds();
-    column.low.z = -max_world_coordinate;
-    column.high.z = max_world_coordinate;
-    const auto inside = intersect(ray, column);
-    if (!inside || inside->begin == 0.0) {
-        return inside.has_value();
-    }
-    const glm::dvec3 entry = glm::clamp(ray.at(inside->begin), column.low, column.high);
-    return entry.z > surface.height_at(entry.x, entry.y).value_or(column.high.z) + metres;
-}
 
 // Ground around pixels, to the exact rays within a tolerance.
 class GroundAround {

@@ -12,9 +12,9 @@
 #include "app/cli/message.h"
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
+#include "bench/suites/frame_check.h"
 #include "bench/suites/random_views.h"
 #include "engine/scene/motion/camera_path.h"
-#include "engine/truth/geometric_error.h"
 
 namespace reljef::bench {
 namespace {
@@ -28,146 +28,9 @@ struct Flight {
     scene::CameraPath path;
 };
 
-// Every step-th pixel of a frame in both directions.
-struct PixelLattice {
-    glm::ivec2 first{0};
-    int step = 1;
-};
-
-struct FrameErrors {
-    std::size_t pixels = 0;
-    std::size_t violations = 0;
-    std::size_t holes = 0;
-    double worst = 0.0;
-
-    void add(const FrameErrors& other) {
-        pixels += other.pixels;
-        violations += other.violations;
-        holes += other.holes;
-        worst = std::max(worst, other.worst);
-    }
-};
-
 const scene::TerrainSurface& bounded_surface(const BenchmarkScene& scene) {
     return *scene.terrain().get<scene::TerrainNode>()->surface;
 }
-
-class FrameChecker {
-public:
-    FrameChecker(const BenchmarkScene& scene, glm::ivec2 size, ParallelOptions parallel)
-        : surface_(bounded_surface(scene)), world_from_local_(scene.terrain().world_from_local()),
-          size_(size), parallel_(std::move(parallel)) {}
-
-    // `stated`: the error of the frame, pixels. Incomplete after a stop.
-    FrameErrors check_frame(const scene::Camera& camera, const HitBuffer& hits, double stated,
-                            const PixelLattice& lattice) const {
-        const int rows = (size_.y - lattice.first.y + lattice.step - 1) / lattice.step;
-        std::vector<FrameErrors> parts(static_cast<std::size_t>(rows));
-        const truth::SurfaceView view{surface_.heightfield().heights.view(), surface_.placement(),
-                                      world_from_local_, camera};
-        parallel_for(
-            rows,
-            [&](int index) {
-                const int y = lattice.first.y + index * lattice.step;
-                for (int x = lattice.first.x; x < size_.x; x += lattice.step) {
-                    check_pixel(view, {x, y}, hits(x, y), stated,
-                                parts[static_cast<std::size_t>(index)]);
-                }
-            },
-            parallel_);
-        FrameErrors all;
-        for (const FrameErrors& part : parts) {
-            all.add(part);
-        }
-        return all;
-    }
-
-private:
-    void check_pixel(const truth::SurfaceView& view, glm::ivec2 pixel, const Hit& hit,
-                     double stated, FrameErrors& errors) const {
-        if (!truth::shows_terrain(hit)) {
-            errors.holes += is_hole(view.camera, pixel, stated) ? 1U : 0U;
-            return;
-        }
-        const double error = truth::reprojection_error(view, size_, pixel, hit);
-        ++errors.pixels;
-        errors.violations += error <= stated ? 0 : 1;
-        errors.worst = std::max(errors.worst, error);
-    }
-
-    // Whether the exact rays around the pixel, up to farther away than the stated error, all hit
-    // terrain, and none of its ends is as near. Otherwise a silhouette may have moved within that
-    // error, or an end that a silhouette just hid.
-    [[nodiscard]] bool is_hole(const scene::Camera& camera, glm::ivec2 pixel, double stated) const {
-        const double reach = stated + 1.0;
-        return is_surrounded(camera, pixel, reach, 3) && is_surrounded(camera, pixel, reach, 9) &&
-               distance_to_end(camera, pixel) > reach;
-    }
-
-    // By `side` × `side` rays.
-    [[nodiscard]] bool is_surrounded(const scene::Camera& camera, glm::ivec2 pixel, double reach,
-                                     int side) const {
-        const glm::dvec2 first = glm::dvec2(pixel) + 0.5 - reach;
-        const double step = 2.0 * reach / (side - 1);
-        for (int i = 0; i < side * side; ++i) {
-            const glm::dvec2 place = first + step * glm::dvec2(i % side, i / side);
-            if (!surface_.pick(scene::view_ray(camera, size_, place))) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    // Distance of a pixel to the lines between the samples at the ends of the terrain, pixels.
-    [[nodiscard]] double distance_to_end(const scene::Camera& camera, glm::ivec2 pixel) const {
-        const auto& heights = surface_.heightfield().heights;
-        const glm::ivec2 last(heights.cols() - 1, heights.rows() - 1);
-        const auto world = [&](glm::ivec2 sample) {
-            const glm::dvec3 local =
-                surface_.placement().world_from_sample({sample, heights(sample.x, sample.y)});
-            return glm::dvec3(world_from_local_ * glm::dvec4(local, 1.0));
-        };
-        double nearest = std::numeric_limits<double>::infinity();
-        const auto visit = [&](glm::ivec2 first, glm::ivec2 step, int count) {
-            glm::dvec3 before = world(first);
-            for (int i = 1; i <= count; ++i) {
-                const glm::dvec3 now = world(first + i * step);
-                nearest = std::min(nearest, distance_to_line(camera, pixel, before, now));
-                before = now;
-            }
-        };
-        visit({0, 0}, {1, 0}, last.x);
-        visit({0, last.y}, {1, 0}, last.x);
-        visit({0, 0}, {0, 1}, last.y);
-        visit({last.x, 0}, {0, 1}, last.y);
-        return nearest;
-    }
-
-    // On the picture, the distance to a point that moves along a line has one minimum.
-    [[nodiscard]] double distance_to_line(const scene::Camera& camera, glm::ivec2 pixel,
-                                          glm::dvec3 first, glm::dvec3 last) const {
-        const auto distance_at = [&](double part) {
-            return truth::distance_to_pixel(camera, size_, pixel, glm::mix(first, last, part));
-        };
-        constexpr int thirds = 24; // (2/3)^24: a 10,000th of the line
-        double low = 0.0;
-        double high = 1.0;
-        for (int i = 0; i < thirds; ++i) {
-            const double third = (high - low) / 3.0;
-            if (distance_at(low + third) < distance_at(high - third)) {
-                high -= third;
-            } else {
-                low += third;
-            }
-        }
-        return std::min({distance_at(0.0), distance_at(0.5 * (low + high)), distance_at(1.0)});
-    }
-
-    const scene::TerrainSurface& surface_;
-    glm::dmat4 world_from_local_;
-    glm::ivec2 size_;
-    ParallelOptions parallel_;
-};
 
 ErrorBoundRow row_of(const BenchmarkScene& scene, std::string views, double error) {
     ErrorBoundRow row;
@@ -275,8 +138,10 @@ private:
     }
 
     [[nodiscard]] FrameChecker checker_of(const BenchmarkScene& scene) const {
-        return {
-            scene, options_.suite.size, {static_cast<unsigned>(options_.suite.threads), stop_, {}}};
+        return {bounded_surface(scene),
+                scene.terrain().world_from_local(),
+                options_.suite.size,
+                {static_cast<unsigned>(options_.suite.threads), stop_, {}}};
     }
 
     Result<void> run_random(BenchmarkScene& scene, std::string views, int poses,

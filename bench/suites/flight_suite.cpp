@@ -10,6 +10,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/motion/camera_path.h"
+#include "engine/session/flight_keys.h"
 #include "engine/session/scene_setup.h"
 #include "engine/session/streaming.h"
 

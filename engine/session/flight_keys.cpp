@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <variant>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -206,6 +208,57 @@ Result<io::Flight> flight_of(const scene::TerrainSurface& surface, const scene::
                         angles.pitch});
     }
     return io::Flight{std::move(keys), {}};
+}
+
+namespace {
+
+Result<std::vector<scene::Keyframe>>
+keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::string& name) {
+    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
+        return flight_keys(*scene.terrain->get<scene::TerrainNode>()->surface, *on_earth, name);
+    }
+    std::vector<scene::Keyframe> keyframes;
+    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
+        keyframes.push_back({key.time, key.eye, key.target});
+    }
+    return keyframes;
+}
+
+} // namespace
+
+Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
+    if (name == "orbit") {
+        return scene::orbit_path(scene.bounds);
+    }
+    if (name == "flyover") {
+        return scene::flyover_path(scene.bounds,
+                                   [&](double x, double y) { return scene.ground(x, y); });
+    }
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored)) {
+        return Error{
+            fmt::format("--path: '{}' found, orbit, flyover or a path file was expected", name)};
+    }
+    const auto flight = io::read_flight(name);
+    if (!flight) {
+        return flight.error();
+    }
+    for (const std::string& note : flight->notes) {
+        log.note(note);
+    }
+    auto keyframes = keyframes_of(scene, *flight, name);
+    return keyframes ? scene::CameraPath::create(std::move(*keyframes)) : keyframes.error();
+}
+
+bool is_path_file(const std::string& name) {
+    return std::filesystem::path(name).extension() == ".toml";
+}
+
+void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames) {
+    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
+    auto& camera = *scene.camera->get<scene::Camera>();
+    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
+    camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
 }
 
 } // namespace reljef::session

@@ -1,4 +1,5 @@
 #include "engine/session/frame_maker.h"
+#include "engine/session/flight_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,6 +178,7 @@ void DeviceFrames::take_stats(const view::FrameStats& stats, const scene::Scene&
     stats_ = stats;
     frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
     note_kept_error(scene);
+    note_fewer_vertices(scene);
     if (scene.camera().whole == glm::ivec2(0)) {
         return;
     }
@@ -206,6 +208,14 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
 }
 
+void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
+    const int megabytes = megabytes_for_every_sample(scene);
+    if (megabytes > 0 && stats_.kept_error) {
+        megabytes_for_vertices_ = std::max(megabytes_for_vertices_, megabytes);
+        max_of_fewer_vertices_ = std::max(max_of_fewer_vertices_, *stats_.kept_error);
+    }
+}
+
 std::string DeviceFrames::remedy() const {
     const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
     if (megabytes > options_.memory_megabytes || over_->lacks_triangles) {
@@ -225,6 +235,12 @@ std::vector<std::string> DeviceFrames::error_notes() const {
                 : fmt::format("pixels are off by up to {:.3g}", over_->kept_error);
         notes.push_back(
             fmt::format("{}, and {:g} was the error bound: {}", found, over_->bound, remedy()));
+    }
+    if (megabytes_for_vertices_ > 0) {
+        notes.push_back(
+            fmt::format("not every sample is drawn, and pixels are off by up to {:.3g}: "
+                        "--memory {} holds all triangles",
+                        max_of_fewer_vertices_, megabytes_for_vertices_));
     }
     if (max_unproven_ > 0) {
         notes.push_back(fmt::format(

@@ -82,6 +82,7 @@ private:
     };
     void take_stats(const view::FrameStats& stats, const scene::Scene& scene);
     void note_kept_error(const scene::Scene& scene);
+    void note_fewer_vertices(const scene::Scene& scene);
     Result<Image> tinted(Image picture);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.
     [[nodiscard]] std::string remedy() const;
@@ -96,8 +97,10 @@ private:
     int parts_ = 0; // since begin_parts()
     view::FrameStats all_parts_;
     std::optional<FramesOver> over_;
-    int max_unproven_ = 0;                             // tiles of a frame with an error bound
-    int frames_as_triangles_ = 0;                      // whose technique could not be drawn
+    double max_of_fewer_vertices_ = 0.0; // pixels by which frames without all samples are off
+    int megabytes_for_vertices_ = 0;     // that hold all samples as vertices; 0: they were drawn
+    int max_unproven_ = 0;               // tiles of a frame with an error bound
+    int frames_as_triangles_ = 0;        // whose technique could not be drawn
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 

@@ -105,7 +105,7 @@ MissingMaps missing_of_terrain(const scene::TerrainNode& node, const scene::Tech
     missing.cones = has_cells && shown.id() == scene::TechniqueId::cone && node.cones == nullptr;
     const bool has_triangles = rays == RayUse::none || !cast::obstacle_of(node, shown).empty();
     missing.bisection =
-        scene::error_bound(shown) > 0.0 && has_triangles && node.bisection == nullptr;
+        scene::triangle_bound(node, shown) > 0.0 && has_triangles && node.bisection == nullptr;
     missing.surface = missing.cones || missing.bisection ? node.surface : nullptr;
     return missing;
 }

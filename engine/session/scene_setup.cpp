@@ -12,10 +12,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "engine/cast/frame/driver.h"
-#include "engine/io/formats/flight_file.h"
 #include "engine/io/formats/ramp_file.h"
 #include "engine/scene/streaming/tile_stream.h"
-#include "engine/session/flight_keys.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"
 #include "engine/session/prepared_maps.h"
@@ -36,6 +34,14 @@ constexpr std::size_t min_triangles =
 std::size_t triangles_within(int megabytes) {
     const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
     return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
+}
+
+// Of a terrain that is read whole, of a vertex at each sample, and of what a software renderer with
+// four samples per pixel keeps of its two triangles until they are drawn (measured: 117 each).
+constexpr std::size_t bytes_per_whole_sample = 24 + 40 + 2 * 117;
+
+std::size_t vertices_within(int megabytes) {
+    return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;
 }
 
 Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice,
@@ -114,18 +120,6 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
         camera.view_height = std::max(camera.view_height, width / aspect);
     }
     return camera;
-}
-
-Result<std::vector<scene::Keyframe>>
-keyframes_of(const TerrainScene& scene, const io::Flight& flight, const std::string& name) {
-    if (const auto* on_earth = std::get_if<std::vector<io::GeodeticKey>>(&flight.keys)) {
-        return flight_keys(*scene.terrain->get<scene::TerrainNode>()->surface, *on_earth, name);
-    }
-    std::vector<scene::Keyframe> keyframes;
-    for (const io::PathKey& key : *std::get_if<std::vector<io::PathKey>>(&flight.keys)) {
-        keyframes.push_back({key.time, key.eye, key.target});
-    }
-    return keyframes;
 }
 
 // The near plane: close enough to cut nothing, and far above the smallest normal float.
@@ -345,6 +339,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     auto& shown = *result.terrain->get<scene::TerrainNode>();
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
+    shown.max_vertices = vertices_within(terrain.memory_megabytes);
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
     auto detail = open_detail(source.description, terrain, view, log, stop);
@@ -390,6 +385,20 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         result.source = std::make_shared<const TerrainSource>(std::move(source));
     }
     return result;
+}
+
+int megabytes_for_every_sample(const scene::Scene& scene) {
+    std::size_t bytes = 0;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        const bool draws_fewer = terrain != nullptr &&
+                                 scene::error_bound(terrain->material.technique) == 0.0 &&
+                                 scene::triangle_bound(*terrain, terrain->material.technique) > 0.0;
+        bytes += draws_fewer
+                     ? bytes_per_whole_sample * terrain->surface->heightfield().heights.size()
+                     : 0;
+    });
+    return static_cast<int>(bytes >> 20U) + (bytes > 0 ? 1 : 0);
 }
 
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {
@@ -454,41 +463,6 @@ Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions
     auto description = describe(terrain.terrain);
     return description ? open_scene(std::move(*description), terrain, view, log, stop)
                        : description.error();
-}
-
-Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string& name, Log& log) {
-    if (name == "orbit") {
-        return scene::orbit_path(scene.bounds);
-    }
-    if (name == "flyover") {
-        return scene::flyover_path(scene.bounds,
-                                   [&](double x, double y) { return scene.ground(x, y); });
-    }
-    std::error_code ignored;
-    if (!std::filesystem::exists(name, ignored)) {
-        return Error{
-            fmt::format("--path: '{}' found, orbit, flyover or a path file was expected", name)};
-    }
-    const auto flight = io::read_flight(name);
-    if (!flight) {
-        return flight.error();
-    }
-    for (const std::string& note : flight->notes) {
-        log.note(note);
-    }
-    auto keyframes = keyframes_of(scene, *flight, name);
-    return keyframes ? scene::CameraPath::create(std::move(*keyframes)) : keyframes.error();
-}
-
-bool is_path_file(const std::string& name) {
-    return std::filesystem::path(name).extension() == ".toml";
-}
-
-void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames) {
-    const double share = frames > 1 ? static_cast<double>(index) / (frames - 1) : 0.0;
-    auto& camera = *scene.camera->get<scene::Camera>();
-    camera = scene::at_key(camera, path.at(path.begin() + share * path.duration()));
-    camera.up = scene.terrain->get<scene::TerrainNode>()->surface->placement().up(camera.eye);
 }
 
 } // namespace reljef::session

@@ -8,7 +8,6 @@
 
 #include "engine/scene/graph/daylight.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/scene/motion/camera_path.h"
 #include "engine/session/log.h"
 #include "engine/session/objects/placed_buildings.h"
 #include "engine/session/objects/placed_objects.h"
@@ -59,6 +58,10 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                                 const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
 
+/// The memory that holds all samples of terrains as vertices, where their technique draws every
+/// sample and their memory does not hold them (scene::triangle_bound), MiB; 0: all are drawn.
+int megabytes_for_every_sample(const scene::Scene& scene);
+
 /// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
 /// user, or if the geoid is not the one that they count from.
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
@@ -71,15 +74,5 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
 /// The same for the terrain that `terrain.terrain` names.
 Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
-
-/// The camera path `name`: "orbit", "flyover" or a path file, whose notes are logged.
-Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string& name, Log& log);
-
-/// Whether `name` is a path file, not a built-in path or a measured track (GPX, KML, GeoJSON).
-bool is_path_file(const std::string& name);
-
-/// Moves the camera to frame `index` of `frames` evenly spread along a path, even under the ground
-/// (see fly_above_ground in frame_maker.h).
-void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames);
 
 } // namespace reljef::session

@@ -92,6 +92,7 @@ struct SetToRead {
 struct SetOrImagery {
     std::optional<SetToRead> set;
     std::optional<double> imagery_white; // if known
+    std::optional<Error> obstacle;       // why the file is not a set, though it should be
 };
 
 // For the coarsest views of a streamed terrain, without the libraries.
@@ -190,13 +191,14 @@ Result<SetOrImagery> set_to_stream(const SourceOptions& choice,
     }
     auto tiles = open_set(choice, description, stop);
     if (!tiles) {
-        return SetOrImagery();
+        return stop.stop_requested() ? Result<SetOrImagery>(tiles.error())
+                                     : SetOrImagery{{}, {}, tiles.error()};
     }
     OpenImagery imagery = open_imagery(*tiles, choice, options);
     if (fits && !has_finer_pictures(*tiles, options, imagery)) {
-        return SetOrImagery{{}, imagery.white()};
+        return SetOrImagery{{}, imagery.white(), {}};
     }
-    return SetOrImagery{SetToRead{std::move(*tiles), std::move(imagery)}, {}};
+    return SetOrImagery{SetToRead{std::move(*tiles), std::move(imagery)}, {}, {}};
 }
 
 Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescription& description,
@@ -262,9 +264,13 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         return source;
     }
     auto terrain = read(choice, description, found->imagery_white, log, stop);
-    return terrain ? Result<TerrainSource>(
-                         TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}})
-                   : terrain.error();
+    if (!terrain) {
+        return terrain.error();
+    }
+    if (found->obstacle) {
+        terrain->notes.push_back("not read tile by tile: " + found->obstacle->message);
+    }
+    return TerrainSource{std::move(*terrain), std::move(description), {}, {}, {}};
 }
 
 // The geoid of the options, or the installed one if it is the terrain's datum.

@@ -167,6 +167,11 @@ NearerGround::NearerGround(const scene::TileBuilder& builder,
                            const std::optional<terrain::EarthHorizon>& earth)
     : builder_(builder), view_(view), earth_(earth), ground_(builder) {}
 
+NearerGround::NearerGround(const NearerGround& coarser, int resolution)
+    : builder_(coarser.builder_), view_(coarser.view_), earth_(coarser.earth_),
+      resolution_(resolution * coarser.resolution_), ground_(coarser.ground_),
+      under_eye_(coarser.under_eye_) {}
+
 void NearerGround::add_under_eye(std::shared_ptr<const scene::TerrainTile> tile) {
     if (view_ && tile != nullptr) {
         const double more = all_finer * tile->error;
@@ -212,8 +217,8 @@ void NearerGround::make_horizon() {
         {*highest, *highest},
         {.first = builder_.spacing(0),
          .last = glm::length(samples * overview.spacing),
-         .sectors = sectors_of_tiles,
-         .growth = stretch_growth_of_tiles,
+         .sectors = resolution_ * sectors_of_tiles,
+         .growth = 1.0 + (stretch_growth_of_tiles - 1.0) / resolution_,
          // The overview has averages: peaks are higher.
          .heights = {exaggeration * (2.0 * range.low - range.high),
                      exaggeration * (2.0 * range.high - range.low)},

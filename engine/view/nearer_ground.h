@@ -57,6 +57,8 @@ public:
     NearerGround(const scene::TileBuilder& builder, const std::optional<terrain::HorizonView>& view,
                  const std::optional<terrain::EarthHorizon>& earth = std::nullopt);
     NearerGround(const NearerGround&) = delete;
+    /// The same ground, whose horizon has `resolution` times as many sectors and stretches.
+    [[nodiscard]] NearerGround finer(int resolution) const { return {*this, resolution}; }
 
     /// Adds a drawn tile. Precondition: as DrawnGround::add.
     void add(std::shared_ptr<const scene::TerrainTile> tile) { ground_.add(std::move(tile)); }
@@ -68,12 +70,14 @@ public:
     [[nodiscard]] bool hides(const Box& box, double along);
 
 private:
+    NearerGround(const NearerGround& coarser, int resolution);
     [[nodiscard]] std::optional<terrain::HeightRange> range_at_eye(const DrawnGround& ground) const;
     void make_horizon();
 
     const scene::TileBuilder& builder_;
     std::optional<terrain::HorizonView> view_;
     std::optional<terrain::EarthHorizon> earth_;
+    int resolution_ = 1;
     DrawnGround ground_;
     std::optional<double> under_eye_; // the highest ground there, metres
     bool was_made_ = false;

@@ -19,6 +19,7 @@
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
 #include "engine/view/relief_samples.h"
+#include "engine/view/stream_view.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {
@@ -40,7 +41,7 @@ std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain, const
         return std::nullopt;
     }
     const auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
-    const double error = scene::error_bound(technique);
+    const double error = scene::triangle_bound(terrain, technique);
     const scene::TerrainSurface& surface = *terrain.surface;
     if (error > 0.0 && !stands_in) {
         terrain::ErrorView view =
@@ -74,10 +75,9 @@ bool has_streamed_tiles(const scene::TerrainNode& terrain) {
     return terrain.stream != nullptr && scene::draws_tiles(terrain.material.technique);
 }
 
-// Shares of the error bound, where memory leaves tiles too coarse for it. The least is for tiles
-// with the largest error, because a frame's error is that of its worst tile.
+// Share of the error bound, where memory leaves tiles too coarse for it; less for tiles with the
+// largest error.
 constexpr double share_of_triangles = 0.25;
-constexpr double min_share_of_triangles = 1.0 / 16.0;
 
 // What a tile's error leaves of the bound for its triangles, pixels. `largest_error`: of all tiles.
 double triangle_error(double bound, double error, double largest_error) {

@@ -17,6 +17,10 @@ namespace reljef::view {
 /// Largest distance between the vertices of unproven tiles on the picture, in error bounds.
 inline constexpr double samples_apart_in_errors = 4.0;
 
+/// Of the error bound, for the triangles of the tile with the largest error: the frame states the
+/// error of that tile.
+inline constexpr double min_share_of_triangles = 1.0 / 16.0;
+
 /// A loaded tile, or the summary of one that is not.
 struct KnownTile {
     scene::TileSummary summary;
@@ -62,17 +66,22 @@ public:
     /// How far pixels of a tile are off at most, if it is proven; otherwise an estimate. Pixels.
     [[nodiscard]] double error_of(const scene::TileSummary& tile) const;
     /// A bound of the error of a loaded, proven tile, by the heights that are drawn, pixels.
-    /// `is_hidden(box)`: whether something else covers a part of the tile (local metres).
+    /// `is_hidden(box)`: whether something else covers a part of the tile (local metres). At least
+    /// `min_error`: parts with smaller errors are not looked at.
     template <class IsHidden>
-    [[nodiscard]] double tight_error_of(const scene::TerrainTile& tile,
-                                        const IsHidden& is_hidden) const {
-        double largest = 0.0;
+    [[nodiscard]] double tight_error_of(const scene::TerrainTile& tile, const IsHidden& is_hidden,
+                                        double min_error = 0.0) const {
+        double largest = min_error;
         for (int row = 0; row < tile.blocks.rows(); ++row) {
             for (int col = 0; col < tile.blocks.cols(); ++col) {
                 largest = largest_error_in(tile, block_of(tile, {col, row}), largest, is_hidden);
             }
         }
         return largest;
+    }
+    /// The largest error of a tile in a frame that keeps the error bound, pixels.
+    [[nodiscard]] double max_kept_error() const {
+        return (1.0 - min_share_of_triangles) * max_error_;
     }
     /// Whether the error of a tile leaves the triangles too little of the error bound.
     [[nodiscard]] bool is_over_share(double error) const;

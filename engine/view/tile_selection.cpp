@@ -30,6 +30,34 @@ struct Candidate {
     }
 };
 
+// The horizon by which the largest errors are tightened. It takes long, so only they are.
+constexpr int resolution_for_largest = 4;
+
+// Lowers the largest errors of proven tiles, until the bound is kept or the largest error is seen.
+void tighten_largest(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
+                     const NearerGround& nearer) {
+    const auto less = [](const TileSelection::Drawn& a, const TileSelection::Drawn& b) {
+        return a.error < b.error;
+    };
+    NearerGround finer = nearer.finer(resolution_for_largest);
+    const auto is_hidden = [&](const Box& box) { return finer.hides(box, view.along(box)); };
+    while (!drawn.empty()) {
+        const auto largest = std::max_element(drawn.begin(), drawn.end(), less);
+        if (largest->error <= view.max_kept_error() || !largest->tile->is_proven) {
+            return;
+        }
+        double next = view.max_kept_error();
+        for (const TileSelection::Drawn& other : drawn) {
+            next = other.error < largest->error ? std::max(next, other.error) : next;
+        }
+        const double tight = view.tight_error_of(*largest->tile, is_hidden, next);
+        if (tight >= largest->error) {
+            return;
+        }
+        largest->error = tight;
+    }
+}
+
 // Lowers the errors of proven tiles over the bound: by the heights that are drawn, and by what
 // `nearer` hides.
 void tighten(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
@@ -40,6 +68,7 @@ void tighten(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
             error = std::min(error, view.tight_error_of(*tile, is_hidden));
         }
     }
+    tighten_largest(drawn, view, nearer);
 }
 
 TileSelection::Drawn drawn_of(const StreamView& view,
@@ -301,6 +330,12 @@ TileSelection drawn_by(TreeWalk& walk, const WalkLimits& limits,
                : selection;
 }
 
+// Whether tiles may be hidden though not all fit in memory: only if refine_within() knows as much
+// of unread, hidden tiles as of read ones. Otherwise the selection would depend on earlier views.
+bool can_hide_beyond_memory(const StreamView& view, const scene::TerrainTile& root) {
+    return root.is_proven && !view.builder().has_images();
+}
+
 // Walks until no tile is missing. This ends: each walk but the last raises the error so that all
 // fits in memory, adds a leaf, or is the last that hides.
 TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTile& root,
@@ -314,7 +349,7 @@ TileSelection walk_until_complete(const StreamView& view, const scene::TerrainTi
             NearerGround nothing(view.builder(), std::nullopt);
             limits.max_relative_error =
                 refine_within(view.max_drawn(), view, root, nothing).relative_error;
-            limits.hides = limits.hides && root.is_proven;
+            limits.hides = limits.hides && can_hide_beyond_memory(view, root);
             continue;
         }
         used.insert(walk.used().begin(), walk.used().end());

@@ -4,6 +4,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/session/flight_keys.h"
 #include "engine/session/scene_renderer.h"
 #include "engine/session/scene_setup.h"
 #include "tests/support/test_data.h"

@@ -1,5 +1,6 @@
 // Cameras and paths in geographic coordinates, where the terrain's own axes lean away from north
 // and up.
+#include "engine/session/flight_keys.h"
 #include "engine/session/scene_setup.h"
 
 #include <algorithm>

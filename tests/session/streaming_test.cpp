@@ -91,6 +91,24 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
     EXPECT_GT(test::read_bytes(path("b.png")).size(), 100U);
 }
 
+TEST_F(Streaming, a_file_that_cannot_be_read_tile_by_tile_says_why) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    folder_.write("tiles/nowhere.vrt", R"(<VRTDataset rasterXSize="1201" rasterYSize="1201">
+  <SRS>EPSG:4326</SRS>
+  <VRTRasterBand dataType="Int16" band="1">
+    <SimpleSource><SourceFilename relativeToVRT="1">N44E006.hgt</SourceFilename></SimpleSource>
+  </VRTRasterBand>
+</VRTDataset>)");
+    session::SourceOptions choice = streamed_choice();
+    choice.terrain = path("tiles/nowhere.vrt");
+    const auto source = test::open_terrain(choice);
+    ASSERT_TRUE(source) << source.error().message;
+    EXPECT_FALSE(source->stream);
+    EXPECT_THAT(source->terrain.notes,
+                ::testing::Contains(HasSubstr("not read tile by tile: " + choice.terrain +
+                                              ": names no place on Earth")));
+}
+
 // Cells that share no edge with the one that is gone are drawn as finely as without it.
 TEST_F(Streaming, a_fine_tile_that_cannot_be_read_does_not_coarsen_those_beside_it) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));

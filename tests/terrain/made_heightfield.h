@@ -42,10 +42,10 @@ inline terrain::Heightfield plane_heightfield(Grid<float> heights,
 }
 
 /// A geographic raster: (0,0) at a latitude and longitude, `step` degrees from sample to sample;
-/// its columns run `turn` degrees north of east.
+/// its columns run `turn` degrees north of east. Rows are `row_steps` steps apart.
 inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double latitude,
-                                                   double longitude, double step,
-                                                   double turn = 0.0) {
+                                                   double longitude, double step, double turn = 0.0,
+                                                   double row_steps = 1.0) {
     constexpr int controls = 9;
     const glm::dvec2 control_step{std::max(heights.cols() - 1, 1) / (controls - 1.0),
                                   std::max(heights.rows() - 1, 1) / (controls - 1.0)};
@@ -55,14 +55,14 @@ inline terrain::Heightfield geographic_heightfield(Grid<float> heights, double l
     for (int j = 0; j < controls; ++j) {
         for (int i = 0; i < controls; ++i) {
             const double col = i * control_step.x * step;
-            const double row = j * control_step.y * step;
+            const double row = j * control_step.y * row_steps * step;
             control(i, j) = {latitude + col * sine - row * cosine,
                              longitude + col * cosine + row * sine};
         }
     }
-    const double middle = latitude - 0.5 * (heights.rows() - 1) * step;
-    terrain::Heightfield heightfield =
-        plane_heightfield(std::move(heights), geo::metres_per_degree(middle) * step);
+    const double middle = latitude - 0.5 * (heights.rows() - 1) * row_steps * step;
+    terrain::Heightfield heightfield = plane_heightfield(
+        std::move(heights), geo::metres_per_degree(middle) * step * glm::dvec2(1.0, row_steps));
     heightfield.georeference.emplace();
     heightfield.georeference->geodetic = geo::GeodeticMap(control, glm::dvec2(0.0), control_step);
     return heightfield;

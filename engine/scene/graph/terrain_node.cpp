@@ -60,6 +60,15 @@ bool is_seen_from_behind(const Material& material) {
     return material.detail.set != nullptr && is_two_sided(material.technique);
 }
 
+double triangle_bound(const TerrainNode& terrain, const Technique& technique) {
+    const auto* const polygons = std::get_if<Polygons>(&technique.parameters);
+    const bool draws_all = polygons != nullptr && polygons->error == 0.0 &&
+                           polygons->max_levels == 1 && terrain.stream == nullptr;
+    return draws_all && terrain.surface->heightfield().heights.size() > terrain.max_vertices
+               ? bound_for_many_samples
+               : error_bound(technique);
+}
+
 bool shows_heights(const Technique& technique) {
     const TechniqueId id = technique.id();
     return (draws_triangles(id) || searches_surface(id)) && !technique.options.fade &&

@@ -60,6 +60,8 @@ struct TerrainNode {
     std::shared_ptr<const TerrainDetail> detail = {}; ///< for polygons only; null: none
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
+    /// Samples of a terrain in memory that may all be vertices; see triangle_bound().
+    std::size_t max_vertices = std::numeric_limits<std::size_t>::max();
     /// Prepared maps of the surface; null: the renderer makes them on demand.
     std::shared_ptr<const terrain::Bisection> bisection = {};
     std::shared_ptr<const material::ConeMaps> cones = {}; ///< over its heights, from 0 to 1
@@ -68,6 +70,13 @@ struct TerrainNode {
 
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
+
+/// The error bound of triangles that stand in for those of every sample, pixels.
+inline constexpr double bound_for_many_samples = 0.25;
+
+/// The error bound of a terrain's triangles, pixels: the technique's. If it draws every sample, and
+/// memory does not hold all as vertices, bound_for_many_samples. 0: none.
+double triangle_bound(const TerrainNode& terrain, const Technique& technique);
 
 /// Whether the technique shows heights at their true places, so that walls may join the border.
 bool shows_heights(const Technique& technique);

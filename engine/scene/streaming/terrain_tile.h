@@ -31,7 +31,9 @@ struct TileSummary {
     /// estimate against the next finer level: the largest distance of every second vertex from the
     /// middle between its neighbours.
     double error = 0.0;
-    double coarse_texel = 0.0; ///< metres between texels if there are finer ones, otherwise 0
+    /// Metres between texels if there are finer ones, otherwise 0. Also 0 before a proven tile is
+    /// read: only its images tell.
+    double coarse_texel = 0.0;
     bool is_proven = false;
     bool is_finest = false; ///< finer tiles would show nothing more, because files cannot be read
     bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off

@@ -262,8 +262,6 @@ TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProo
     summary.bounds =
         bounds(tile, {summary.range.low - proof.error, summary.range.high + proof.error});
     summary.error = overview_->placement().exaggeration() * proof.error;
-    const bool has_finer = imagery_.finest_pixel > 0.0 && tile.level > 0;
-    summary.coarse_texel = has_finer ? texel(tile.level) : 0.0;
     summary.is_proven = true;
     summary.has_voids = proof.has_voids;
     summary.block_shares = proof.block_shares;

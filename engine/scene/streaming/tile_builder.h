@@ -84,6 +84,7 @@ public:
     }
     /// The tile of a level at a sample of the terrain, clamped to the terrain.
     [[nodiscard]] terrain::TreeTile tile_at(int level, glm::dvec2 sample) const;
+    [[nodiscard]] bool has_images() const { return imagery_.finest_pixel > 0.0; }
     [[nodiscard]] glm::ivec2 picture_size(terrain::TreeTile tile) const;
     [[nodiscard]] double texel(int level) const;      ///< metres between texels
     [[nodiscard]] double spacing(int level) const;    ///< metres between vertices
@@ -108,7 +109,7 @@ public:
     /// Between two vertices of a tile.
     [[nodiscard]] Box bounds(terrain::TreeTile tile, glm::ivec2 first_vertex,
                              glm::ivec2 last_vertex, terrain::HeightRange range) const;
-    /// Of a tile with a proof, whether it was read or not; coarse_texel as if there were images.
+    /// Of a tile with a proof, whether it was read or not, without its images.
     [[nodiscard]] TileSummary summary(terrain::TreeTile tile,
                                       const terrain::TileProof& proof) const;
     /// A vertex at another height, local metres.

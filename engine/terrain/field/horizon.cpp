@@ -36,10 +36,10 @@ constexpr double hides_nothing = -std::numeric_limits<double>::infinity();
 constexpr double max_reach_on_earth = 1e6;
 constexpr double max_latitude = 80.0; // degrees
 
-// On a geographic grid, a line of length L on the Earth is bent by L² tan(latitude) / (8 R) in
-// samples; twice that is assumed, and of other maps, too. As a part of L:
-double bend_in_samples(double length, double radius) {
-    return length * std::tan(glm::radians(max_latitude)) / (4.0 * radius);
+// Metres by which a line of length L on the Earth is bent in samples: on a geographic grid L²
+// tan(latitude) / (8 R). Twice that is assumed, and of other maps, too.
+double bend_of(double length, double radius) {
+    return length * length * std::tan(glm::radians(max_latitude)) / (4.0 * radius);
 }
 
 glm::dvec2 direction(double azimuth) {
@@ -203,9 +203,10 @@ std::optional<SampleRectangle> EyeFrame::samples_around(double distance) const {
         }
         box.add(glm::dvec3(*sample, 0.0));
     }
-    const glm::dvec2 more =
-        is_on_plane() ? glm::dvec2(0.0)
-                      : bend_in_samples(2.0 * distance, radius_) * glm::dvec2(box.high - box.low);
+    const double side = 2.0 * distance; // of the square, metres
+    const glm::dvec2 more = is_on_plane()
+                                ? glm::dvec2(0.0)
+                                : bend_of(side, radius_) / side * glm::dvec2(box.high - box.low);
     return SampleRectangle{glm::dvec2(box.low) - more, glm::dvec2(box.high) + more};
 }
 
@@ -284,24 +285,24 @@ bool Horizon::hides(const Box& box) {
     const int last = static_cast<int>(std::floor((seen.azimuth + seen.after) / sector_angle_)) + 1;
     for (int index = first; index <= last; ++index) {
         const int sector = (index % count + count) % count;
-        if (!(slope < steepest_before(sector, static_cast<std::size_t>(stretch)))) {
+        if (!is_hidden(sector, static_cast<std::size_t>(stretch), slope)) {
             return false;
         }
     }
     return true;
 }
 
-// The steepest hidden slope behind the stretches 0 to `stretch`.
-double Horizon::steepest_before(int sector, std::size_t stretch) {
+// Whether the stretches 0 to `stretch` hide a slope. Looks no farther than to the first that does.
+bool Horizon::is_hidden(int sector, std::size_t stretch, double slope) {
     std::vector<double>& slopes = sectors_[static_cast<std::size_t>(sector)];
-    while (slopes.size() <= stretch) {
+    while (slopes.size() <= stretch && (slopes.empty() || !(slope < slopes.back()))) {
         const double before = slopes.empty() ? hides_nothing : slopes.back();
         auto has_ended = has_ended_[static_cast<std::size_t>(sector)];
         has_ended = has_ended || leaves_terrain(sector, slopes.size());
-        const auto slope = has_ended ? std::nullopt : slope_of(sector, slopes.size());
-        slopes.push_back(std::max(before, slope.value_or(hides_nothing)));
+        const auto steepest = has_ended ? std::nullopt : slope_of(sector, slopes.size());
+        slopes.push_back(std::max(before, steepest.value_or(hides_nothing)));
     }
-    return slopes[stretch];
+    return slope < slopes[std::min(stretch, slopes.size() - 1)];
 }
 
 // On the Earth, a straight line may leave the terrain and come back, below its surface.
@@ -346,12 +347,14 @@ std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stret
     if (frame_.is_on_plane()) {
         return SampleRectangle{low, high};
     }
-    const glm::dvec2 size = high - low;
-    const double length = std::hypot(outer - inner, outer * sector_angle_);
-    const double drifted = frame_.drift(outer, heights_apart_) / (outer - inner);
-    const glm::dvec2 more((bend_in_samples(length, geo::smallest_radius_of_earth()) + drifted) *
-                          std::max(size.x, size.y));
-    return SampleRectangle{low - more, high + more};
+    // The stretch is `deep` and `wide`. Each axis of the samples spans at least its change along
+    // both, so that it changes by at most this many samples per metre.
+    const double deep = outer - inner;
+    const double wide = outer * sector_angle_;
+    const glm::dvec2 per_metre = std::hypot(1.0 / deep, 1.0 / wide) * (high - low);
+    const double beside = bend_of(std::hypot(deep, wide), geo::smallest_radius_of_earth()) +
+                          frame_.drift(outer, heights_apart_);
+    return SampleRectangle{low - beside * per_metre, high + beside * per_metre};
 }
 
 } // namespace reljef::terrain

@@ -105,7 +105,7 @@ private:
     Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach,
             const HorizonView& view, HeightRange zero);
 
-    double steepest_before(int sector, std::size_t stretch);
+    bool is_hidden(int sector, std::size_t stretch, double slope);
     [[nodiscard]] bool leaves_terrain(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<double> slope_of(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<SampleRectangle> samples_of(int sector, std::size_t stretch) const;

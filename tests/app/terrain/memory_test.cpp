@@ -55,10 +55,31 @@ TEST_P(Memory, StaysWithinTheBudget) {
     }
 }
 
+TEST(MemoryNote, TellsOfSamplesThatAreNotDrawn) {
+    constexpr int side = 301;
+    const test::TemporaryFolder folder;
+    const auto file = (folder.path() / "hills.tif").string();
+    ASSERT_TRUE(io::write_heights(file, {side, side, 10.0, {400'000.0, 5e6}}, fill_hills));
+    const auto notes_with = [&](const char* megabytes) {
+        const auto result =
+            test::run_program(RELJEF_BINARY, {"render", file, "--technique", "polygons", "--memory",
+                                              megabytes, "--size", "96x72", "--context", "osmesa",
+                                              "-o", (folder.path() / "picture.png").string()});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return result.err;
+    };
+    const std::string told = "not every sample is drawn, and pixels are off by up to 0.25: "
+                             "--memory 26 holds all triangles";
+    EXPECT_NE(notes_with("25").find(told), std::string::npos);
+    EXPECT_EQ(notes_with("26").find("not every sample"), std::string::npos);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Techniques, Memory,
     testing::Values(
         std::vector<std::string>{"--technique", "texture"},
+        std::vector<std::string>{"--technique", "polygons"},
+        std::vector<std::string>{"--technique", "polygons:lods=3"},
         std::vector<std::string>{"--technique", "polygons:error=1"},
         std::vector<std::string>{"--technique", "polygons:error=1", "--placement", "plane"},
         std::vector<std::string>{"--technique", "exact", "--placement", "plane"},

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/streaming/tile_stream.h"
+#include "engine/session/flight_keys.h"
 #include "engine/session/frame_maker.h"
 #include "engine/session/ground.h"
 #include "engine/session/scene_setup.h"

@@ -319,6 +319,21 @@ TEST(Scene, ARemovedCameraIsNoLongerLookedThrough) {
     EXPECT_EQ(scene.camera().eye, Camera().eye);
 }
 
+TEST(TriangleBound, IsThereIfMemoryDoesNotHoldAVertexAtEachSample) {
+    Scene scene;
+    auto& node = *add(scene, test::plane_heightfield(Grid<float>(5, 4, 0.0F))).get<TerrainNode>();
+    const auto bound = [&](const Polygons& polygons) {
+        return triangle_bound(node, Technique{polygons});
+    };
+    node.max_vertices = 20;
+    EXPECT_EQ(bound({}), 0.0);
+    node.max_vertices = 19;
+    EXPECT_EQ(bound({}), bound_for_many_samples);
+    EXPECT_EQ(bound({.error = 3.0}), 3.0);
+    EXPECT_EQ(bound({.max_levels = 2}), 0.0);
+    EXPECT_EQ(triangle_bound(node, Technique{Texture{}}), 0.0);
+}
+
 TEST(Light, TurnsWithItsNode) {
     Light light;
     light.azimuth = 90.0;

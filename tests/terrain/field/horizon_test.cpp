@@ -130,8 +130,11 @@ TEST(Horizon, OnTheEarthNothingThatItHidesIsMetFirstByAnyRay) {
                                                                                   : 0.0;
                                                                    }),
                                                 -33.0, 0.0002));
+    const Landscape high_cells(
+        "high cells",
+        test::geographic_heightfield(wave_crests(300, 4000.0, 5.0), 77.0, 7.0, 0.002, 0.0, 12.0));
     int hidden = 0;
-    for (const Landscape* land : {&equator, &alps, &wide, &north, &cliffs}) {
+    for (const Landscape* land : {&equator, &alps, &wide, &north, &cliffs, &high_cells}) {
         const Count low = count_hidden(*land, 30, 6);
         const Count high = count_hidden(*land, 30, 7, 3000.0);
         EXPECT_GT(low.shown + high.shown, 0) << land->name;

@@ -345,5 +345,48 @@ TEST(TileError, HeightsAreTheWeightedMeansAcrossChunks) {
     }
 }
 
+/// The samples of a tile as heights_from_samples() expects them.
+Grid<float> samples_around(const TileTree& tree, TreeTile tile, const Grid<float>& samples) {
+    const int border = sample_border(tile.level);
+    const glm::ivec2 first = TileTree::first(tile) - border;
+    const glm::ivec2 size = tree.cells(tile) * TileTree::step(tile) + 1 + 2 * border;
+    Grid<float> around(size.x, size.y);
+    for (int row = 0; row < size.y; ++row) {
+        for (int col = 0; col < size.x; ++col) {
+            around(col, row) = samples.clamped(first.x + col, first.y + row);
+        }
+    }
+    return around;
+}
+
+TEST(CheckProof, TellsThePartsOfATileFromItsSamples) {
+    test::Chance chance(31);
+    const Grid<float> samples = made_terrain(chance, 400, 290);
+    const TileTree tree(samples.cols(), samples.rows());
+    const Proven proven = prove_all(tree, samples);
+    for (const auto& [tile, proof] : proven.tiles) {
+        if (tile.level == 0 || tile.level > tree.root().level) {
+            continue;
+        }
+        const Grid<float> around = samples_around(tree, tile, samples);
+        const Grid<float> heights = heights_from_samples(tree, tile, around);
+        const ProofCheck check = check_proof(tree, tile, proof, heights, &around);
+        EXPECT_EQ(check.contradiction, std::nullopt);
+        ASSERT_TRUE(check.parts);
+        const ExactProof exact =
+            exact_proof(tree, tile, samples, proven.heights[static_cast<std::size_t>(tile.level)]);
+        const double rounding = 14.0 / (1 << 24) * std::max(std::abs(proof.low), proof.high);
+        for (std::size_t i = 0; i < check.parts->size(); ++i) {
+            const double error = check.parts->at(i) / 255.0 * proof.error;
+            EXPECT_GE(error, exact.part_errors.at(i));
+            EXPECT_LE(error, exact.part_errors.at(i) + rounding + 2.01 * proof.error / 255.0);
+        }
+        EXPECT_FALSE(check_proof(tree, tile, proof, heights).parts);
+        TileProof too_small = proof;
+        too_small.error *= 0.9F;
+        EXPECT_TRUE(check_proof(tree, tile, too_small, heights, &around).contradiction);
+    }
+}
+
 } // namespace
 } // namespace reljef::terrain
