@@ -11,6 +11,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/streaming/tile_stream.h"
+#include "engine/scene/motion/camera_path.h"
 #include "engine/session/ground.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_renderer.h"
