@@ -232,7 +232,8 @@ Result<PlacedMeshes> MeshTrees::place(std::span<const view::MeshDraw> seen,
     }
     const auto all = std::make_shared<const PlacedMeshes::Scene>(device_->device);
     if (all->scene == nullptr) {
-        return Error{"rays on the CPU: a mesh found, none was expected: Embree does not start"};
+        return Error{
+            "rays on the CPU: a mesh found, none was expected: the memory for Embree is missing"};
     }
     rtcSetSceneFlags(all->scene, RTC_SCENE_FLAG_ROBUST);
     PlacedMeshes placed;

@@ -1,9 +1,18 @@
 #include "engine/cast/mesh/mesh_trees.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -183,6 +192,56 @@ TEST(MeshTrees, KeepATreeAsLongAsItsMesh) {
     }
     test::must(trees.place({}, {}, glm::dvec3(0.0)));
     EXPECT_EQ(trees.size(), 0U);
+}
+
+// Memory that this process has mapped, bytes.
+std::size_t mapped_bytes() {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// The error of a tree in a process with so many more bytes of memory.
+std::string error_within(const MadeMeshes& made, std::size_t bytes) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe(ends.data()), 0);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        MeshTrees trees;
+        test::must(trees.place({}, {}, glm::dvec3(0.0))); // Embree has started
+        const rlimit limit{mapped_bytes() + bytes, RLIM_INFINITY};
+        ::setrlimit(RLIMIT_AS, &limit);
+        const auto placed = trees.place(made.draws, {}, glm::dvec3(0.0));
+        const std::string said = placed ? "drawn" : placed.error().message;
+        ::_exit(::write(ends[1], said.data(), said.size()) < 0 ? 1 : 0);
+    }
+    ::close(ends[1]);
+    std::array<char, 300> said{};
+    const ssize_t length = ::read(ends[0], said.data(), said.size());
+    ::close(ends[0]);
+    int status = 0;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+    return {said.data(), static_cast<std::size_t>(std::max<ssize_t>(length, 0))};
+}
+
+TEST(MeshTrees, WithoutMemoryOneSentenceSaysSo) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizers need the memory";
+#endif
+    scene::Mesh mesh = scene::plane_mesh({2.0F, 2.0F});
+    const std::vector<std::uint32_t> once = mesh.indices;
+    for (int i = 0; i < 500'000; ++i) {
+        mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+    }
+    MadeMeshes made;
+    made.add(std::move(mesh));
+    for (const std::size_t megabytes : {20U, 60U}) {
+        EXPECT_EQ(error_within(made, megabytes << 20U),
+                  "rays on the CPU: a mesh of 1000002 triangles found, fewer were expected: the "
+                  "memory for their tree is missing");
+    }
+    EXPECT_EQ(error_within(made, std::size_t{4} << 30U), "drawn");
 }
 
 } // namespace
