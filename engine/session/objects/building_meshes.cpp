@@ -62,8 +62,8 @@ void set_texels(scene::Mesh& mesh, std::size_t colors) {
     const auto rows = static_cast<float>((colors + colors_in_row - 1) / colors_in_row);
     for (glm::vec2& coordinate : mesh.texture_coordinates) {
         const int index = static_cast<int>(coordinate.x);
-        coordinate = {(static_cast<float>(index % colors_in_row) + 0.5F) / colors_in_row,
-                      (static_cast<float>(index / colors_in_row) + 0.5F) / rows};
+        const glm::ivec2 texel(index % colors_in_row, index / colors_in_row);
+        coordinate = (glm::vec2(texel) + 0.5F) / glm::vec2(colors_in_row, rows);
     }
 }
 
