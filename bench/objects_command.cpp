@@ -82,8 +82,8 @@ cli::Command add_objects_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_objects_options(*arguments, *choice);
     arguments->callback([choice] {
         if (choice->options.suite.context == session::BackendKind::cpu) {
-            cli::fail_usage("--context: cpu found, which draws no meshes; osmesa, egl or glfw was "
-                            "expected");
+            cli::fail_usage("--context: cpu found, but the suite measures OpenGL; osmesa, egl or "
+                            "glfw was expected");
         }
     });
     arguments->footer(

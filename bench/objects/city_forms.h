@@ -11,6 +11,7 @@
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
 #include "engine/session/scene_setup.h"
+#include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
 #include "engine/truth/scene_caster.h"
 #include "engine/truth/shading.h"

@@ -256,6 +256,7 @@ private:
     Result<void> time_all(CityForms& city, std::vector<ObjectsVariant> variants,
                           const Stopwatch& since_begin) {
         std::vector<DrawFrame> frames;
+        frames.reserve(variants.size());
         for (ObjectsVariant& variant : variants) {
             frames.push_back(frame_of(variant, city));
         }

@@ -24,7 +24,7 @@ function subtitle(report) {
   const most = Math.max(...frames);
   const drawn = !frames.length ? '' : least === most ? ', ' + least + ' frames each' : ', ' + least + ' to ' + most + ' frames each';
   if (isOfObjects(report)) {
-    return sizes.join(' and ') + ' pixels' + drawn + '. Every picture is compared with the exact one of the meshes.';
+    return sizes.join(' and ') + ' pixels' + drawn + '. Every picture is compared with the exact one of the meshes: how far off, wrong, PSNR, SSIM, FLIP. The error in pixels is by the heights of each form itself.';
   }
   return sizes.join(' and ') + ' pixels, ' + (poses.length === 1 ? 'pose ' : 'poses ') + poses.join(', ') + drawn +
     (isOfSkips(report) ? '. Pictures with and without each kind of skipping are compared.' : '. Every picture is compared with the exact one.');

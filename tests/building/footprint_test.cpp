@@ -26,7 +26,8 @@ TEST(Footprint, CornersOnStraightLinesVanish) {
 }
 
 TEST(Footprint, SpikesAndLinesVanish) {
-    const Ring spike{{0.0, 0.0}, {10.0, 0.0}, {10.0, 5.0}, {30.0, 5.0}, {10.0, 5.001}, {0.0, 5.0}};
+    const Ring spike{{0.0, 0.0},    {10.0, 0.0},  {10.0, 5.0}, {30.0, 5.0},
+                     {10.0, 5.001}, {10.0, 10.0}, {0.0, 10.0}};
     EXPECT_EQ(without_straight_corners(spike).size(), 4U);
     EXPECT_TRUE(without_straight_corners({{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}}).empty());
     EXPECT_TRUE(without_straight_corners({{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}).empty());

@@ -52,7 +52,8 @@ Image picture_of(const std::vector<Rgba8>& colors) {
     Image picture(colors_in_row, rows, Rgba8{});
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const int at = static_cast<int>(i);
-        picture(at % colors_in_row, at / colors_in_row) = colors[i];
+        const int row = at / colors_in_row;
+        picture(at % colors_in_row, row) = colors[i];
     }
     return picture;
 }
@@ -62,8 +63,9 @@ void set_texels(scene::Mesh& mesh, std::size_t colors) {
     const auto rows = static_cast<float>((colors + colors_in_row - 1) / colors_in_row);
     for (glm::vec2& coordinate : mesh.texture_coordinates) {
         const int index = static_cast<int>(coordinate.x);
-        coordinate = {(static_cast<float>(index % colors_in_row) + 0.5F) / colors_in_row,
-                      (static_cast<float>(index / colors_in_row) + 0.5F) / rows};
+        const int row = index / colors_in_row;
+        const glm::ivec2 texel(index % colors_in_row, row);
+        coordinate = (glm::vec2(texel) + 0.5F) / glm::vec2(colors_in_row, rows);
     }
 }
 
