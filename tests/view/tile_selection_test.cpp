@@ -175,7 +175,7 @@ TEST(TileSelection, WithTheTilesForTheBoundKeepsIt) {
         World enough({.tiles = tiles});
         enough.look(view);
         const TileSelection kept = enough.load();
-        EXPECT_LE(largest_error(kept), 1.0);
+        EXPECT_LE(largest_error(kept), 0.5); // the tiles' share of the bound
         EXPECT_LE(tiles, kept.drawn.size() * 3 / 2);
     }
 }

@@ -72,7 +72,7 @@ struct TerrainNode {
 };
 
 /// The error bound of triangles that stand in for those of every sample, pixels.
-inline constexpr double bound_for_many_samples = 0.25;
+inline constexpr double bound_for_many_samples = 0.5;
 
 /// The error bound of a terrain's triangles, pixels: the technique's. If it draws every sample, and
 /// memory does not hold all as vertices, bound_for_many_samples. 0: none.

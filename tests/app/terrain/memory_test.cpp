@@ -68,7 +68,7 @@ TEST(MemoryNote, TellsOfSamplesThatAreNotDrawn) {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         return result.err;
     };
-    const std::string told = "not every sample is drawn, and pixels are off by up to 0.25: "
+    const std::string told = "not every sample is drawn, and pixels are off by up to 0.5: "
                              "--memory 26 holds all triangles";
     EXPECT_NE(notes_with("25").find(told), std::string::npos);
     EXPECT_EQ(notes_with("26").find("not every sample"), std::string::npos);
