@@ -15,10 +15,11 @@ namespace reljef::app {
 namespace {
 
 constexpr int views = 12; // of each kind
-// In each, the camera moves on as along the orbit at 25 frames a second. The first frame draws all
-// anew and is not measured.
+// In each, the camera moves on as fast as a flight over the terrain in 20 s, at 25 frames a second.
+// The first frame draws all anew and is not measured.
 constexpr int frames_a_view = 4;
-constexpr double frame_angle = 2.0 * std::numbers::pi / (20.0 * 25.0);
+constexpr double circle = 0.65; // its radius, in widths
+constexpr double frame_angle = 1.0 / (20.0 * 25.0) / circle;
 constexpr double ns_a_ms = 1e6;
 
 // On a circle around the terrain; heights as shares of its width.
@@ -27,8 +28,8 @@ scene::Camera camera_at(const session::TerrainScene& scene, double angle, double
     const Box& bounds = scene.bounds;
     const double width = bounds.size().x;
     scene::Camera camera = *scene.camera->get<scene::Camera>();
-    camera.eye = bounds.center() +
-                 glm::dvec3(0.65 * width * std::cos(angle), 0.65 * width * std::sin(angle), 0.0);
+    camera.eye =
+        bounds.center() + circle * width * glm::dvec3(std::cos(angle), std::sin(angle), 0.0);
     camera.eye.z = bounds.high.z + height * width;
     camera.target = bounds.center() + glm::dvec3(0.0, 0.0, target * width);
     return camera;

@@ -16,8 +16,8 @@ enum class Pose {
     oblique,  ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h1): for reliefs below z = 0
     low,      ///< eye (0, −0.3w, ground + 0.15(h1 − h0)), target (0.05w, 0.4w, h0)
     grazing,  ///< eye (0, −0.6w, h1 + 0.03w), target (0, 0, h1)
-    valley,   ///< eye on the lowest ground of the middle + 0.01(h1 − h0), target: its highest ground
-    map,      ///< straight down on everything, north up, orthographic
+    valley, ///< eye on the lowest ground of the middle + 0.01(h1 − h0), target: its highest ground
+    map,    ///< straight down on everything, north up, orthographic
 };
 
 std::string_view to_string(Pose pose);

@@ -232,7 +232,8 @@ namespace {
 ViewPlan cheaper_alone(const ViewCosts& view, const TechniqueCosts& costs) {
     const ViewPlan rays = plan_up_to(-1, view, costs);
     const ViewPlan triangles = plan_up_to(view.rings.back().ring, view, costs);
-    return triangles.ms <= tie * rays.ms && triangles.triangles <= view.max_triangles ? triangles : rays;
+    return triangles.ms <= tie * rays.ms && triangles.triangles <= view.max_triangles ? triangles
+                                                                                      : rays;
 }
 
 } // namespace
