@@ -298,6 +298,12 @@ Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
     return {};
 }
 
+Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
+                          const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    auto placed = place_objects(scene, source, view, log, stop);
+    return placed ? place_buildings(scene, source, view, log, stop) : placed;
+}
+
 BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
     return view.base.value_or(description.base == "none"    ? BaseKind::none
                               : description.base == "solid" ? BaseKind::solid
@@ -347,10 +353,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return detail.error();
     }
     shown.detail = std::move(*detail);
-    if (auto done = place_objects(result, source, view, log, stop); !done) {
-        return done.error();
-    }
-    if (auto done = place_buildings(result, source, view, log, stop); !done) {
+    if (auto done = place_meshes(result, source, view, log, stop); !done) {
         return done.error();
     }
     if (result.is_gallery) {

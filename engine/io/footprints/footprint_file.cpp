@@ -26,7 +26,7 @@ constexpr std::array<const char*, 7> vector_formats{
 constexpr std::string_view expected_file =
     "a file with outlines of buildings (GeoJSON, Shapefile, GeoPackage, FlatGeobuf, KML)";
 
-Result<void> check_file(const fs::path& path) {
+Result<void> check_footprint_file(const fs::path& path) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) {
         return Error{fmt::format("{}: {} found, {} was expected", path.string(),
@@ -42,7 +42,7 @@ Result<void> check_file(const fs::path& path) {
 }
 
 Result<Dataset> open_footprints(const fs::path& path, const GdalMessages& messages) {
-    if (auto good = check_file(path); !good) {
+    if (auto good = check_footprint_file(path); !good) {
         return good.error();
     }
     Dataset dataset(GDALDataset::Open(path.string().c_str(),

@@ -47,8 +47,12 @@ void append_fan(scene::Mesh& mesh, std::uint32_t first, std::uint32_t corners) {
     }
 }
 
+int rows_of(std::size_t colors) {
+    return (static_cast<int>(colors) + colors_in_row - 1) / colors_in_row;
+}
+
 Image picture_of(const std::vector<Rgba8>& colors) {
-    const int rows = (static_cast<int>(colors.size()) + colors_in_row - 1) / colors_in_row;
+    const int rows = rows_of(colors.size());
     Image picture(colors_in_row, rows, Rgba8{});
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const int at = static_cast<int>(i);
@@ -60,7 +64,7 @@ Image picture_of(const std::vector<Rgba8>& colors) {
 
 // The middle of the texel of each vertex's colour.
 void set_texels(scene::Mesh& mesh, std::size_t colors) {
-    const auto rows = static_cast<float>((colors + colors_in_row - 1) / colors_in_row);
+    const int rows = rows_of(colors);
     for (glm::vec2& coordinate : mesh.texture_coordinates) {
         const int index = static_cast<int>(coordinate.x);
         const int row = index / colors_in_row;
