@@ -1,5 +1,4 @@
 #include "engine/session/frame_maker.h"
-#include "engine/session/flight_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/core/stopwatch.h"
+#include "engine/session/flight_keys.h"
 #include "engine/view/choice/choice_picture.h"
 
 namespace reljef::session {

@@ -1,6 +1,5 @@
 // Cameras and paths in geographic coordinates, where the terrain's own axes lean away from north
 // and up.
-#include "engine/session/flight_keys.h"
 #include "engine/session/scene_setup.h"
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/geo/place.h"
+#include "engine/session/flight_keys.h"
 #include "engine/session/frame_maker.h"
 #include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"

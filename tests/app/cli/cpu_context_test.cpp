@@ -27,6 +27,13 @@ private:
     test::TemporaryFolder folder_;
 };
 
+void expect_alike(const Image& a, const Image& b) {
+    const auto errors = truth::image_errors(a, b);
+    ASSERT_TRUE(errors);
+    EXPECT_LE(errors->rmse, 0.02);
+    EXPECT_LE(errors->flip.mean, 0.03);
+}
+
 TEST_F(CpuContext, DrawsWhatOpenGlDrawsAndCountsRays) {
     RELJEF_RELEASE_ONLY("the room cast has tests of its own");
     // The limits are for hazy air; clear air shows each difference of filtering with more contrast.
@@ -43,10 +50,7 @@ TEST_F(CpuContext, DrawsWhatOpenGlDrawsAndCountsRays) {
     EXPECT_NE(rays.out.find("rays: 76800"), std::string::npos) << rays.out;
     const Image on_cpu = shown();
     ASSERT_EQ(with("osmesa").exit_code, 0);
-    const auto errors = truth::image_errors(on_cpu, shown());
-    ASSERT_TRUE(errors);
-    EXPECT_LE(errors->rmse, 0.02);
-    EXPECT_LE(errors->flip.mean, 0.03);
+    expect_alike(on_cpu, shown());
 }
 
 TEST_F(CpuContext, NeedsNoTechnique) {
@@ -85,10 +89,7 @@ TEST_F(CpuContext, DrawsTheGallerysTexturesAsOpenGlDoes) {
     ASSERT_EQ(rays.exit_code, 0) << rays.err;
     const Image on_cpu = shown();
     ASSERT_EQ(with("osmesa").exit_code, 0);
-    const auto errors = truth::image_errors(on_cpu, shown());
-    ASSERT_TRUE(errors);
-    EXPECT_LE(errors->rmse, 0.02);
-    EXPECT_LE(errors->flip.mean, 0.03);
+    expect_alike(on_cpu, shown());
 }
 
 TEST_F(CpuContext, DrawsObjects) {

@@ -5,6 +5,7 @@
 
 #include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
+#include "tests/app/objects/meshes_on_terrain.h"
 #include "tests/io/footprints/made_footprints.h"
 #include "tests/support/temporary_folder.h"
 
@@ -47,26 +48,10 @@ TEST(FootprintsOption, NamesWhatIsWrong) {
     }
 }
 
-constexpr const char* level_dem = "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
-                                  "0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n";
-
-class FootprintsOnTerrain : public testing::Test {
+class FootprintsOnTerrain : public test::MeshesOnTerrain {
 protected:
-    HitBuffer hits(const std::vector<std::string>& more) {
-        const auto file = (folder_.path() / "a.exr").string();
-        std::vector<std::string> arguments{"render",  dem_,    "--size",  "160x120",
-                                           "--quiet", "--eye", "3,-19,9", "--look",
-                                           "0,0,1",   "--hit", file};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const auto result = test::reljef(arguments);
-        EXPECT_EQ(result.exit_code, 0) << result.err;
-        auto read = io::read_hits(file);
-        EXPECT_TRUE(read);
-        return read ? std::move(*read) : HitBuffer();
-    }
+    FootprintsOnTerrain() : MeshesOnTerrain("3,-19,9") {}
 
-    test::TemporaryFolder folder_;
-    std::string dem_ = folder_.write("dem.asc", level_dem).string();
     std::string houses_ =
         folder_
             .write(
@@ -83,20 +68,9 @@ TEST_F(FootprintsOnTerrain, TrianglesAndTruthShowThemAtTheSamePixels) {
     const std::string houses = houses_ + ":height=h,roof=hipped";
     const HitBuffer shown = hits({"--footprints", houses, "--context", "osmesa"});
     const HitBuffer exact = hits({"--footprints", houses, "--truth"});
-    int on_buildings = 0;
-    int elsewhere = 0;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-        const Hit a = shown.samples()[i];
-        const Hit b = exact.samples()[i];
-        const bool is_building = !b.is_sky() && b.col == -1.0F;
-        on_buildings += is_building ? 1 : 0;
-        const bool agree =
-            is_building ? a.col == -1.0F && a.row == -1.0F && std::abs(a.depth - b.depth) < 1e-4F
-                        : a.is_sky() == b.is_sky() && std::abs(a.col - b.col) < 1e-3F;
-        elsewhere += agree ? 0 : 1;
-    }
-    EXPECT_GT(on_buildings, 1500);
-    EXPECT_LE(elsewhere, 6) << "single pixels on outlines, where floats round";
+    const auto found = test::compared_meshes(shown, exact);
+    EXPECT_GT(found.on_meshes, 1500);
+    EXPECT_LE(found.others, 6) << "single pixels on outlines, where floats round";
 }
 
 TEST_F(FootprintsOnTerrain, SceneFilesNameThem) {

@@ -7,6 +7,7 @@
 
 #include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
+#include "tests/app/objects/meshes_on_terrain.h"
 #include "tests/io/mesh/made_mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -55,27 +56,12 @@ TEST(ObjectOption, NamesWhatIsWrong) {
     }
 }
 
-constexpr const char* flat_dem = "ncols 5\nnrows 5\nxllcorner 0\nyllcorner 0\ncellsize 10\n"
-                                 "0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n0 0 0 0 0\n";
-
-class ObjectsOnTerrain : public testing::Test {
+class ObjectsOnTerrain : public test::MeshesOnTerrain {
 protected:
-    HitBuffer hits(const std::vector<std::string>& more) {
-        const auto file = (folder_.path() / "a.exr").string();
-        std::vector<std::string> arguments{"render",  dem_,    "--size",  "160x120",
-                                           "--quiet", "--eye", "3,-12,5", "--look",
-                                           "0,0,1",   "--hit", file};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        const auto result = test::reljef(arguments);
-        EXPECT_EQ(result.exit_code, 0) << result.err;
-        auto read = io::read_hits(file);
-        EXPECT_TRUE(read);
-        return read ? std::move(*read) : HitBuffer();
-    }
+    ObjectsOnTerrain() : MeshesOnTerrain("3,-12,5") {}
+
     std::string object(const std::string& rest) const { return cube_ + rest; }
 
-    test::TemporaryFolder folder_;
-    std::string dem_ = folder_.write("dem.asc", flat_dem).string();
     std::string cube_ = folder_.write("cube.obj", test::cube_obj).string();
 };
 
@@ -88,20 +74,9 @@ TEST_F(ObjectsOnTerrain, TrianglesAndTruthShowThemAtTheSamePixels) {
     truth.emplace_back("--truth");
     const HitBuffer shown = hits(opengl);
     const HitBuffer exact = hits(truth);
-    int on_objects = 0;
-    int elsewhere = 0;
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-        const Hit a = shown.samples()[i];
-        const Hit b = exact.samples()[i];
-        const bool is_object = !b.is_sky() && b.col == -1.0F;
-        on_objects += is_object ? 1 : 0;
-        const bool agree =
-            is_object ? a.col == -1.0F && a.row == -1.0F && std::abs(a.depth - b.depth) < 1e-4F
-                      : a.is_sky() == b.is_sky() && std::abs(a.col - b.col) < 1e-3F;
-        elsewhere += agree ? 0 : 1;
-    }
-    EXPECT_GT(on_objects, 1000);
-    EXPECT_LE(elsewhere, 4) << "single pixels on outlines, where floats round";
+    const auto found = test::compared_meshes(shown, exact);
+    EXPECT_GT(found.on_meshes, 1000);
+    EXPECT_LE(found.others, 4) << "single pixels on outlines, where floats round";
 }
 
 TEST_F(ObjectsOnTerrain, SceneFilesNameThem) {

@@ -15,6 +15,7 @@
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "engine/view/sample_count.h"
+#include "tests/cast/frame/compared_pictures.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_stream.h"
@@ -54,21 +55,6 @@ Image drawn_by_rays(const scene::Scene& scene, unsigned threads = 0) {
     return driver.read_color();
 }
 
-// Pixels with a channel that is off by more than `levels`.
-double share_of_others(const Image& a, const Image& b, int levels) {
-    int others = 0;
-    for (int row = 0; row < a.rows(); ++row) {
-        for (int col = 0; col < a.cols(); ++col) {
-            const Rgba8 p = a(col, row);
-            const Rgba8 q = b(col, row);
-            const int off =
-                std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
-            others += off > levels ? 1 : 0;
-        }
-    }
-    return static_cast<double>(others) / (a.cols() * a.rows());
-}
-
 class CastDriverGlTest : public test::GlTest {
 protected:
     static Image drawn_by_opengl(const scene::Scene& scene) {
@@ -89,7 +75,7 @@ TEST_F(CastDriverGlTest, DrawsWhatTheShadersDraw) {
         ASSERT_TRUE(errors);
         EXPECT_LE(errors->rmse, 0.005) << scene::to_string(pose);
         EXPECT_LE(errors->flip.mean, 0.02) << scene::to_string(pose);
-        EXPECT_LE(share_of_others(rays, shaders, 2), 0.01) << scene::to_string(pose);
+        EXPECT_LE(test::share_of_others(rays, shaders, 2), 0.01) << scene::to_string(pose);
     }
 }
 
@@ -115,15 +101,16 @@ TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
             stage.terrain->set_visible(true);
             stage.look_from(pose);
             const double hazy =
-                share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2);
+                test::share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2);
             stage.scene.remove_sky();
             const double bare =
-                share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2);
+                test::share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2);
             EXPECT_LE(hazy, std::max(bare, 0.01)) << scene::to_string(pose) << ' ' << altitude;
             stage.scene.set_sky(sky);
             stage.terrain->set_visible(false);
-            EXPECT_EQ(share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2),
-                      0.0)
+            EXPECT_EQ(
+                test::share_of_others(drawn_by_rays(stage.scene), drawn_by_opengl(stage.scene), 2),
+                0.0)
                 << scene::to_string(pose) << ' ' << altitude;
         }
     }
@@ -155,9 +142,9 @@ TEST_F(CastDriverGlTest, DrawsTheBaseAsTheShadersDo) {
             const Image bare = drawn_by_rays(stage.scene);
             stage.terrain->get<scene::TerrainNode>()->base = base;
             const Image rays = drawn_by_rays(stage.scene);
-            EXPECT_GT(share_of_others(rays, bare, 2), 0.02) << side.x;
+            EXPECT_GT(test::share_of_others(rays, bare, 2), 0.02) << side.x;
             // Pixels at the borders of ground and walls belong to one or the other.
-            EXPECT_LE(share_of_others(rays, drawn_by_opengl(stage.scene), 2), 0.03) << side.x;
+            EXPECT_LE(test::share_of_others(rays, drawn_by_opengl(stage.scene), 2), 0.03) << side.x;
         }
     }
 }
@@ -219,9 +206,9 @@ TEST(CastDriver, SamplesWhereTheyChangeThePicture) {
             EXPECT_EQ(drawn_with(stage.scene, options), some) << "on any threads";
             options.samples_all = true;
             const Image all = drawn_with(stage.scene, options);
-            EXPECT_LE(share_of_others(some, all, 2), 0.01)
+            EXPECT_LE(test::share_of_others(some, all, 2), 0.01)
                 << scene::to_string(pose) << ' ' << samples;
-            EXPECT_LE(share_of_others(some, all, 2), 0.5 * share_of_others(one, all, 2))
+            EXPECT_LE(test::share_of_others(some, all, 2), 0.5 * test::share_of_others(one, all, 2))
                 << scene::to_string(pose) << ' ' << samples;
         }
     }

@@ -15,6 +15,7 @@
 #include "engine/scene/graph/picture_detail.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
+#include "tests/cast/frame/compared_pictures.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_stream.h"
@@ -116,20 +117,6 @@ Grid<float> hills_and_wall() {
     return heights;
 }
 
-double share_that_differs(const Image& a, const Image& b, int levels) {
-    int others = 0;
-    for (int row = 0; row < a.rows(); ++row) {
-        for (int col = 0; col < a.cols(); ++col) {
-            const Rgba8 p = a(col, row);
-            const Rgba8 q = b(col, row);
-            const int off =
-                std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
-            others += off > levels ? 1 : 0;
-        }
-    }
-    return static_cast<double>(others) / (a.cols() * a.rows());
-}
-
 bool are_same(const HitBuffer& a, const HitBuffer& b) {
     return std::memcmp(a.samples().data(), b.samples().data(), a.size() * sizeof(Hit)) == 0;
 }
@@ -144,10 +131,10 @@ TEST(MeshFrame, MeshesAndShadowsAreThoseOfTheTruth) {
         const auto errors = truth::image_errors(shown, expected);
         ASSERT_TRUE(errors);
         EXPECT_LE(errors->rmse, 0.02) << is_map;
-        EXPECT_LE(share_that_differs(shown, expected, 16), 0.01) << is_map;
+        EXPECT_LE(test::share_of_others(shown, expected, 16), 0.01) << is_map;
         // Without shadows of meshes it is another picture, and without meshes yet another one.
         const Image unshadowed = stage.true_picture(truth::SunShadow::sweep);
-        EXPECT_GE(share_that_differs(shown, unshadowed, 16), 0.03) << is_map;
+        EXPECT_GE(test::share_of_others(shown, unshadowed, 16), 0.03) << is_map;
     }
 }
 
@@ -156,7 +143,7 @@ TEST(MeshFrame, WithoutTheOptionNothingCastsShadows) {
     stage.look_near();
     const Image expected = stage.true_picture(truth::SunShadow::sweep);
     const Image shown = stage.drawn();
-    EXPECT_LE(share_that_differs(shown, expected, 16), 0.01);
+    EXPECT_LE(test::share_of_others(shown, expected, 16), 0.01);
 }
 
 TEST(MeshFrame, HitsAreThoseOfTheTruth) {
@@ -204,8 +191,8 @@ TEST(MeshFrame, OutlinesGetSeveralSamples) {
     const Image one = stage.drawn();
     const Image some = stage.drawn({.size = mesh_picture, .samples = 4});
     const Image all = stage.drawn({.size = mesh_picture, .samples = 4, .samples_all = true});
-    EXPECT_GE(share_that_differs(one, all, 16), 0.01);
-    EXPECT_LE(share_that_differs(some, all, 16), 0.25 * share_that_differs(one, all, 16));
+    EXPECT_GE(test::share_of_others(one, all, 16), 0.01);
+    EXPECT_LE(test::share_of_others(some, all, 16), 0.25 * test::share_of_others(one, all, 16));
 }
 
 // A mesh whose picture has left the frame still casts its shadow into it.
@@ -216,9 +203,9 @@ TEST(MeshFrame, MeshesBesideThePictureCastShadows) {
     ASSERT_FALSE(view::select(stage.scene, mesh_picture).list.meshes_beside.empty());
     const Image shown = stage.drawn();
     const Image expected = stage.true_picture(truth::SunShadow::ray);
-    EXPECT_LE(share_that_differs(shown, expected, 16), 0.02);
+    EXPECT_LE(test::share_of_others(shown, expected, 16), 0.02);
     stage.remove_meshes();
-    EXPECT_GE(share_that_differs(shown, stage.drawn(), 16), 0.05);
+    EXPECT_GE(test::share_of_others(shown, stage.drawn(), 16), 0.05);
 }
 
 TEST(MeshFrame, MeshesAloneAreDrawnBeforeTheSky) {
@@ -229,7 +216,7 @@ TEST(MeshFrame, MeshesAloneAreDrawnBeforeTheSky) {
     const auto stats = test::must(driver.draw(view::select(stage.scene, mesh_picture)));
     EXPECT_EQ(stats.rays, static_cast<std::size_t>(mesh_picture.x * mesh_picture.y));
     const Image expected = stage.true_picture(truth::SunShadow::sweep);
-    EXPECT_LE(share_that_differs(driver.read_color(), expected, 16), 0.01);
+    EXPECT_LE(test::share_of_others(driver.read_color(), expected, 16), 0.01);
 }
 
 TEST(MeshFrame, GroundHidesTheSunFromMeshes) {
@@ -237,7 +224,7 @@ TEST(MeshFrame, GroundHidesTheSunFromMeshes) {
     for (const bool is_map : {false, true}) {
         is_map ? stage.look_from_above() : stage.look_near();
         const Image expected = stage.true_picture(truth::SunShadow::ray);
-        EXPECT_LE(share_that_differs(stage.drawn(), expected, 16), 0.01) << is_map;
+        EXPECT_LE(test::share_of_others(stage.drawn(), expected, 16), 0.01) << is_map;
     }
 }
 
@@ -249,7 +236,7 @@ TEST(MeshFrame, ShadowsOverAStreamAreThoseInMemory) {
     streamed.look_near();
     render::bring_tiles(streamed.scene, mesh_picture);
     const Image in_memory = stage.drawn();
-    EXPECT_LE(share_that_differs(streamed.drawn(), in_memory, 24), 0.03);
+    EXPECT_LE(test::share_of_others(streamed.drawn(), in_memory, 24), 0.03);
 }
 
 class MeshFrameGlTest : public test::GlTest {};
@@ -268,7 +255,7 @@ TEST_F(MeshFrameGlTest, MeshesAreThoseOfTheShaders) {
         ASSERT_TRUE(errors);
         EXPECT_LE(errors->rmse, 0.02) << is_map;
         EXPECT_LE(errors->flip.mean, 0.02) << is_map;
-        EXPECT_LE(share_that_differs(rays, shaders, 8), 0.02) << is_map;
+        EXPECT_LE(test::share_of_others(rays, shaders, 8), 0.02) << is_map;
     }
 }
 

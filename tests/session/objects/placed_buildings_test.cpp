@@ -8,6 +8,7 @@
 
 #include "engine/truth/mesh_caster.h"
 #include "tests/io/footprints/made_footprints.h"
+#include "tests/session/objects/made_ground.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_heightfield.h"
 
@@ -15,20 +16,12 @@ namespace reljef::session {
 namespace {
 
 using test::footprints_text;
+using test::ground_of;
 using test::polygon_feature;
 using test::rectangle;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-scene::TerrainSurface building_ground(terrain::Heightfield field, double exaggeration = 1.0) {
-    auto terrain = std::make_shared<terrain::Terrain>();
-    terrain->name = "made";
-    terrain->heightfield = std::move(field);
-    scene::TerrainOptions options;
-    options.exaggeration = exaggeration;
-    return scene::TerrainSurface::create(terrain, options).value();
-}
 
 // z = 100 + x / 10 over 200 m.
 terrain::Heightfield gentle_slope() {
@@ -61,7 +54,7 @@ protected:
 
 TEST_F(PlacedBuildingsTest, StandOnTheLowestGroundAtTheirOutline) {
     const auto placed = place(
-        building_ground(gentle_slope()),
+        ground_of(gentle_slope()),
         footprints({polygon_feature("[" + rectangle(10.0, -5.0, 30.0, 5.0) + "]", "\"h\":12")}));
     ASSERT_TRUE(placed) << placed.error().message;
     EXPECT_TRUE(placed->notes.empty());
@@ -74,7 +67,7 @@ TEST_F(PlacedBuildingsTest, StandOnTheLowestGroundAtTheirOutline) {
 
 TEST_F(PlacedBuildingsTest, CourtyardsAreOpen) {
     const auto placed =
-        place(building_ground(gentle_slope()),
+        place(ground_of(gentle_slope()),
               footprints({polygon_feature("[" + rectangle(-20.0, -20.0, 20.0, 20.0) + "," +
                                               rectangle(-10.0, -10.0, 10.0, 10.0) + "]",
                                           "\"h\":9")}));
@@ -86,7 +79,7 @@ TEST_F(PlacedBuildingsTest, CourtyardsAreOpen) {
 
 TEST_F(PlacedBuildingsTest, HippedRoofsRiseToTheHeight) {
     const auto placed =
-        place(building_ground(gentle_slope()),
+        place(ground_of(gentle_slope()),
               footprints({polygon_feature("[" + rectangle(0.0, -5.0, 30.0, 5.0) + "]", "\"h\":12")},
                          building::RoofKind::hipped));
     ASSERT_TRUE(placed);
@@ -97,18 +90,18 @@ TEST_F(PlacedBuildingsTest, HippedRoofsRiseToTheHeight) {
 
 TEST_F(PlacedBuildingsTest, ExaggerationLiftsTheGroundAndNotTheBuilding) {
     const auto placed = place(
-        building_ground(gentle_slope(), 2.0),
+        ground_of(gentle_slope(), 2.0),
         footprints({polygon_feature("[" + rectangle(0.0, -5.0, 30.0, 5.0) + "]", "\"h\":12")}));
     ASSERT_TRUE(placed);
     EXPECT_NEAR(placed->node->world_bounds().high.z, 212.0, 1e-4);
     const std::size_t children = placed->node->children().size();
-    stand_on(building_ground(gentle_slope(), 3.0), *placed);
+    stand_on(ground_of(gentle_slope(), 3.0), *placed);
     EXPECT_NEAR(placed->node->world_bounds().high.z, 312.0, 1e-4);
     EXPECT_EQ(placed->node->children().size(), children);
 }
 
 TEST_F(PlacedBuildingsTest, StandUprightOnTheEarth) {
-    const scene::TerrainSurface surface = building_ground(test::geographic_heightfield(
+    const scene::TerrainSurface surface = ground_of(test::geographic_heightfield(
         Grid<float>(201, 201, 1000.0F), 46.0, 7.0, 0.01)); // to 44° north, 9° east
     const auto placed =
         place(surface, footprints({polygon_feature(
@@ -138,7 +131,7 @@ TEST_F(PlacedBuildingsTest, WhatCannotStandIsLeftOutWithOneNote) {
                                std::string("\"h\":") + height);
     };
     const auto placed = place(
-        building_ground(with_void),
+        ground_of(with_void),
         footprints({square(-50.0, "9"), square(95.0, "9"), square(500.0, "9"), square(0.0, "-9"),
                     square(0.0, "null"),
                     polygon_feature("[" + rectangle(-0.5, -0.5, 5.5, 5.5) + "]", "\"h\":9")}));
@@ -152,17 +145,17 @@ TEST_F(PlacedBuildingsTest, WhatCannotStandIsLeftOutWithOneNote) {
 
 TEST_F(PlacedBuildingsTest, AllLeftOutIsASceneWithoutBuildings) {
     const auto placed = place(
-        building_ground(gentle_slope()),
+        ground_of(gentle_slope()),
         footprints({polygon_feature("[" + rectangle(900.0, 0.0, 930.0, 5.0) + "]", "\"h\":12")}));
     ASSERT_TRUE(placed);
     EXPECT_EQ(placed->node, nullptr);
     EXPECT_EQ(placed->notes.size(), 1U);
-    stand_on(building_ground(gentle_slope(), 3.0), *placed);
+    stand_on(ground_of(gentle_slope(), 3.0), *placed);
 }
 
 TEST_F(PlacedBuildingsTest, FarBuildingsAreMeshesOfTheirOwn) {
     const auto placed = place(
-        building_ground(test::plane_heightfield(Grid<float>(101, 101, 5.0F), {20.0, 20.0})),
+        ground_of(test::plane_heightfield(Grid<float>(101, 101, 5.0F), {20.0, 20.0})),
         footprints({polygon_feature("[" + rectangle(-800.0, 0.0, -790.0, 9.0) + "]", "\"h\":9"),
                     polygon_feature("[" + rectangle(800.0, 0.0, 810.0, 9.0) + "]", "\"h\":9"),
                     polygon_feature("[" + rectangle(820.0, 0.0, 830.0, 9.0) + "]", "\"h\":9")}));
@@ -172,7 +165,7 @@ TEST_F(PlacedBuildingsTest, FarBuildingsAreMeshesOfTheirOwn) {
 
 TEST_F(PlacedBuildingsTest, TheSourcesHeightsCountWhereThereAreSome) {
     const scene::TerrainSurface surface =
-        building_ground(test::geographic_heightfield(Grid<float>(11, 11, 0.0F), 46.0, 7.0, 0.01));
+        ground_of(test::geographic_heightfield(Grid<float>(11, 11, 0.0F), 46.0, 7.0, 0.01));
     const auto file = footprints(
         {polygon_feature("[" + rectangle(7.05, 45.95, 7.0501, 45.9501) + "]", "\"h\":5")});
     const auto placed = place(surface, file, [](std::span<const glm::dvec2> places) {
@@ -191,8 +184,8 @@ TEST_F(PlacedBuildingsTest, TheSourcesHeightsCountWhereThereAreSome) {
 }
 
 TEST_F(PlacedBuildingsTest, RoofsLieOnTheMedianOfTheSurfaceModel) {
-    const scene::TerrainSurface surface = building_ground(
-        test::geographic_heightfield(Grid<float>(101, 101, 10.0F), 46.0, 7.0, 0.0001));
+    const scene::TerrainSurface surface =
+        ground_of(test::geographic_heightfield(Grid<float>(101, 101, 10.0F), 46.0, 7.0, 0.0001));
     // 25 m high within the outline, with a tower of 80 m and a hole of 0 m on less than half of it.
     std::string text = "ncols 101\nnrows 101\nxllcenter 7\nyllcenter 45.99\ncellsize 0.0001\n";
     for (int row = 0; row < 101; ++row) {
@@ -214,7 +207,7 @@ TEST_F(PlacedBuildingsTest, RoofsLieOnTheMedianOfTheSurfaceModel) {
     ASSERT_TRUE(placed) << placed.error().message;
     ASSERT_NE(placed->node, nullptr);
     EXPECT_NEAR(placed->buildings->front().height, 15.0, 1e-3);
-    const auto plane = place(building_ground(gentle_slope()), file);
+    const auto plane = place(ground_of(gentle_slope()), file);
     ASSERT_FALSE(plane);
     EXPECT_THAT(plane.error().message, HasSubstr("is not georeferenced"));
 }

@@ -8,24 +8,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/io/mesh/made_mesh.h"
+#include "tests/session/objects/made_ground.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::session {
 namespace {
 
+using test::ground_of;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-scene::TerrainSurface surface_of(terrain::Heightfield field, double exaggeration = 1.0) {
-    auto terrain = std::make_shared<terrain::Terrain>();
-    terrain->name = "made";
-    terrain->heightfield = std::move(field);
-    scene::TerrainOptions options;
-    options.exaggeration = exaggeration;
-    return scene::TerrainSurface::create(terrain, options).value();
-}
 
 // z = 3 x + 100 over 20 m.
 terrain::Heightfield slope() {
@@ -48,7 +41,7 @@ protected:
 };
 
 TEST_F(PlacedObjectsTest, StandOnTheExactGround) {
-    const scene::TerrainSurface surface = surface_of(slope());
+    const scene::TerrainSurface surface = ground_of(slope());
     io::ObjectDescription raised = cube({-2.5, 4.0});
     raised.height = 7.0;
     raised.scale = 3.0;
@@ -66,7 +59,7 @@ TEST_F(PlacedObjectsTest, StandOnTheExactGround) {
 }
 
 TEST_F(PlacedObjectsTest, HeadingsTurnClockwiseFromNorth) {
-    const scene::TerrainSurface surface = surface_of(slope());
+    const scene::TerrainSurface surface = ground_of(slope());
     PlacedObject object{nullptr, cube({0.0, 0.0}), 0.0, {}};
     object.description.heading = 90.0;
     const glm::dmat4 turned = scene_from_object(surface, object).value();
@@ -77,7 +70,7 @@ TEST_F(PlacedObjectsTest, HeadingsTurnClockwiseFromNorth) {
 }
 
 TEST_F(PlacedObjectsTest, StandUprightAtLatitudeAndLongitude) {
-    const scene::TerrainSurface surface = surface_of(test::geographic_heightfield(
+    const scene::TerrainSurface surface = ground_of(test::geographic_heightfield(
         Grid<float>(201, 201, 1000.0F), 46.0, 7.0, 0.01)); // to 44° north, 9° east
     io::ObjectDescription described = cube({45.25, 8.5});
     described.heading = 30.0;
@@ -98,16 +91,16 @@ TEST_F(PlacedObjectsTest, StandUprightAtLatitudeAndLongitude) {
 }
 
 TEST_F(PlacedObjectsTest, ExaggerationLiftsTheGroundAndNotTheObject) {
-    const auto placed = place(surface_of(slope(), 2.0), {cube({0.0, 0.0})});
+    const auto placed = place(ground_of(slope(), 2.0), {cube({0.0, 0.0})});
     ASSERT_TRUE(placed);
     EXPECT_NEAR(placed->objects[0].node->world_bounds().low.z, 200.0, 1e-4);
     EXPECT_NEAR(placed->objects[0].node->world_bounds().high.z, 202.0, 1e-4);
-    stand_on(surface_of(slope(), 3.0), placed->objects);
+    stand_on(ground_of(slope(), 3.0), placed->objects);
     EXPECT_NEAR(placed->objects[0].node->world_bounds().low.z, 300.0, 1e-4);
 }
 
 TEST_F(PlacedObjectsTest, InstancesShareTheirMesh) {
-    const auto placed = place(surface_of(slope()), {cube({0.0, 0.0}), cube({5.0, 5.0})});
+    const auto placed = place(ground_of(slope()), {cube({0.0, 0.0}), cube({5.0, 5.0})});
     ASSERT_TRUE(placed);
     const auto mesh_of = [&](std::size_t i) {
         return placed->objects[i].node->children().front()->get<scene::MeshNode>()->mesh;
@@ -116,7 +109,7 @@ TEST_F(PlacedObjectsTest, InstancesShareTheirMesh) {
 }
 
 TEST_F(PlacedObjectsTest, TheSourcesHeightCountsWhereThereIsOne) {
-    const scene::TerrainSurface surface = surface_of(slope());
+    const scene::TerrainSurface surface = ground_of(slope());
     const auto placed =
         place(surface, {cube({0.0, 0.0})}, [](glm::dvec2) { return std::optional(42.0); });
     ASSERT_TRUE(placed);
@@ -131,19 +124,19 @@ TEST_F(PlacedObjectsTest, RefusesPlacesWithoutGroundInOneSentence) {
         EXPECT_FALSE(refused);
         return refused ? "" : refused.error().message;
     };
-    const scene::TerrainSurface plane = surface_of(slope());
+    const scene::TerrainSurface plane = ground_of(slope());
     EXPECT_THAT(refusal(plane, {10.1, 0.0}),
                 AllOf(StartsWith(cube_.string()), HasSubstr("outside the terrain"),
                       HasSubstr("on made was expected")));
     const scene::TerrainSurface earth =
-        surface_of(test::geographic_heightfield(Grid<float>(11, 11, 0.0F), 46.0, 7.0, 0.01));
+        ground_of(test::geographic_heightfield(Grid<float>(11, 11, 0.0F), 46.0, 7.0, 0.01));
     EXPECT_THAT(refusal(earth, {10.0, 7.05}), HasSubstr("outside the terrain"));
     EXPECT_THAT(refusal(earth, {100.0, 7.05}), HasSubstr("no place on Earth"));
     terrain::Heightfield with_void = slope();
     with_void.void_mask = Grid<std::uint8_t>(21, 21);
     with_void.void_mask(10, 10) = 1;
     with_void.void_count = 1;
-    EXPECT_THAT(refusal(surface_of(with_void), {0.5, 0.5}), HasSubstr("a void"));
+    EXPECT_THAT(refusal(ground_of(with_void), {0.5, 0.5}), HasSubstr("a void"));
     io::ObjectDescription nowhere{cube_, {}};
     const auto refused = place(plane, {nowhere});
     ASSERT_FALSE(refused);
