@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view schema = "reljef-calibration/1";
+constexpr std::string_view schema = "reljef-calibration/2";
 constexpr double max_cost = 1e9; // a second for a pixel
 
 struct CostField {
@@ -27,7 +27,9 @@ constexpr std::array cost_fields{CostField{"frame_ms", &session::Costs::frame_ms
                                  CostField{"triangle_ns", &session::Costs::triangle_ns},
                                  CostField{"covered_pixel_ns", &session::Costs::covered_pixel_ns},
                                  CostField{"rays_ms", &session::Costs::rays_ms},
-                                 CostField{"ray_pixel_ns", &session::Costs::ray_pixel_ns}};
+                                 CostField{"ray_pixel_ns", &session::Costs::ray_pixel_ns},
+                                 CostField{"search_pixel_ns", &session::Costs::search_pixel_ns},
+                                 CostField{"search_step_ns", &session::Costs::search_step_ns}};
 
 struct PlaceField {
     const char* name;

@@ -42,13 +42,17 @@ struct Kind {
     FrameCost MeasuredFrames::*result;
 };
 
-const std::array<Kind, 5>& kinds() {
-    static const std::array<Kind, 5> all{
+constexpr std::size_t kind_count = 7;
+
+const std::array<Kind, kind_count>& kinds() {
+    static const std::array<Kind, kind_count> all{
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sky},
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::few},
         Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::many},
         Kind{{scene::Exact{}}, 0.35, 0.0, &MeasuredFrames::rays},
-        Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels}};
+        Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels},
+        Kind{{scene::Interval{.linear_steps = 4}}, 0.35, 0.0, &MeasuredFrames::few_steps},
+        Kind{{scene::Interval{.linear_steps = 28}}, 0.35, 0.0, &MeasuredFrames::many_steps}};
     return all;
 }
 
@@ -56,6 +60,7 @@ struct Samples {
     std::vector<double> ms;
     double triangles = 0.0;
     double pixels = 0.0;
+    double steps = 0.0;
 };
 
 // Pixels that show terrain; `of_box`: those whose rays cross the box around it, and so search.
@@ -95,8 +100,13 @@ Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& ren
     if (!hits) {
         return hits.error();
     }
-    const bool has_rays = kind.technique.id() == scene::TechniqueId::exact;
+    const bool has_rays = scene::searches_surface(kind.technique.id());
     samples.pixels += count_pixels(scene, *hits, has_rays) / views;
+    const auto work = renderer.count_work(scene.scene);
+    if (!work) {
+        return work.error();
+    }
+    samples.steps += static_cast<double>(view::totals_of(*work).steps) / views;
     return {};
 }
 
@@ -117,13 +127,18 @@ session::Costs costs_from(const MeasuredFrames& frames) {
                                frames.rays.pixels - frames.fewer_pixels.pixels);
     costs.rays_ms = std::max(
         frames.rays.ms - frames.sky.ms - frames.rays.pixels * costs.ray_pixel_ns / ns_a_ms, 0.0);
+    costs.search_step_ns = slope(frames.many_steps.ms - frames.few_steps.ms,
+                                 frames.many_steps.steps - frames.few_steps.steps);
+    costs.search_pixel_ns = slope(frames.few_steps.ms - frames.sky.ms - costs.rays_ms -
+                                      frames.few_steps.steps * costs.search_step_ns / ns_a_ms,
+                                  frames.few_steps.pixels);
     return costs;
 }
 
 Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
                                       session::SceneRenderer& renderer, const std::stop_token& stop,
                                       const Progress& progress) {
-    std::array<Samples, 5> samples;
+    std::array<Samples, kind_count> samples;
     for (int index = -1; index < views; ++index) { // the first warms up
         for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
             Samples warm_up;
@@ -142,8 +157,9 @@ Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
     }
     MeasuredFrames frames;
     for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
-        frames.*kinds().at(kind).result = {median(samples.at(kind).ms), samples.at(kind).triangles,
-                                           samples.at(kind).pixels};
+        const Samples& measured = samples.at(kind);
+        frames.*kinds().at(kind).result = {median(measured.ms), measured.triangles, measured.pixels,
+                                           measured.steps};
     }
     return frames;
 }

@@ -14,6 +14,7 @@ struct FrameCost {
     double ms = 0.0;
     double triangles = 0.0;
     double pixels = 0.0; ///< that show terrain; of rays, those that search, as `auto` counts them
+    double steps = 0.0;  ///< of searches
 };
 
 /// Measurements from which costs follow. Each is a median.
@@ -23,6 +24,8 @@ struct MeasuredFrames {
     FrameCost many;         ///< many triangles of the same views
     FrameCost rays;         ///< rays, of the same views
     FrameCost fewer_pixels; ///< rays of views with fewer pixels of terrain
+    FrameCost few_steps;    ///< searches with few steps, of the views of `rays`
+    FrameCost many_steps;   ///< searches with many, of the same views
 };
 /// None is negative.
 session::Costs costs_from(const MeasuredFrames& frames);

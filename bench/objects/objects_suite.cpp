@@ -90,6 +90,8 @@ std::vector<std::pair<CityForm, scene::Technique>> techniques_in(const CityForms
         {CityForm::heights, scene::Technique{scene::Relief{}}},
         {CityForm::heights, scene::Technique{scene::Exact{}}},
         {CityForm::heights, scene::Technique{bounded}},
+        {CityForm::heights,
+         scene::Technique{scene::Automatic{.error = session::default_max_error}}},
         {CityForm::meshes, scene::Technique{bounded}}};
     if (city.has(CityForm::meshes_only)) {
         found.emplace_back(CityForm::meshes_only, scene::Technique{bounded});

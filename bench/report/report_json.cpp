@@ -49,6 +49,12 @@ static void describe(Fields& fields,
 }
 
 template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<view::TypicalChoice>& typical) {
+    fields.field("technique", typical.technique);
+    fields.field("share", typical.share, share);
+}
+
+template <class Fields>
 static void describe(Fields& fields, typename Fields::template Of<view::Choice>& choice) {
     fields.field("tiles_as_triangles", choice.tiles_as_triangles);
     fields.field("tiles_by_rays", choice.tiles_by_rays);
@@ -56,6 +62,7 @@ static void describe(Fields& fields, typename Fields::template Of<view::Choice>&
     fields.field("estimated_ms", choice.estimated_ms);
     fields.field("triangles_ms", choice.triangles_ms);
     fields.field("rays_ms", choice.rays_ms);
+    fields.object("typical", choice.typical);
 }
 
 template <class Fields>

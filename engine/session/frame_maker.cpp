@@ -86,6 +86,11 @@ std::string choice_text(const std::optional<view::Choice>& choice) {
         fmt::format("choice: {} tiles as triangles, {} by rays, {:.0f} % of the "
                     "pixels by rays",
                     choice->tiles_as_triangles, choice->tiles_by_rays, 100.0 * choice->ray_pixels);
+    if (choice->typical) {
+        text += fmt::format(" with {}, which shows {:.0f} % of the probed pixels within the bound, "
+                            "without a proof",
+                            choice->typical->technique, 100.0 * choice->typical->share);
+    }
     if (choice->rays_ms) {
         text += fmt::format("; estimated {:.1f} ms, {:.1f} ms as triangles alone, {:.1f} ms by "
                             "rays alone",
@@ -192,7 +197,11 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     if (!bound) {
         return;
     }
-    max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
+    if (stats_.choice && stats_.choice->typical) {
+        min_share_ = std::min(min_share_.value_or(1.0), stats_.choice->typical->share);
+    } else {
+        max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
+    }
     if (stats_.kept_error.value_or(0.0) <= *bound) {
         return;
     }
@@ -247,6 +256,12 @@ std::vector<std::string> DeviceFrames::error_notes() const {
             "the errors of {} tiles are estimates, and pixels may be farther off than the error "
             "bound: 'reljef index' proves them, except near voids",
             max_unproven_));
+    }
+    if (min_share_) {
+        notes.push_back(fmt::format(
+            "pixels may be farther off than the error bound: with typical=1, searches are drawn "
+            "that showed at least {:.0f} % of the probed pixels within it",
+            std::floor(100.0 * *min_share_)));
     }
     if (frames_as_triangles_ > 0) {
         notes.push_back(fmt::format(

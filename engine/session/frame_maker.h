@@ -101,6 +101,7 @@ private:
     double max_of_fewer_vertices_ = 0.0; // pixels by which frames without all samples are off
     int megabytes_for_vertices_ = 0;     // that hold all samples as vertices; 0: they were drawn
     int max_unproven_ = 0;               // tiles of a frame with an error bound
+    std::optional<double> min_share_;    // of probes within the bound, by searches without a proof
     int frames_as_triangles_ = 0;        // whose technique could not be drawn
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };

@@ -3,11 +3,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "engine/core/grid.h"
 #include "engine/core/hit.h"
 
 namespace reljef::view {
+
+/// A search that may skip thin features, chosen because it seldom does in a view.
+struct TypicalChoice {
+    std::string technique; ///< as scene::to_string
+    double share = 0.0;    ///< of the probed pixels, those within the error bound, 0 to 1
+
+    friend bool operator==(const TypicalChoice&, const TypicalChoice&) = default;
+};
 
 /// What `auto` chose in a view.
 struct Choice {
@@ -18,6 +27,7 @@ struct Choice {
     double triangles_ms = 0.0; ///< estimated for triangles alone
     std::optional<double> rays_ms =
         {}; ///< estimated for rays alone; absent: no proof of their error
+    std::optional<TypicalChoice> typical = {}; ///< of the rays; absent: they are exact
 
     friend bool operator==(const Choice&, const Choice&) = default;
 };

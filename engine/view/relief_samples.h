@@ -10,6 +10,11 @@
 
 namespace reljef::view {
 
+/// Of the box that rays of a relief begin and end in, above and below its heights, as a share of
+/// their range: they begin above and end below the surface despite rounding. Floats near 1 have
+/// errors of 2^-24, and a ray adds a few of them.
+inline constexpr double relief_margin = 1.0 / 4096.0;
+
 // The samples that the rays of a relief may meet: columns and rows of the terrain's surface (of a
 // stream: its overview), heights in true metres.
 

@@ -92,6 +92,10 @@ std::string choice_summary(const view::Choice& choice) {
     if (choice.tiles_by_rays == 0) {
         return "triangles";
     }
+    if (choice.typical) {
+        return fmt::format("{}: {:.0f} % typical", choice.typical->technique,
+                           100.0 * choice.typical->share);
+    }
     return choice.tiles_as_triangles == 0
                ? std::string("rays")
                : fmt::format("{} tiles, rays for {:.0f} %", choice.tiles_as_triangles,

@@ -6,12 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/view/relief_samples.h"
+
 namespace reljef::render {
 namespace {
-
-// Margin of the box, as a share of the range of heights: rays begin above and end below the heights
-// despite rounding. Floats near 1 have errors of 2^-24, and a ray adds a few of them.
-constexpr double margin = 1.0 / 4096.0;
 
 Grid<float> cell_maxima(GridView<const float> heights) {
     const int cols = heights.cols() - 1;
@@ -87,8 +85,8 @@ void place_curved_space(ReliefSpace& space, const terrain::Placement& placement)
         space.metres_per_unit[axis] =
             static_cast<float>(glm::distance(placement.world_from_sample(sample(beside)), origin));
     }
-    space.box.low.z = -margin;
-    space.box.high.z = 1.0 + margin;
+    space.box.low.z = -view::relief_margin;
+    space.box.high.z = 1.0 + view::relief_margin;
 }
 
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local) {
@@ -101,8 +99,8 @@ void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>
     space.metres_per_unit =
         glm::vec3(glm::length(local_from_space[0]), glm::length(local_from_space[1]),
                   glm::length(local_from_space[2]));
-    space.box.low.z = -margin;
-    space.box.high.z = 1.0 + margin;
+    space.box.low.z = -view::relief_margin;
+    space.box.high.z = 1.0 + view::relief_margin;
     space.local_box.add(local(space.box.low));
     space.local_box.add(local(space.box.high));
 }

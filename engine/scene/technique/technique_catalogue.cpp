@@ -101,8 +101,14 @@ constexpr std::array displacement_parameters{parameter_row<&Displacement::max_te
 constexpr std::array emboss_parameters{parameter_row<&Emboss::delta>(
     {"delta", 0.25, 64.0, "distance to the second height, towards the light, texels"})};
 
-constexpr std::array automatic_parameters{parameter_row<&Automatic::error>(
-    {"error", min_polygons_error, max_polygons_error, "error bound, pixels; exact has no error"})};
+constexpr std::array automatic_parameters{
+    parameter_row<&Automatic::error>({"error", min_polygons_error, max_polygons_error,
+                                      "error bound, pixels; exact has no error"}),
+    parameter_row<&Automatic::typical>(
+        {.name = "typical",
+         .high = 1.0,
+         .meaning = "1: also searches that keep the bound for most pixels, without a proof",
+         .is_tacit = true})};
 
 template <class Kind>
 constexpr TechniqueInfo technique_row(std::string_view name, std::string_view meaning,

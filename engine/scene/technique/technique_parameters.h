@@ -113,7 +113,8 @@ using MultiLayer = LayerSearch<TechniqueId::multi_layer>;
 
 /// In each view the cheapest of what keeps the bound (view/choice).
 struct Automatic {
-    double error = 1.0; ///< bound in pixels
+    double error = 1.0;   ///< bound in pixels
+    bool typical = false; ///< also what keeps it for most pixels only
     friend auto operator<=>(const Automatic&, const Automatic&) = default;
 };
 

@@ -43,6 +43,10 @@ std::vector<TintedTile> tinted_tiles(const DrawList& list) {
     return tiles;
 }
 
+Rgba8 color_of_rest(const DrawList& list) {
+    return list.stats.choice && list.stats.choice->typical ? color_of_typical() : color_of_rays(0);
+}
+
 Rgba8 tinted(Rgba8 pixel, Rgba8 tint) {
     constexpr glm::vec3 luminance{0.2126F, 0.7152F, 0.0722F}; // ITU-R BT.709
     constexpr float darkest = 0.15F;
@@ -56,6 +60,10 @@ Rgba8 color_of_triangles() {
     return {230, 159, 0};
 }
 
+Rgba8 color_of_typical() {
+    return {213, 94, 0};
+}
+
 Rgba8 color_of_rays(int level) {
     const auto last = static_cast<int>(colors_of_levels.size()) - 1;
     return colors_of_levels.at(static_cast<std::size_t>(std::clamp(level, 0, last)));
@@ -65,6 +73,7 @@ void tint_choice(Image& picture, const HitBuffer& hits, const DrawList& list) {
     check(picture.cols() == hits.cols() && picture.rows() == hits.rows(),
           "a picture and hits of one size were expected");
     const std::vector<TintedTile> tiles = tinted_tiles(list);
+    const Rgba8 rest = color_of_rest(list);
     std::size_t last = 0; // neighbours show the same tile
     for (int y = 0; y < hits.rows(); ++y) {
         for (int x = 0; x < hits.cols(); ++x) {
@@ -79,8 +88,7 @@ void tint_choice(Image& picture, const HitBuffer& hits, const DrawList& list) {
                                  [&](const TintedTile& tile) { return tile.contains(place); });
                 last = static_cast<std::size_t>(found - tiles.begin());
             }
-            picture(x, y) =
-                tinted(picture(x, y), last < tiles.size() ? tiles[last].color : color_of_rays(0));
+            picture(x, y) = tinted(picture(x, y), last < tiles.size() ? tiles[last].color : rest);
         }
     }
 }

@@ -6,9 +6,11 @@
 
 namespace reljef::view {
 
-/// sRGB colours of what `auto` chose: triangles, and rays over a tile of a level (0: the finest).
+/// sRGB colours of what `auto` chose: triangles, rays over a tile of a level (0: the finest), and a
+/// search without a proof.
 Rgba8 color_of_triangles();
 Rgba8 color_of_rays(int level);
+Rgba8 color_of_typical();
 
 /// Tints each pixel of a terrain by what draws its tile, and keeps its brightness. Precondition:
 /// picture and hits have the same size, and are those of the list.

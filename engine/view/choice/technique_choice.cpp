@@ -16,22 +16,21 @@
 #include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/tile_layout.h"
 #include "engine/view/choice/ray_error.h"
+#include "engine/view/choice/typical_search.h"
+#include "engine/view/choice/view_plan.h"
 #include "engine/view/sample_count.h"
 
 namespace reljef::view {
 namespace {
 
-constexpr double ns_a_ms = 1e6;
 constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
-// Both must promise to save a quarter: the rays that remain are those of what is far, which are the
-// longest, and views that change between plans cut tiles again. Measured up to 1.25 of the
-// estimate.
-constexpr double max_share_of_both = 0.75;
-// Triangles that cost up to that share more are drawn, too: a view at rest keeps them.
-constexpr double tie = 1.05;
 // Estimates of triangles are that near: more may not fit.
 constexpr double certain_share = 0.8;
 constexpr double max_lack = 1e4; // times the triangles that fit
+// Of the probes that show terrain, those that a search without a proof must show within the bound.
+constexpr double typical_share = 0.9;
+// Of the time that what is proven takes: estimates are about that near.
+constexpr double share_worth_a_proof = 0.9;
 
 bool is_automatic(const scene::TerrainNode& terrain) {
     return terrain.material.technique.id() == scene::TechniqueId::automatic;
@@ -115,7 +114,7 @@ double triangles_of(const scene::TerrainTile& tile, const TerrainDraw& draw,
 // What a coarse grid of rays hits.
 struct ProbedView {
     std::map<std::pair<int, int>, int> of_tiles; // by column and row
-    int of_box = 0;
+    std::vector<ProbeRay> of_box;
 };
 
 ProbedView probe(const DrawList& list, const TerrainDraw& draw) {
@@ -133,8 +132,9 @@ ProbedView probe(const DrawList& list, const TerrainDraw& draw) {
             if (!intersect(ray, surface.bounds())) {
                 continue;
             }
-            ++probed.of_box;
+            ProbeRay& probe = probed.of_box.emplace_back(ProbeRay{ray, pixel, std::nullopt});
             if (const auto hit = caster.first_hit(ray)) {
+                probe.hit = hit->sample;
                 const glm::ivec2 tile = glm::ivec2(hit->sample) / terrain::tile_cells;
                 ++probed.of_tiles[{tile.x, tile.y}];
             }
@@ -178,78 +178,45 @@ std::vector<RingCost> costs_of_rings(const DrawList& list, const TerrainDraw& dr
     return costs;
 }
 
-ViewCosts view_costs(const DrawList& list, const TerrainDraw& draw, const TriangleCounts& counts,
+ViewCosts view_costs(const DrawList& list, const TriangleCounts& counts, const ProbedView& probed,
                      int samples) {
-    const ProbedView probed = probe(list, draw);
+    const TerrainDraw& draw = list.terrains.front();
     const double pixels = static_cast<double>(list.size.x) * list.size.y;
     const bool is_free = samples == automatic_samples; // the driver chooses
     return {.rings = costs_of_rings(list, draw, counts, probed),
-            .box_pixels = pixels * probed.of_box / (static_cast<double>(probes.x) * probes.y),
+            .box_pixels = pixels * static_cast<double>(probed.of_box.size()) /
+                          (static_cast<double>(probes.x) * probes.y),
             .samples_of_rays = is_free ? 1 : samples,
             .samples_of_both = is_free ? samples_of_triangles : samples,
             .max_triangles = certain_share * static_cast<double>(draw.terrain->max_triangles)};
 }
 
 // Leaves the tiles up to a ring to triangles, and all else to rays.
-void split_at(DrawList& list, int last_ring, double kept_error) {
+void split_at(DrawList& list, int last_ring, const scene::Technique& search) {
     const glm::ivec2 below = tile_below(list, list.terrains.front());
     TerrainDraw rays = list.terrains.front();
-    rays.chosen = scene::make_technique(scene::TechniqueId::exact);
+    rays.chosen = search;
     rays.coarseness.reset();
     std::erase_if(list.tiles,
                   [&](const TileDraw& draw) { return ring_of(*draw.tile, below) > last_ring; });
     list.reliefs.push_back(std::move(rays));
-    list.stats.kept_error = kept_error; // by rays; triangles state their own
+}
+
+bool allows_typical(const scene::TerrainNode& terrain) {
+    const auto* const automatic =
+        std::get_if<scene::Automatic>(&terrain.material.technique.parameters);
+    return automatic != nullptr && automatic->typical;
+}
+
+// Of a search that takes that many steps in each ray, instead of exact rays. `interval` begins, as
+// exact rays do, where the beams of blocks of pixels end.
+TechniqueCosts with_search(TechniqueCosts costs, scene::TechniqueId id, double steps) {
+    costs.rays_ms = id == scene::TechniqueId::interval ? costs.rays_ms : 0.0;
+    costs.ray_pixel_ns = costs.search_pixel_ns + steps * costs.search_step_ns;
+    return costs;
 }
 
 } // namespace
-
-ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs) {
-    double triangles = 0.0;
-    double covered = 0.0;
-    bool is_all = true;
-    for (const RingCost& cost : view.rings) {
-        if (cost.ring > ring) {
-            is_all = false;
-            continue;
-        }
-        triangles += cost.triangles;
-        covered += cost.pixels;
-    }
-    ViewPlan plan{.last_ring = ring, .triangles = triangles};
-    plan.ms = costs.frame_ms +
-              (triangles * costs.triangle_ns + covered * costs.covered_pixel_ns) / ns_a_ms;
-    if (!is_all) {
-        const int samples = triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
-        plan.ray_pixels = std::max(view.box_pixels - covered, 0.0);
-        plan.ms += costs.rays_ms + plan.ray_pixels * samples * costs.ray_pixel_ns / ns_a_ms;
-    }
-    return plan;
-}
-
-namespace {
-
-ViewPlan cheaper_alone(const ViewCosts& view, const TechniqueCosts& costs) {
-    const ViewPlan rays = plan_up_to(-1, view, costs);
-    const ViewPlan triangles = plan_up_to(view.rings.back().ring, view, costs);
-    return triangles.ms <= tie * rays.ms && triangles.triangles <= view.max_triangles ? triangles
-                                                                                      : rays;
-}
-
-} // namespace
-
-ViewPlan cheapest_plan(const ViewCosts& view, const TechniqueCosts& costs) {
-    ViewPlan best = cheaper_alone(view, costs);
-    double limit = max_share_of_both * best.ms;
-    for (const RingCost& last : view.rings) {
-        const ViewPlan plan = plan_up_to(last.ring, view, costs);
-        if (plan.ms < limit && plan.triangles <= view.max_triangles) {
-            best = plan;
-            limit = plan.ms;
-        }
-    }
-    return best;
-}
 
 void TechniqueChooser::know(const scene::TerrainNode& terrain) {
     if (surface_.lock() != terrain.surface) {
@@ -262,14 +229,15 @@ void TechniqueChooser::know(const scene::TerrainNode& terrain) {
     }
 }
 
-TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds) {
+ViewPlan TechniqueChooser::cheapest(const ViewCosts& view, const TechniqueCosts& costs,
+                                    Kinds kinds) {
+    return kinds == Kinds::both ? cheapest_plan(view, costs) : cheaper_alone(view, costs);
+}
+
+TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
+                                                           const ViewCosts& view, Kinds kinds) {
     Decision decision;
     const TerrainDraw& draw = list.terrains.front();
-    if (!may_have_rays(list, draw, max_map_side_)) {
-        return decision;
-    }
-    know(*draw.terrain);
-    const ViewCosts view = view_costs(list, draw, counts_, samples_);
     const int last_ring = view.rings.back().ring;
     const ViewPlan triangles = plan_up_to(last_ring, view, options_.costs);
     decision.choice.triangles_ms = triangles.ms;
@@ -283,16 +251,54 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
         decision.last_ring = last_ring;
         return decision;
     }
-    const ViewPlan best = kinds == Kinds::both ? cheapest_plan(view, options_.costs)
-                                               : cheaper_alone(view, options_.costs);
+    const ViewPlan best = cheapest(view, options_.costs, kinds);
     decision.choice.rays_ms = plan_up_to(-1, view, options_.costs).ms;
     decision.choice.estimated_ms = best.ms;
     decision.choice.ray_pixels = best.ray_pixels / (static_cast<double>(list.size.x) * list.size.y);
     decision.last_ring = best.last_ring;
-    decision.has_rays = best.last_ring < last_ring;
-    decision.kept_error = *kept;
-    decision.lacks_triangles = decision.has_rays && *kept > bound;
+    if (best.last_ring < last_ring) {
+        decision.search = scene::make_technique(scene::TechniqueId::exact);
+        decision.kept_error = kept;
+        decision.lacks_triangles = *kept > bound;
+    }
     return decision;
+}
+
+TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds) {
+    const TerrainDraw& draw = list.terrains.front();
+    if (!may_have_rays(list, draw, max_map_side_)) {
+        return {};
+    }
+    know(*draw.terrain);
+    const ProbedView probed = probe(list, draw);
+    const ViewCosts view = view_costs(list, counts_, probed, samples_);
+    Decision best = decide_proven(list, view, kinds);
+    if (!allows_typical(*draw.terrain)) {
+        return best;
+    }
+    const double bound = scene::error_bound(draw.terrain->material.technique);
+    const double pixels = static_cast<double>(list.size.x) * list.size.y;
+    const TypicalSearch search(list, *draw.terrain->surface, glm::dvec3(draw.world_from_local[3]));
+    double limit = share_worth_a_proof * best.choice.estimated_ms;
+    for (const scene::Technique& technique : typical_searches()) {
+        const auto trial = search.tried(technique, probed.of_box, {bound, typical_share});
+        if (!trial) {
+            continue;
+        }
+        const TechniqueCosts costs = with_search(options_.costs, technique.id(), trial->steps);
+        const ViewPlan plan = cheapest(view, costs, kinds);
+        if (plan.last_ring < view.rings.back().ring && plan.ms < limit) {
+            limit = plan.ms;
+            best.choice.estimated_ms = plan.ms;
+            best.choice.ray_pixels = plan.ray_pixels / pixels;
+            best.choice.typical = TypicalChoice{scene::to_string(technique), trial->share()};
+            best.last_ring = plan.last_ring;
+            best.search = technique;
+            best.kept_error.reset();
+            best.lacks_triangles = false;
+        }
+    }
+    return best;
 }
 
 void TechniqueChooser::choose_for_parts(const DrawList& whole) {
@@ -313,12 +319,16 @@ void TechniqueChooser::choose(DrawList& list) {
     }
     const bool is_part = list.camera.whole != glm::ivec2(0);
     Decision decision = is_part && for_parts_ ? *for_parts_ : decide(list, Kinds::both);
-    if (decision.has_rays) {
-        split_at(list, decision.last_ring, decision.kept_error);
+    if (decision.search) {
+        split_at(list, decision.last_ring, *decision.search);
+        list.stats.kept_error = decision.kept_error; // by rays; triangles state their own
         list.stats.lacks_triangles = decision.lacks_triangles;
     }
     decision.choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
     decision.choice.tiles_by_rays = tiles - decision.choice.tiles_as_triangles;
+    if (decision.choice.typical) {
+        list.stats.tiles_unproven += decision.choice.tiles_by_rays;
+    }
     list.stats.choice = decision.choice;
 }
 

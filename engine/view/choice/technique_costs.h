@@ -12,6 +12,8 @@ struct TechniqueCosts {
     double covered_pixel_ns = 19.7; ///< of each pixel that triangles cover
     double rays_ms = 3.0;           ///< of the first ray: the pass over blocks of pixels
     double ray_pixel_ns = 94.0;     ///< of each ray through the box around the terrain
+    double search_pixel_ns = 36.0;  ///< the same of a search by steps
+    double search_step_ns = 3.0;    ///< and of each of its steps
 
     friend bool operator==(const TechniqueCosts&, const TechniqueCosts&) = default;
 };

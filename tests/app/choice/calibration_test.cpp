@@ -23,7 +23,9 @@ Calibration made_calibration() {
              .triangle_ns = 100.25,
              .covered_pixel_ns = 7.0,
              .rays_ms = 0.0,
-             .ray_pixel_ns = 50.0}};
+             .ray_pixel_ns = 50.0,
+             .search_pixel_ns = 25.0,
+             .search_step_ns = 4.0}};
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -39,7 +41,7 @@ TEST(Calibration, OtherTextsAreErrorsThatNameTheFileAndARemedy) {
     const std::string good = to_text(made_calibration());
     for (const std::string& bad :
          {std::string(), std::string("[]"), std::string("{}"), std::string("\xff\x00{", 3),
-          replaced(good, "calibration/1", "calibration/2"), replaced(good, "100.25", "-1"),
+          replaced(good, "calibration/2", "calibration/1"), replaced(good, "100.25", "-1"),
           replaced(good, "100.25", "1e999"), replaced(good, "100.25", "\"much\""),
           replaced(good, "\"osmesa\"", "3"), replaced(good, "\"costs\"", "\"prices\""),
           good.substr(0, good.size() / 2)}) {
@@ -57,8 +59,8 @@ TEST(Calibration, ErrorsNameWhatWasFound) {
     };
     EXPECT_THAT(message(replaced(good, "100.25", "-1")), HasSubstr("triangle_ns -1 found"));
     EXPECT_THAT(message(replaced(good, "\"osmesa\"", "3")), HasSubstr("context 3 found"));
-    EXPECT_THAT(message(replaced(good, "calibration/1", "calibration/2")),
-                HasSubstr("schema \"reljef-calibration/2\" found"));
+    EXPECT_THAT(message(replaced(good, "calibration/2", "calibration/1")),
+                HasSubstr("schema \"reljef-calibration/1\" found"));
     EXPECT_THAT(message("{}"), HasSubstr("no schema found"));
     EXPECT_THAT(message("[]"), HasSubstr("no JSON object found"));
     EXPECT_THAT(message(replaced(good, "osmesa", std::string(9999, 'x')) + "]"),
@@ -96,26 +98,31 @@ TEST(Calibration, HoldsInItsPlaceOnly) {
 }
 
 TEST(Calibration, CostsFollowFromFrames) {
-    // 2 ms, 100 ns a triangle, 10 ns a pixel; 3 ms and 50 ns a ray.
+    // 2 ms, 100 ns a triangle, 10 ns a pixel; 3 ms and 50 ns a ray; 20 ns a search and 2 ns a step.
     const MeasuredFrames frames{.sky = {2.0, 0.0, 0.0},
                                 .few = {2.0 + 0.1 + 5.0, 1e3, 5e5},
                                 .many = {2.0 + 10.0 + 5.0, 1e5, 5e5},
                                 .rays = {2.0 + 3.0 + 25.0, 12.0, 5e5},
-                                .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 1e5}};
+                                .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 1e5},
+                                .few_steps = {2.0 + 3.0 + 10.0 + 4.0, 12.0, 5e5, 2e6},
+                                .many_steps = {2.0 + 3.0 + 10.0 + 16.0, 12.0, 5e5, 8e6}};
     const session::Costs costs = costs_from(frames);
     EXPECT_NEAR(costs.frame_ms, 2.0, 1e-9);
     EXPECT_NEAR(costs.triangle_ns, 100.0, 1e-6);
     EXPECT_NEAR(costs.covered_pixel_ns, 10.0, 1e-6);
     EXPECT_NEAR(costs.rays_ms, 3.0, 1e-9);
     EXPECT_NEAR(costs.ray_pixel_ns, 50.0, 1e-6);
+    EXPECT_NEAR(costs.search_pixel_ns, 20.0, 1e-6);
+    EXPECT_NEAR(costs.search_step_ns, 2.0, 1e-6);
 }
 
 TEST(Calibration, CostsAreNeverNegative) {
-    const FrameCost same{1.0, 10.0, 10.0};
-    const FrameCost cheaper{0.5, 20.0, 20.0};
-    const session::Costs costs = costs_from({same, cheaper, same, cheaper, same});
-    for (const double cost : {costs.frame_ms, costs.triangle_ns, costs.covered_pixel_ns,
-                              costs.rays_ms, costs.ray_pixel_ns}) {
+    const FrameCost same{1.0, 10.0, 10.0, 10.0};
+    const FrameCost cheaper{0.5, 20.0, 20.0, 20.0};
+    const session::Costs costs = costs_from({same, cheaper, same, cheaper, same, same, cheaper});
+    for (const double cost :
+         {costs.frame_ms, costs.triangle_ns, costs.covered_pixel_ns, costs.rays_ms,
+          costs.ray_pixel_ns, costs.search_pixel_ns, costs.search_step_ns}) {
         EXPECT_TRUE(std::isfinite(cost));
         EXPECT_GE(cost, 0.0);
     }

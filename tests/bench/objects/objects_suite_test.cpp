@@ -38,7 +38,7 @@ const Row& row_of(const Results& results, const std::string& label) {
 TEST(ObjectsSuite, MeshesAreTheTruthAndHeightsAreBesideIt) {
     const Results results = run_objects(small_city(), {});
     ASSERT_FALSE(results.stopped) << results.stopped->message;
-    ASSERT_EQ(results.rows.size(), 8U) << "seven, and one for the noise floor";
+    ASSERT_EQ(results.rows.size(), 9U) << "eight, and one for the noise floor";
     const Row& meshes = row_of(results, "meshes: polygons:error=1");
     const Row& exact = row_of(results, "heights: exact");
     const Row& texture = row_of(results, "heights: texture");
@@ -116,7 +116,7 @@ TEST(ObjectsSuite, SceneFilesWithFootprintsOnASurfaceModelAreCities) {
     const Results results = run_objects(options, {});
     ASSERT_FALSE(results.stopped) << results.stopped->message
                                   << testing::PrintToString(results.notes);
-    EXPECT_EQ(results.rows.size(), 7U) << "no meshes alone";
+    EXPECT_EQ(results.rows.size(), 8U) << "no meshes alone";
     EXPECT_EQ(results.rows[0].objects->buildings, 1U);
     EXPECT_LT(row_of(results, "heights: exact").error->hit_texels->distribution.median, 1.0);
 }

@@ -5,6 +5,7 @@
 
 #include "engine/render/driver.h"
 #include "engine/view/choice/ray_error.h"
+#include "engine/view/choice/typical_search.h"
 #include "engine/view/error_view.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/session/made_session.h"
@@ -123,6 +124,79 @@ double share_of_bound(terrain::Heightfield heightfield, unsigned seed, ChanceCam
         }
     }
     return largest;
+}
+
+// Pixels of a picture by a search, and how the search in doubles differs.
+struct Searched {
+    int pixels = 0; // that show terrain in either
+    int others = 0; // whose place is another one
+    int within = 0; // of the picture, within a pixel of error
+    int within_in_doubles = 0;
+
+    [[nodiscard]] double share(int count) const { return static_cast<double>(count) / pixels; }
+};
+
+view::ProbeRay probe_at(const view::DrawList& list, const scene::TerrainSurface& surface,
+                        glm::dvec2 pixel) {
+    const Ray ray = scene::view_ray(list.camera, list.size, pixel);
+    const auto hit = surface.pick(ray);
+    return {ray, pixel, hit ? std::optional(hit->sample) : std::nullopt};
+}
+
+// Over some views of a terrain.
+Searched searched_over(terrain::Heightfield heightfield, const scene::Technique& technique) {
+    test::Chance chance(21);
+    scene::Scene scene;
+    scene::Node& node = test::add_terrain(scene, std::move(heightfield));
+    node.get<scene::TerrainNode>()->material.technique = technique;
+    scene::Node& camera = scene.add_camera();
+    session::SceneRenderer driver = test::must(test::make_renderer(picture));
+    const auto& surface = test::surface_of(node);
+    Searched searched;
+    for (int i = 0; i < 8; ++i) {
+        *camera.get<scene::Camera>() = chance_camera(chance, surface);
+        view::DrawList list;
+        list.camera = scene.camera();
+        list.size = picture;
+        const view::TypicalSearch search(list, surface, glm::dvec3(0.0));
+        const HitBuffer hits = test::must(driver.draw_hits(scene));
+        for (int pixel = 0; pixel < picture.x * picture.y; pixel += 7) {
+            const glm::ivec2 at(pixel % picture.x, pixel / picture.x);
+            const glm::dvec2 center = glm::dvec2(at) + 0.5;
+            const view::ProbeRay probe = probe_at(list, surface, center);
+            const auto place = search.find(technique, probe).place;
+            const Hit& hit = hits(at.x, at.y);
+            if (!place && !shows_terrain(hit)) {
+                continue;
+            }
+            ++searched.pixels;
+            const bool both = place && shows_terrain(hit);
+            searched.others += both && glm::distance(*place, hit.place()) < 0.1 ? 0 : 1;
+            searched.within +=
+                shows_terrain(hit) && search.is_within(probe, hit.place(), 1.0) ? 1 : 0;
+            searched.within_in_doubles += place && search.is_within(probe, *place, 1.0) ? 1 : 0;
+        }
+    }
+    return searched;
+}
+
+// What probes tell holds for the picture only if they search as it is drawn.
+TEST_F(AutomaticErrorGlTest, TypicalSearchesFindWhatIsDrawn) {
+    for (const terrain::Heightfield& heightfield : {nine_tiles(), towers()}) {
+        for (const scene::Technique& technique : view::typical_searches()) {
+            const Searched searched = searched_over(heightfield, technique);
+            EXPECT_GT(searched.pixels, 3000);
+            if (technique.id() != scene::TechniqueId::interval) {
+                // Floats decide otherwise where a step ends on the surface.
+                EXPECT_LE(searched.share(searched.others), 0.005) << scene::to_string(technique);
+                continue;
+            }
+            // The picture begins at beams, the probes at what is known of them.
+            EXPECT_NEAR(searched.share(searched.within), searched.share(searched.within_in_doubles),
+                        0.02)
+                << scene::to_string(technique);
+        }
+    }
 }
 
 TEST_F(AutomaticErrorGlTest, RoundingOfRaysIsWithinItsBoundAtAnyDistance) {

@@ -219,6 +219,47 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
     EXPECT_TRUE(view.chosen(rays_only).reliefs.empty()) << "triangles keep it";
 }
 
+// Searches that may skip features are drawn on request only, where most probes are right, and where
+// they save more than estimates are off.
+TEST(TechniqueChooserTest, DrawsSearchesWithoutAProofOnlyOnRequest) {
+    constexpr TechniqueCosts cheap_steps{.frame_ms = 0.0,
+                                         .triangle_ns = 1000.0,
+                                         .covered_pixel_ns = 0.0,
+                                         .rays_ms = 0.0,
+                                         .ray_pixel_ns = 100.0,
+                                         .search_pixel_ns = 10.0,
+                                         .search_step_ns = 1.0};
+    const DrawList proven = ChosenView().chosen(cheap_steps);
+    EXPECT_FALSE(proven.stats.choice->typical.has_value());
+    EXPECT_EQ(proven.stats.tiles_unproven, 0);
+    const ChosenView view("auto:error=1,typical=1");
+    const DrawList list = view.chosen(cheap_steps);
+    ASSERT_TRUE(list.stats.choice->typical.has_value());
+    const TypicalChoice& typical = *list.stats.choice->typical;
+    EXPECT_GE(typical.share, 0.9);
+    ASSERT_EQ(list.reliefs.size(), 1U);
+    EXPECT_EQ(scene::to_string(list.reliefs.front().technique()), typical.technique);
+    EXPECT_EQ(list.stats.tiles_unproven, list.stats.choice->tiles_by_rays);
+    EXPECT_GT(list.stats.tiles_unproven, 0);
+    EXPECT_FALSE(list.stats.kept_error.has_value());
+    TechniqueCosts dear_steps = cheap_steps;
+    dear_steps.search_pixel_ns = 95.0;
+    EXPECT_FALSE(view.chosen(dear_steps).stats.choice->typical.has_value()) << "saves a twentieth";
+}
+
+TEST(TechniqueChooserTest, DrawsNoSearchThatShowsTooManyPixelsWrongly) {
+    const ChosenView view("auto:error=0.02,typical=1", test::hills(380, 361, 900.0));
+    TechniqueCosts costs = rays_only;
+    costs.ray_pixel_ns = 1e6;
+    costs.search_pixel_ns = 0.0;
+    costs.search_step_ns = 1e-6;
+    const DrawList list = view.chosen(costs);
+    if (list.stats.choice->typical) {
+        EXPECT_GE(list.stats.choice->typical->share, 0.9);
+        EXPECT_NE(list.stats.choice->typical->technique, "parallax:offset=-0.5");
+    }
+}
+
 TEST(TechniqueChooserTest, CountsTilesOfRaysOnTheCpu) {
     const ChosenView view;
     bool they_draw = true;
