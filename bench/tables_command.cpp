@@ -35,6 +35,10 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "camera pose: overview, oblique, low, grazing, valley or map (overview; gallery: oblique)",
         "NAME");
     command.add_flag(
+        "--moving", choice.options.suite.moving,
+        "the view moves sideways between frames, so that no triangles are kept; errors "
+        "are of the view at rest");
+    command.add_flag(
         "--distances", choice.distances,
         "instead of the tables: errors from 100 m to 10 km, without times, of texture, "
         "parallax, relief and exact if there is no --technique");
@@ -61,6 +65,7 @@ void check_tables_options(const TablesChoice& choice) {
     };
     forbid(choice.options.pose.has_value(), "--pose");
     forbid(choice.options.suite.rounds > 0, "--rounds");
+    forbid(choice.options.suite.moving, "--moving");
     forbid(!choice.outputs.csv.empty(), "--csv");
     forbid(!choice.outputs.html.empty(), "--html");
     forbid(choice.guesses && !choice.options.techniques.empty(), "--technique");
@@ -127,6 +132,7 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench tables --quick\n"
         "  reljef-bench tables --json tables.json --html report\n"
         "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv\n"
+        "  reljef-bench tables --moving --technique polygons:error=1 --technique auto --pose low\n"
         "  reljef-bench tables --distances --json distance.json\n"
         "  reljef-bench tables --guesses --terrain my-scene.toml");
     return {arguments, [arguments, choice, &interrupt] {

@@ -65,6 +65,8 @@ public:
     /// The scene's title; "urban 512 tile" for a generated terrain with a size.
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const scene::Scene& scene() const { return scene_.scene; }
+    /// World metres.
+    [[nodiscard]] const Box& bounds() const { return scene_.bounds; }
     /// Precondition: a terrain.
     [[nodiscard]] const scene::Node& terrain() const { return *scene_.terrain; }
 

@@ -11,6 +11,7 @@
 
 #include "app/cli/progress_line.h"
 #include "bench/runner/measure.h"
+#include "bench/runner/moving_view.h"
 #include "bench/runner/time_table.h"
 #include "engine/core/stopwatch.h"
 
@@ -23,6 +24,7 @@ struct Entry {
     bool by_rays = false;
     view::FrameStats stats{};     // of the last frame
     std::vector<double> gpu_ms{}; // of every frame
+    int frames = 0;               // drawn
 };
 
 class SuiteProgress {
@@ -110,9 +112,13 @@ std::vector<Entry> with_null_row(std::vector<Entry> entries) {
     return entries;
 }
 
-DrawFrame frame_of(Entry& entry, BenchmarkScene& scene, session::SceneRenderer& driver) {
+DrawFrame frame_of(Entry& entry, BenchmarkScene& scene, session::SceneRenderer& driver,
+                   const std::optional<MovingView>& moving) {
     return [&]() -> Result<void> {
         scene.set_technique(entry.technique);
+        if (moving) {
+            scene.set_camera(moving->at(entry.frames++));
+        }
         auto stats = driver.draw(scene.scene(), true);
         if (!stats) {
             return stats.error();
@@ -364,10 +370,14 @@ private:
 
     Result<void> time_all(std::vector<Entry> entries, BenchmarkScene& scene,
                           session::SceneRenderer& driver, MeasureOptions timing) {
+        std::optional<MovingView> moving;
+        if (options_.moving) {
+            moving.emplace(scene.scene().camera(), scene.bounds());
+        }
         std::vector<DrawFrame> frames;
         frames.reserve(entries.size());
         for (Entry& entry : entries) {
-            frames.push_back(frame_of(entry, scene, renderer_of(entry, driver)));
+            frames.push_back(frame_of(entry, scene, renderer_of(entry, driver), moving));
         }
         const std::size_t repeated = repeated_entry(entries);
         timing.null_pair = {repeated, frames.size() - 1};

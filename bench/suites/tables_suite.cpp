@@ -61,6 +61,11 @@ Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
     Suite suite{.name = "tables",
                 .groups =
                     as_sources ? source_groups(options.suite.quick) : terrain_groups(options)};
+    if (options.suite.moving) {
+        for (Group& group : suite.groups) {
+            group.test += group.test.empty() ? "moving" : ", moving";
+        }
+    }
     suite.keep_scenes = !as_sources;
     suite.may_leave_out = !as_sources;
     Results results = run_suite(suite, options.suite, stop);

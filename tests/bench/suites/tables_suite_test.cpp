@@ -68,6 +68,18 @@ TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
     }
 }
 
+TEST_F(TablesSuite, views_that_move_say_so_and_upload_the_camera_of_each_frame) {
+    TablesOptions options = small_options();
+    options.suite.moving = true;
+    options.techniques = {scene::parse_technique("polygons:error=1").value()};
+    const Results results = run_tables(options, {});
+    ASSERT_FALSE(results.stopped);
+    for (const Row& row : results.rows) {
+        EXPECT_EQ(row.test, "moving");
+        EXPECT_GT(row.timing.stats.uploads, 0);
+    }
+}
+
 TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped);
