@@ -33,12 +33,12 @@ void add_output_options(CLI::App& command, OutputChoice& choice);
 /// (CLI::ParseError) if an output is an input or another output, or if --html names a file.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs);
 
-/// A report in its forms. Those of requested outputs are made.
+/// A report in its forms. Those of requested outputs are made; the others may be empty.
 struct ReportForms {
-    std::function<std::string()> json;
-    std::function<std::string()> csv;
-    std::function<std::string()> markdown;
-    std::function<Result<PreparedPage>(const std::filesystem::path& folder)> page;
+    std::function<std::string()> json = {};
+    std::function<std::string()> csv = {};
+    std::function<std::string()> markdown = {};
+    std::function<Result<PreparedPage>(const std::filesystem::path& folder)> page = {};
 };
 
 /// Writes all files and the page, or none if one fails.

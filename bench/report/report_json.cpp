@@ -349,7 +349,7 @@ Result<void> read_report(const fs::path& file, std::string_view schema,
 }
 
 PartOrigin read_origin(JsonReader& document) {
-    PartOrigin origin{.shard = read_shard(document)};
+    PartOrigin origin{read_shard(document), {}};
     document.object("environment", [&](auto& inner) { describe(inner, origin.environment); });
     return origin;
 }

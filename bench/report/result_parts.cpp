@@ -112,7 +112,8 @@ Result<Results> merged(std::vector<Results> parts) {
     if (!run) {
         return run.error();
     }
-    Results all{.environment = run->front().environment};
+    Results all;
+    all.environment = run->front().environment;
     std::vector<std::vector<std::vector<Row>>> items;
     std::vector<std::vector<Front>> fronts;
     for (Results& part : *run) {

@@ -36,7 +36,7 @@ template <class Part> Result<std::vector<Part>> whole_run(std::vector<Part> part
     return good ? Result<std::vector<Part>>(std::move(parts)) : good.error();
 }
 
-/// Reads the files of all parts; the first one tells their number. Fails as `read`.
+/// Reads the files of all parts; the first one names their number. Fails as `read`.
 template <class Part>
 Result<std::vector<Part>> read_parts(const std::filesystem::path& name,
                                      Result<Part> (*read)(const std::filesystem::path& file)) {
