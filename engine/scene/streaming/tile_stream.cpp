@@ -259,8 +259,9 @@ void TileStream::work(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const auto tile = next_tile(Clock::now());
         if (!tile) {
-            const auto ready = [&] { return next_tile(Clock::now()).has_value(); };
-            if (const auto again = next_attempt()) {
+            const auto again = next_attempt();
+            const auto ready = [&] { return next_tile(Clock::now()) || next_attempt() != again; };
+            if (again) {
                 changed_.wait_until(lock, stop, *again, ready);
             } else {
                 changed_.wait(lock, stop, ready);
@@ -383,16 +384,16 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
     if (made.tile->is_proven && !has_proofs_) {
         return; // made before the proofs ended: is read again
     }
+    const auto before = tiles_.find(tile);
+    if (before == tiles_.end() || before->second.made.tile != made.tile) {
+        keep(tile, std::move(made)); // before the request ends, which needs no memory
+    }
     const auto& errors = content.errors.empty() ? content.picture_errors : content.errors;
     if (errors.empty()) {
         forget_failure(tile);
         std::erase(requested_, tile);
     } else {
         note_failure(tile, errors);
-    }
-    const auto before = tiles_.find(tile);
-    if (before == tiles_.end() || before->second.made.tile != made.tile) {
-        keep(tile, std::move(made));
     }
 }
 
