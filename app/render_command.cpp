@@ -156,7 +156,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_shard_option(*arguments, choice->shard, "frames of --path");
     arguments->add_flag("--resume", choice->resume,
                         "keep the numbered pictures of an earlier run of the same command; draw "
-                        "those that are missing, of another size, or cannot be read");
+                        "those that are missing, damaged or of another size; .png, .jpg or .tif");
     add_show_option(*arguments, choice->shows_choice);
     arguments->add_flag("--stats", choice->stats,
                         "print counts and times of the last frame (of a large picture: of all "

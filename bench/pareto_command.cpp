@@ -8,6 +8,7 @@
 #include "bench/options/output_options.h"
 #include "bench/options/part_options.h"
 #include "bench/options/suite_arguments.h"
+#include "bench/report/result_parts.h"
 #include "bench/runner/gallery_tiles.h"
 #include "bench/suites/pareto_suite.h"
 
@@ -22,8 +23,19 @@ struct ParetoChoice {
     PartChoice part;
 };
 
+Result<void> merge_pareto(const ParetoChoice& choice, const CLI::App& command) {
+    if (auto good = check_outputs(choice.outputs, merged_files(command, choice.part)); !good) {
+        return good;
+    }
+    const auto all = read_result_parts(choice.part.merged);
+    return all ? report(*all, choice.outputs) : all.error();
+}
+
 Result<void> run_pareto_command(const ParetoChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
+    if (!choice.part.merged.empty()) {
+        return merge_pareto(choice, command);
+    }
     const auto inputs = terrain_files(choice.options.terrains);
     const OutputChoice outputs = outputs_of_part(choice.outputs, choice.part);
     if (auto good = check_outputs(outputs, inputs); !good) {
@@ -69,13 +81,15 @@ cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Ctrl-C draws each finished setting once more; then the rows so far are printed and\n"
         "written.\n"
         "With --shard, processes measure parts; 'compare' reads the files of all parts as one "
-        "run.\n"
+        "run,\n"
+        "and --merge reports them as one, in the page without pictures.\n"
         "Examples:\n"
         "  reljef-bench pareto --quick\n"
         "  reljef-bench pareto --terrain natural --terrain N45E006.hgt --html report\n"
         "  reljef-bench pareto --terrain N45E006.hgt --json pareto.json\n"
         "  reljef-bench pareto --technique polygons:lods=1 --csv pareto.csv\n"
-        "  reljef-bench pareto --shard 2/8 --json 'part-%d.json' --resume");
+        "  reljef-bench pareto --shard 2/8 --json 'part-%d.json' --resume\n"
+        "  reljef-bench pareto --merge 'part-%d.json' --json pareto.json");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_pareto_command(*choice, *arguments, interrupt);
             }};

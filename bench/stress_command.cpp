@@ -1,19 +1,20 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
-#include <span>
 
 #include <fmt/ranges.h>
 
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
+#include "app/cli/shard_option.h"
 #include "app/cli/usage_error.h"
 #include "bench/commands.h"
 #include "bench/options/output_options.h"
 #include "bench/options/part_options.h"
 #include "bench/options/suite_arguments.h"
 #include "bench/page/page.h"
+#include "bench/report/result_parts.h"
 #include "bench/stress/stress_suite.h"
-#include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
 namespace {
@@ -27,33 +28,22 @@ struct StressChoice {
     PartChoice part;
 };
 
-// Writes the page and the JSON, or neither.
 Result<void> write_stress(const StressResults& results, const OutputChoice& outputs) {
     const std::string json = figure_json(figure_table(results));
-    std::vector<AtomicFile> files;
-    if (!outputs.json.empty()) {
-        auto file = prepare_file(outputs.json, std::as_bytes(std::span(json)));
-        if (!file) {
-            return file.error();
-        }
-        files.push_back(std::move(*file));
-    }
-    if (outputs.html.empty()) {
-        return commit_all(files);
-    }
-    auto page = prepare_stress_page(outputs.html, json);
-    if (!page) {
-        return page.error();
-    }
-    files.push_back(std::move(page->file));
-    auto committed = commit_all(files);
-    files.clear(); // before the page's folder
-    return committed;
+    return write_report(outputs, {.json = [&] { return json; },
+                                  .page =
+                                      [&](const std::filesystem::path& folder) {
+                                          return prepare_stress_page(folder, json);
+                                      }});
 }
 
 Result<void> report_stress(const StressResults& results, const OutputChoice& outputs) {
     if (results.rows.empty()) {
-        return results.end.stopped.value_or(Error{"no rows found, some were expected"});
+        const Shard& shard = results.options.shard;
+        return results.end.stopped.value_or(
+            Error{shard.is_whole() ? "no rows found, some were expected"
+                                   : fmt::format("--shard: {} found, but there are fewer stresses",
+                                                 cli::shard_text(shard))});
     }
     auto written = write_stress(results, outputs);
     fmt::print("{}", stress_text(results));
@@ -70,8 +60,31 @@ Result<void> report_stress(const StressResults& results, const OutputChoice& out
                                              failures)};
 }
 
+Result<StressResults> read_parts_of(const std::filesystem::path& name) {
+    if (!names_parts(name)) {
+        return read_stress_report(name);
+    }
+    auto parts = read_parts(name, read_stress_report);
+    if (!parts) {
+        return parts.error();
+    }
+    auto all = merged(std::move(*parts), stress_names());
+    return all ? std::move(all) : Error{fmt::format("{}: {}", name.string(), all.error().message)};
+}
+
+Result<void> merge_stress(const StressChoice& choice, const CLI::App& command) {
+    if (auto good = check_outputs(choice.outputs, merged_files(command, choice.part)); !good) {
+        return good;
+    }
+    const auto all = read_parts_of(choice.part.merged);
+    return all ? report_stress(*all, choice.outputs) : all.error();
+}
+
 Result<void> run_stress_command(const StressChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
+    if (!choice.part.merged.empty()) {
+        return merge_stress(choice, command);
+    }
     const auto inputs = terrain_files(choice.options.terrains);
     const OutputChoice outputs = outputs_of_part(choice.outputs, choice.part);
     if (auto good = check_outputs(outputs, inputs); !good) {
@@ -148,7 +161,8 @@ cli::Command add_stress_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000\n"
         "  reljef-bench stress --terrain N45E006.hgt --only error-bound --poses 10000 --skip 4000\n"
         "  reljef-bench stress --json stress.json --html stress\n"
-        "  reljef-bench stress --shard 0/4 --json 'stress-%d.json' --resume");
+        "  reljef-bench stress --shard 0/4 --json 'stress-%d.json' --resume\n"
+        "  reljef-bench stress --merge 'stress-%d.json' --html stress");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_stress_command(*choice, *arguments, interrupt);
             }};

@@ -13,7 +13,7 @@ std::optional<Image> finished_picture(const std::filesystem::path& file, glm::iv
     if (!std::filesystem::is_regular_file(file, ignored)) {
         return std::nullopt;
     }
-    auto picture = io::read_image(file);
+    auto picture = io::read_undamaged_image(file);
     return picture && picture->cols() == size.x && picture->rows() == size.y
                ? std::optional(std::move(*picture))
                : std::nullopt;

@@ -26,6 +26,11 @@ void expect_parts(const RenderChoice& choice) {
                                     "expected; videos are made of them afterwards",
                                     option, choice.output.string()));
     }
+    if (choice.resume && !io::shows_damage(choice.output)) {
+        cli::fail_usage(fmt::format("--resume: '{}' found as -o, .png, .jpg or .tif pictures were "
+                                    "expected, whose damage shows",
+                                    choice.output.string()));
+    }
     if (!choice.hits.empty() || (has_parts && !choice.contact_sheet.empty())) {
         cli::fail_usage(fmt::format("{}: found beside {}, only -o was expected", option,
                                     choice.hits.empty() ? "--contact-sheet" : "--hit"));

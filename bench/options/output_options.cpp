@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "app/cli/usage_error.h"
-#include "bench/page/page.h"
 #include "bench/report/report_json.h"
 #include "bench/report/report_text.h"
 
@@ -23,35 +22,14 @@ std::vector<cli::NamedFile> output_files(const OutputChoice& choice) {
     return outputs;
 }
 
-std::string output_text(const std::string& option, const Results& results) {
-    if (option == "--json") {
-        return json_report(results);
-    }
-    return option == "--csv" ? csv_report(results) : markdown_report(results);
-}
-
-// Writes everything beside its target before the first file replaces its target.
 Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
-    std::vector<AtomicFile> files;
-    for (const cli::NamedFile& output : output_files(choice)) {
-        const std::string text = output_text(output.option, results);
-        auto file = prepare_file(output.path, std::as_bytes(std::span(text)));
-        if (!file) {
-            return file.error();
-        }
-        files.push_back(std::move(*file));
-    }
-    if (choice.html.empty()) {
-        return commit_all(files);
-    }
-    auto page = prepare_page(choice.html, results);
-    if (!page) {
-        return page.error();
-    }
-    files.push_back(std::move(page->file));
-    auto committed = commit_all(files);
-    files.clear(); // before the page's folder
-    return committed;
+    return write_report(choice, {.json = [&] { return json_report(results); },
+                                 .csv = [&] { return csv_report(results); },
+                                 .markdown = [&] { return markdown_report(results); },
+                                 .page =
+                                     [&](const std::filesystem::path& folder) {
+                                         return prepare_page(folder, results);
+                                     }});
 }
 
 } // namespace
@@ -93,6 +71,35 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::Name
         cli::fail_usage(page.error().message);
     }
     return page;
+}
+
+// Writes everything beside its target before the first file replaces its target.
+Result<void> write_report(const OutputChoice& choice, const ReportForms& forms) {
+    std::vector<AtomicFile> files;
+    for (const auto& [path, form] : {std::pair(&choice.json, &forms.json),
+                                     {&choice.csv, &forms.csv},
+                                     {&choice.markdown, &forms.markdown}}) {
+        if (path->empty()) {
+            continue;
+        }
+        const std::string text = (*form)();
+        auto file = prepare_file(*path, std::as_bytes(std::span(text)));
+        if (!file) {
+            return file.error();
+        }
+        files.push_back(std::move(*file));
+    }
+    if (choice.html.empty()) {
+        return commit_all(files);
+    }
+    auto page = forms.page(choice.html);
+    if (!page) {
+        return page.error();
+    }
+    files.push_back(std::move(page->file));
+    auto committed = commit_all(files);
+    files.clear(); // before the page's folder
+    return committed;
 }
 
 Result<void> report(const Results& results, const OutputChoice& choice) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
+#include <string>
 
 #include "app/cli/output_files.h"
+#include "bench/page/page.h"
 #include "bench/report/results.h"
 
 namespace CLI {
@@ -29,6 +32,17 @@ void add_output_options(CLI::App& command, OutputChoice& choice);
 /// Checks the outputs without a trace. Fails if a file cannot be written. A usage error
 /// (CLI::ParseError) if an output is an input or another output, or if --html names a file.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs);
+
+/// A report in its forms. Those of requested outputs are made; the others may be empty.
+struct ReportForms {
+    std::function<std::string()> json = {};
+    std::function<std::string()> csv = {};
+    std::function<std::string()> markdown = {};
+    std::function<Result<PreparedPage>(const std::filesystem::path& folder)> page = {};
+};
+
+/// Writes all files and the page, or none if one fails.
+Result<void> write_report(const OutputChoice& choice, const ReportForms& forms);
 
 /// Writes all files and the page, or none if one fails, and prints the table. Keeps earlier files
 /// if the run failed or has no rows. Also fails with Results::stopped.

@@ -1,5 +1,8 @@
 #include "bench/options/part_options.h"
 
+#include <algorithm>
+#include <array>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +20,28 @@ void add_part_options(CLI::App& command, PartChoice& choice, const std::string& 
     command.add_flag(
         "--resume", choice.resume,
         "do nothing if the file of --json holds complete results of this part already");
+    command
+        .add_option("--merge", choice.merged,
+                    "measure nothing, and report parts as the run of one process; NAME: that of "
+                    "their --json, with %d for the number")
+        ->type_name("NAME");
+}
+
+std::vector<cli::NamedFile> merged_files(const CLI::App& command, const PartChoice& choice) {
+    constexpr std::array beside{"--merge", "--json", "--csv", "--markdown", "--html", "--quiet"};
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string name = option->get_name();
+        if (option->count() > 0 && std::find(beside.begin(), beside.end(), name) == beside.end()) {
+            cli::fail_usage(fmt::format("--merge: found beside {}, outputs were expected; nothing "
+                                        "is measured",
+                                        name));
+        }
+    }
+    std::vector<cli::NamedFile> files;
+    for (const std::filesystem::path& file : part_files(choice.merged)) {
+        files.push_back({"--merge", file});
+    }
+    return files;
 }
 
 OutputChoice outputs_of_part(OutputChoice outputs, const PartChoice& choice) {

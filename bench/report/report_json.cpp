@@ -255,25 +255,18 @@ Shard read_shard(JsonReader& fields) {
 }
 
 // Files of earlier versions lack some keys.
-Results read_results(JsonReader& fields, const std::string& file) {
-    std::string schema;
-    fields.field("schema", schema);
-    if (schema != schema_name) {
-        fields.fail("schema", fmt::format("\"{}\"", schema_name));
-    }
+Results read_results(JsonReader& fields) {
     Results results;
-    bool is_complete = false;
-    fields.field("complete", is_complete);
-    fields.object("environment", [&](auto& inner) { describe(inner, results.environment); });
-    results.shard = read_shard(fields);
+    PartOrigin origin = read_origin(fields);
+    results.shard = origin.shard;
+    results.environment = std::move(origin.environment);
     fields.later_field("notes", results.notes);
     if (fields.has("left_out")) {
         fields.array("left_out", results.left_out);
     }
-    if (fields.has("stopped")) {
-        fields.field("stopped", results.stopped.emplace().message);
-    } else if (!is_complete && results.left_out.empty()) {
-        results.stopped = Error{fmt::format("{}: the run ended early", file)};
+    results.stopped = read_stopped(fields);
+    if (results.stopped && !fields.has("stopped") && !results.left_out.empty()) {
+        results.stopped.reset(); // it is not complete because it left settings out
     }
     fields.array("rows", results.rows);
     std::erase_if(results.rows, [](const Row& row) { return row.timing.frames == 0; });
@@ -344,18 +337,46 @@ Result<nlohmann::json> read_result_json(const fs::path& file) {
     return parse(*text, file.string());
 }
 
-Result<Results> read_json_report(const fs::path& file) {
+Result<void> read_report(const fs::path& file, std::string_view schema,
+                         const std::function<void(JsonReader& document)>& read) {
     const auto json = read_result_json(file);
     if (!json) {
         return json.error();
     }
     std::optional<Error> error;
-    JsonReader fields(*json, "", error);
-    Results results = read_results(fields, file.string());
-    if (error) {
-        return Error{fmt::format("{}: {}", file.string(), error->message)};
+    JsonReader document(*json, "", error);
+    std::string found;
+    document.field("schema", found);
+    if (found != schema) {
+        document.fail("schema", fmt::format("\"{}\"", schema));
     }
-    return results;
+    read(document);
+    return error ? Result<void>(Error{fmt::format("{}: {}", file.string(), error->message)})
+                 : Result<void>();
+}
+
+PartOrigin read_origin(JsonReader& document) {
+    PartOrigin origin{read_shard(document), {}};
+    document.object("environment", [&](auto& inner) { describe(inner, origin.environment); });
+    return origin;
+}
+
+std::optional<Error> read_stopped(JsonReader& document) {
+    bool is_complete = false;
+    document.field("complete", is_complete);
+    if (!document.has("stopped")) {
+        return is_complete ? std::nullopt : std::optional(Error{"the run ended early"});
+    }
+    Error stopped;
+    document.field("stopped", stopped.message);
+    return stopped;
+}
+
+Result<Results> read_json_report(const fs::path& file) {
+    Results results;
+    const auto done = read_report(file, schema_name,
+                                  [&](JsonReader& document) { results = read_results(document); });
+    return done ? Result<Results>(std::move(results)) : done.error();
 }
 
 } // namespace reljef::bench

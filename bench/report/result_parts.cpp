@@ -1,8 +1,7 @@
 #include "bench/report/result_parts.h"
 
-#include <algorithm>
 #include <iterator>
-#include <utility>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -11,6 +10,8 @@
 
 namespace reljef::bench {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr std::string_view number_word = "%d";
 
@@ -23,7 +24,70 @@ template <class Value> void append(std::vector<Value>& all, std::vector<Value>& 
     std::move(more.begin(), more.end(), std::back_inserter(all));
 }
 
-Result<void> check_parts(const std::vector<Results>& parts) {
+// Part I of N has the items I, I+N, I+2N, …
+template <class Value> std::vector<Value> in_order_of_items(std::vector<std::vector<Value>> parts) {
+    std::vector<Value> all;
+    std::size_t added = 1;
+    for (std::size_t place = 0; added > 0; ++place) {
+        added = 0;
+        for (std::vector<Value>& part : parts) {
+            if (place < part.size()) {
+                all.push_back(std::move(part[place]));
+                ++added;
+            }
+        }
+    }
+    return all;
+}
+
+// The rows of each scene and pose, the items of a part. The null row is the last one.
+std::vector<std::vector<Row>> items_of(std::vector<Row>&& rows) {
+    std::vector<std::vector<Row>> items;
+    for (Row& row : rows) {
+        const Row* const before = items.empty() ? nullptr : &items.back().back();
+        if (before == nullptr || before->null_row || before->test != row.test ||
+            before->scene != row.scene || before->pose != row.pose) {
+            items.emplace_back();
+        }
+        items.back().push_back(std::move(row));
+    }
+    return items;
+}
+
+} // namespace
+
+bool names_parts(const fs::path& name) {
+    return name.string().find(number_word) != std::string::npos;
+}
+
+fs::path part_file(const fs::path& name, const Shard& shard) {
+    std::string text = name.string();
+    if (const auto place = text.find(number_word); place != std::string::npos) {
+        text.replace(place, number_word.size(), std::to_string(shard.index));
+    }
+    return text;
+}
+
+std::vector<fs::path> part_files(const fs::path& name) {
+    if (!names_parts(name)) {
+        return {name};
+    }
+    std::vector<fs::path> files;
+    std::error_code ignored;
+    const auto next = [&] {
+        const int index = static_cast<int>(files.size());
+        return part_file(name, {index, index + 1});
+    };
+    for (fs::path file = next(); fs::exists(file, ignored); file = next()) {
+        files.push_back(std::move(file));
+    }
+    return files;
+}
+
+Result<void> check_origins(const std::vector<PartOrigin>& parts) {
+    if (parts.empty()) {
+        return Error{"no parts found, some were expected"};
+    }
     const int count = parts.front().shard.count;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const Shard expected{static_cast<int>(i), count};
@@ -43,53 +107,39 @@ Result<void> check_parts(const std::vector<Results>& parts) {
                : Error{fmt::format("{} parts found, {} were expected", parts.size(), count)};
 }
 
-} // namespace
-
-std::filesystem::path part_file(const std::filesystem::path& name, const Shard& shard) {
-    std::string text = name.string();
-    if (const auto place = text.find(number_word); place != std::string::npos) {
-        text.replace(place, number_word.size(), std::to_string(shard.index));
-    }
-    return text;
-}
-
 Result<Results> merged(std::vector<Results> parts) {
-    if (parts.empty()) {
-        return Error{"no parts found, some were expected"};
+    auto run = whole_run(std::move(parts));
+    if (!run) {
+        return run.error();
     }
-    std::sort(parts.begin(), parts.end(),
-              [](const Results& a, const Results& b) { return a.shard.index < b.shard.index; });
-    if (auto good = check_parts(parts); !good) {
-        return good.error();
+    Results all;
+    all.environment = run->front().environment;
+    std::vector<std::vector<std::vector<Row>>> items;
+    std::vector<std::vector<Front>> fronts;
+    for (Results& part : *run) {
+        items.push_back(items_of(std::move(part.rows)));
+        fronts.push_back(std::move(part.fronts));
+        append(all.left_out, part.left_out);
+        append(all.notes, part.notes);
+        all.stopped = all.stopped ? all.stopped : part.stopped;
+        all.failed = all.failed || part.failed;
     }
-    Results all = std::move(parts.front());
-    all.shard = {};
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-        append(all.rows, parts[i].rows);
-        append(all.fronts, parts[i].fronts);
-        append(all.left_out, parts[i].left_out);
-        append(all.notes, parts[i].notes);
-        all.stopped = all.stopped ? all.stopped : parts[i].stopped;
-        all.failed = all.failed || parts[i].failed;
+    for (std::vector<Row>& item : in_order_of_items(std::move(items))) {
+        append(all.rows, item);
     }
+    all.fronts = in_order_of_items(std::move(fronts));
     return all;
 }
 
-Result<Results> read_result_parts(const std::filesystem::path& name) {
-    if (name.string().find(number_word) == std::string::npos) {
+Result<Results> read_result_parts(const fs::path& name) {
+    if (!names_parts(name)) {
         return read_json_report(name);
     }
-    std::vector<Results> parts;
-    int count = 1;
-    for (int index = 0; index < count; ++index) {
-        auto part = read_json_report(part_file(name, {index, count}));
-        if (!part) {
-            return part.error();
-        }
-        count = index == 0 ? part->shard.count : count;
-        parts.push_back(std::move(*part));
+    auto parts = read_parts(name, read_json_report);
+    if (!parts) {
+        return parts.error();
     }
-    auto all = merged(std::move(parts));
+    auto all = merged(std::move(*parts));
     return all ? std::move(all) : Error{fmt::format("{}: {}", name.string(), all.error().message)};
 }
 

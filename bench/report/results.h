@@ -30,6 +30,12 @@ struct Environment {
     std::string commit;   ///< of the configured sources; "unknown" without git
 };
 
+/// A part of a run, and where it was measured.
+struct PartOrigin {
+    Shard shard;
+    Environment environment;
+};
+
 /// `threads`: 0 takes LP_NUM_THREADS, which limits llvmpipe, or else all of the machine.
 Environment environment_of(const platform::RendererInfo& info, int threads);
 

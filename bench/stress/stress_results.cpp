@@ -2,15 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "app/cli/message.h"
 #include "app/cli/shard_option.h"
+#include "bench/report/json_fields.h"
 #include "bench/report/report_table.h"
+#include "bench/report/result_parts.h"
 
 namespace reljef::bench {
 namespace {
+
+constexpr std::string_view stress_schema = "reljef-bench-stress/1";
 
 // A class of rows: the same figure of the same stress, with a limit or without.
 struct StressLine {
@@ -68,6 +74,47 @@ std::string summary_of(const StressLine& line) {
     return line.known > 0 ? fmt::format("{} known", line.known) : "ok";
 }
 
+// What parts of one run have in common.
+FigureJson settings_of(const StressOptions& options) {
+    FigureJson techniques = FigureJson::array();
+    for (const scene::Technique& technique : options.techniques) {
+        techniques.push_back(scene::to_string(technique));
+    }
+    return {{"size", size_text(options.suite.size)},
+            {"quick", options.suite.quick},
+            {"seed", options.seed},
+            {"skip", options.skip},
+            {"poses", options.poses ? FigureJson(*options.poses) : FigureJson()},
+            {"terrains", options.terrains},
+            {"techniques", techniques},
+            {"stresses", options.stresses}};
+}
+
+// Files of earlier versions lack some keys.
+StressOptions read_options(JsonReader& document) {
+    StressOptions options;
+    document.field("size", options.suite.size);
+    document.field("quick", options.suite.quick);
+    document.field("seed", options.seed);
+    document.later_field("skip", options.skip);
+    document.later_field("terrains", options.terrains);
+    document.later_field("stresses", options.stresses);
+    if (document.has("poses")) {
+        document.field("poses", options.poses.emplace());
+    }
+    std::vector<std::string> techniques;
+    document.later_field("techniques", techniques);
+    for (const std::string& text : techniques) {
+        const auto technique = scene::parse_technique(text);
+        if (!technique) {
+            document.fail("techniques", "techniques of this version");
+            break;
+        }
+        options.techniques.push_back(*technique);
+    }
+    return options;
+}
+
 std::string rows_text(const StressResults& results, StressVerdict verdict,
                       std::string_view heading) {
     std::string text;
@@ -83,6 +130,22 @@ std::string rows_text(const StressResults& results, StressVerdict verdict,
 }
 
 } // namespace
+
+// JsonReader::array() finds it by argument-dependent lookup.
+static void describe(JsonReader& fields, StressRow& row) {
+    constexpr JsonRange any{.low = std::numeric_limits<double>::lowest()};
+    std::optional<double> value;
+    fields.field("stress", row.stress);
+    fields.later_field("terrain", row.terrain);
+    fields.later_field("technique", row.technique);
+    fields.field("figure", row.figure);
+    fields.field("value", value, any);
+    fields.field("limit", row.limit, any);
+    fields.later_field("at", row.at);
+    fields.later_field("known", row.known);
+    fields.later_field("only", row.only);
+    row.value = value.value_or(std::nan(""));
+}
 
 StressVerdict verdict_of(const StressRow& row) {
     if (!row.limit) {
@@ -121,13 +184,8 @@ std::size_t StressResults::failures() const {
 
 FigureTable figure_table(const StressResults& results) {
     const StressOptions& options = results.options;
-    FigureTable table{.schema = "reljef-bench-stress/1",
-                      .settings = {{"environment", json_of(results.environment)},
-                                   {"size", size_text(options.suite.size)},
-                                   {"quick", options.suite.quick},
-                                   {"seed", options.seed},
-                                   {"skip", options.skip},
-                                   {"over", results.failures()}},
+    FigureTable table{.schema = std::string(stress_schema),
+                      .settings = {{"environment", json_of(results.environment)}},
                       .columns = {{"/stress", "stress"},
                                   {"/terrain", "terrain"},
                                   {"/technique", "technique"},
@@ -136,8 +194,11 @@ FigureTable figure_table(const StressResults& results) {
                                   {"/limit", "limit", 4},
                                   {"/at", "worst at"},
                                   {"/verdict", "verdict"},
-                                  {"/known", "fixed by"}},
+                                  {"/known", "fixed by"},
+                                  {"/only", ""}},
                       .end = results.end};
+    table.settings.update(settings_of(options));
+    table.settings["over"] = results.failures();
     if (!options.shard.is_whole()) {
         table.settings["shard"] = cli::shard_text(options.shard);
     }
@@ -147,9 +208,50 @@ FigureTable figure_table(const StressResults& results) {
         };
         table.rows.push_back({row.stress, text(row.terrain), text(row.technique), row.figure,
                               row.value, row.limit ? FigureJson(*row.limit) : FigureJson(),
-                              text(row.at), to_string(verdict_of(row)), text(row.known)});
+                              text(row.at), to_string(verdict_of(row)), text(row.known),
+                              text(row.only)});
     }
     return table;
+}
+
+Result<StressResults> read_stress_report(const std::filesystem::path& file) {
+    StressResults results;
+    const auto done = read_report(file, stress_schema, [&](JsonReader& document) {
+        PartOrigin origin = read_origin(document);
+        results.environment = std::move(origin.environment);
+        results.options = read_options(document);
+        results.options.shard = origin.shard;
+        results.end.stopped = read_stopped(document);
+        document.array("rows", results.rows);
+    });
+    return done ? Result<StressResults>(std::move(results)) : done.error();
+}
+
+Result<StressResults> merged(std::vector<StressResults> parts,
+                             std::span<const std::string> stresses) {
+    auto run = whole_run(std::move(parts));
+    if (!run) {
+        return run.error();
+    }
+    StressResults all{.environment = run->front().environment, .options = run->front().options};
+    all.options.shard = {};
+    for (StressResults& part : *run) {
+        if (settings_of(part.options) != settings_of(all.options)) {
+            return Error{fmt::format("part {} was measured with other options than the first one, "
+                                     "the same were expected",
+                                     cli::shard_text(part.options.shard))};
+        }
+        std::move(part.rows.begin(), part.rows.end(), std::back_inserter(all.rows));
+        all.end.stopped = all.end.stopped ? all.end.stopped : part.end.stopped;
+        all.end.failed = all.end.failed || part.end.failed;
+    }
+    const auto place_of = [&](const StressRow& row) {
+        return std::find(stresses.begin(), stresses.end(), row.only);
+    };
+    std::stable_sort(all.rows.begin(), all.rows.end(), [&](const StressRow& a, const StressRow& b) {
+        return place_of(a) < place_of(b);
+    });
+    return all;
 }
 
 std::string stress_text(const StressResults& results) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +25,7 @@ struct StressRow {
     std::optional<double> limit = {}; ///< largest allowed value; absent: reported only
     std::string at = {};              ///< the worst case; empty: all cases are alike
     std::string known = {};           ///< what will bring it within its limit; set by add()
+    std::string only = {};            ///< the word of --only that measures it
 };
 
 enum class StressVerdict {
@@ -52,17 +55,30 @@ struct StressResults {
     std::vector<StressRow> rows = {};
     RunEnd end = {};
 
-    /// Adds a row, and what is known about it.
+    /// Adds a row, and what is known of it.
     void add(StressRow row);
     /// Rows that are over their limit and not known.
     [[nodiscard]] std::size_t failures() const;
 };
+
+inline PartOrigin origin_of(const StressResults& part) {
+    return {part.options.shard, part.environment};
+}
 
 /// What will bring a row within its limit; empty if it should be within it today.
 std::string_view known_failure(const StressRow& row);
 
 /// All rows, for files.
 FigureTable figure_table(const StressResults& results);
+/// Reads what figure_json() wrote of figure_table(): what of the options is in it, and all rows. A
+/// value that was no finite number is not a number. Fails as read_report().
+Result<StressResults> read_stress_report(const std::filesystem::path& file);
+
+/// One run from the parts that several processes measured, in any order. `stresses`:
+/// stress_names(), the order of the rows. Fails as merged() of Results, and if the parts have other
+/// options.
+Result<StressResults> merged(std::vector<StressResults> parts,
+                             std::span<const std::string> stresses);
 /// One line for each stress and figure, the rows over their limits and the known ones.
 std::string stress_text(const StressResults& results);
 

@@ -40,6 +40,8 @@ public:
               std::stop_token stop)
         : results_(results), terrains_(terrains), stop_(std::move(stop)) {}
     void use(session::Device& device) { device_ = &device; }
+    /// `only`: the name of the stress that adds the next rows.
+    void begin(std::string_view only) { only_ = only; }
 
     [[nodiscard]] const StressOptions& options() const { return results_.options; }
     [[nodiscard]] const std::vector<terrain::Terrain>& terrains() const { return terrains_; }
@@ -56,13 +58,17 @@ public:
         return options().suite.quick ? quick : full;
     }
 
-    void add(StressRow row) { results_.add(std::move(row)); }
+    void add(StressRow row) {
+        row.only = only_;
+        results_.add(std::move(row));
+    }
 
 private:
     StressResults& results_;
     session::Device* device_ = nullptr;
     const std::vector<terrain::Terrain>& terrains_;
     std::stop_token stop_;
+    std::string only_;
 };
 
 /// The techniques to stress: those of the options, or all that draw terrains.

@@ -121,13 +121,14 @@ private:
     }
 
     void run_one(StressRun& run, const Stress& stress) {
+        run.begin(stress.name);
         const auto done = stress.run(run);
         if (!done && !stop_.stop_requested()) {
-            results_.add({.stress = std::string(stress.name),
-                          .figure = "could not be run",
-                          .value = std::nan(""),
-                          .limit = 0.0,
-                          .at = done.error().message});
+            run.add({.stress = std::string(stress.name),
+                     .figure = "could not be run",
+                     .value = std::nan(""),
+                     .limit = 0.0,
+                     .at = done.error().message});
         }
         const double fraction = ++count_ / static_cast<double>(stresses.size());
         line_.update(fraction);

@@ -8,7 +8,7 @@
 
 namespace reljef::bench {
 
-/// "moved-scene", "grazing-view", …
+/// "moved-scene", "grazing-view", …, in the order of their rows.
 std::vector<std::string> stress_names();
 
 /// Runs the stresses: those of the options, or all; a quick run leaves out those over terrain

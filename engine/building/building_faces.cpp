@@ -54,6 +54,17 @@ void add_walls(std::vector<Face>& faces, const Ring& ring, const Extent& extent)
     }
 }
 
+// From the eaves to the ridge of a hipped roof, metres; 0 if there is none. An outline of a few
+// centimetres has no part that is large enough, and one of 1e300 metres no number.
+double run_of_hips(const Footprint& footprint, RoofKind roof) {
+    if (roof != RoofKind::hipped || footprint.rings.size() != 1) {
+        return 0.0;
+    }
+    const Ring outline = without_straight_corners(footprint.rings.front());
+    const double run = is_convex(outline) ? largest_run(outline, {}) : 0.0;
+    return std::isfinite(run) ? run : 0.0;
+}
+
 } // namespace
 
 std::vector<Face> flat_building(const Footprint& footprint, const Extent& extent) {
@@ -92,17 +103,16 @@ std::vector<Face> building_below(const std::vector<RoofPart>& roof, const Ring& 
 }
 
 bool has_hips(const Footprint& footprint, RoofKind roof) {
-    return roof == RoofKind::hipped && footprint.rings.size() == 1 &&
-           is_convex(without_straight_corners(footprint.rings.front()));
+    return run_of_hips(footprint, roof) > 0.0;
 }
 
 std::vector<Face> building_of(const Footprint& footprint, RoofKind roof, double foot,
                               double height) {
-    if (!has_hips(footprint, roof)) {
+    const double run = run_of_hips(footprint, roof);
+    if (run == 0.0) {
         return flat_building(footprint, {foot, 0.0, height});
     }
     const Ring outline = without_straight_corners(footprint.rings.front());
-    const double run = largest_run(outline, {});
     const double rise = std::min(hip_slope * run, 0.5 * height);
     SlopedRoof hips;
     hips.slope = rise / run;

@@ -38,8 +38,8 @@ std::vector<Face> building_below(const std::vector<RoofPart>& roof, const Ring& 
 
 /// Walls and a roof of this kind, whose highest point is `height` metres above the ground at z = 0;
 /// the walls begin at `foot`. A hipped roof has equal slopes of hip_slope, or less where it would
-/// be higher than half of the building. Only convex outlines without holes have one; others are
-/// flat.
+/// be higher than half of the building. Only convex outlines without holes have one that are wide
+/// enough for it, a few centimetres; others are flat.
 std::vector<Face> building_of(const Footprint& footprint, RoofKind roof, double foot,
                               double height);
 /// Whether it has a hipped roof then.

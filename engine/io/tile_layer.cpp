@@ -247,17 +247,22 @@ Result<DatasetPool::Loan> borrow(const LayerTile& tile, const LayerReading& read
         return Error{std::move(*wrong)};
     }
     const IndexedFile& file = reading.files[static_cast<std::size_t>(tile.file)];
+    bool is_noted = false;
     const auto match_index = [&](Dataset opened) -> Result<Dataset> {
         const std::string& crs = reading.crs[static_cast<std::size_t>(file.crs)];
         auto now = as_indexed(std::move(opened), file, crs, path.string());
         if (now && now->note) {
             reading.new_notes->add(*now->note);
+            is_noted = true;
         }
         return now ? Result<Dataset>(std::move(now->dataset)) : now.error();
     };
     auto dataset = reading.pool->borrow(path, messages, match_index);
     if (!dataset && is_remote(path)) {
         reading.failing->note(path, dataset.error().message);
+    }
+    if (dataset && dataset->found_change() && !is_noted) {
+        reading.new_notes->add(path, changed_note);
     }
     return dataset;
 }

@@ -259,6 +259,10 @@ std::span<const FileError> TileSet::errors() const {
 std::span<const std::string> TileSet::notes() const {
     return state_->notes;
 }
+std::uint64_t TileSet::changes() const {
+    return state_->pool.changes();
+}
+
 std::vector<std::string> TileSet::take_new_notes() const {
     return state_->new_notes.take();
 }

@@ -84,6 +84,9 @@ public:
     [[nodiscard]] std::span<const std::string> notes() const;
     /// Notes of readers since the last call, each once.
     [[nodiscard]] std::vector<std::string> take_new_notes() const;
+    /// Grows when a reading finds that a local file changed since it was read before: its size or
+    /// its time. What was read before is outdated.
+    [[nodiscard]] std::uint64_t changes() const;
     /// The files' common CRS, else WGS 84 in degrees.
     [[nodiscard]] const std::string& crs_name() const;
     [[nodiscard]] const std::string& crs() const; ///< WKT

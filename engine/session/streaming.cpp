@@ -114,6 +114,11 @@ public:
         return content;
     }
 
+    /// How often files were found changed.
+    [[nodiscard]] std::uint64_t changes() const {
+        return tiles_.changes() + (images_ ? images_->changes() : 0);
+    }
+
 private:
     [[nodiscard]] scene::TileContent unproven(terrain::TreeTile tile,
                                               const std::stop_token& stop) const {
@@ -134,6 +139,8 @@ private:
         content.picture = {std::move(window.texels), window.whole, window.has_more};
         content.picture_errors.insert(content.picture_errors.end(), window.errors.begin(),
                                       window.errors.end());
+        const std::vector<std::string> notes = images_->take_new_notes();
+        content.notes.insert(content.notes.end(), notes.begin(), notes.end());
     }
 
     io::TileSet tiles_;
@@ -214,6 +221,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     options.read_heights = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
         return reader.heights(tile, stop);
     };
+    options.source_changes = [reader] { return reader.changes(); };
     if (source.proofs != nullptr) {
         options.find_proof = [proofs = source.proofs](terrain::TreeTile tile) {
             return proofs->find(tile);
@@ -253,9 +261,10 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
         const int readings = readings_of(scene); // before the requests, which may finish at once
         const view::FrameView& frame = selector.select(scene, size);
         request_tiles(frame.requests);
-        const bool is_whole =
-            std::all_of(frame.requests.begin(), frame.requests.end(),
-                        [](const view::TileRequests& request) { return request.missing.empty(); });
+        const bool is_whole = std::all_of(
+            frame.requests.begin(), frame.requests.end(), [](const view::TileRequests& request) {
+                return request.missing.empty() && !request.stream->has_outdated();
+            });
         if (is_whole || readings == before || stop.stop_requested()) {
             return;
         }

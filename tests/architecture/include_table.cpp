@@ -28,7 +28,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/io/imagery", {"engine/io/files"}},
         {"engine/io", {"engine/io/imagery"}},
         {"engine/io/cache", {"engine/terrain/mesh"}},
-        {"engine/io/image", {"engine/io/raster"}},
+        {"engine/io/image", {"engine/io/raster", "engine/io/cache"}},
         {"engine/io/index", {"engine/io"}},
         {"engine/io/mesh", {"engine/io/image", "engine/scene/graph"}},
         {"engine/io/footprints", {"engine/io/raster", "engine/building"}},

@@ -53,6 +53,10 @@ Footprint courtyard() {
     return shape;
 }
 
+Footprint triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
+    return {{{a, b, c}}, {{0U, 1U, 2U}}};
+}
+
 Footprint convex(unsigned seed) {
     Footprint shape;
     shape.rings = {test::random_convex(seed)};
@@ -130,6 +134,19 @@ TEST(BuildingFaces, OfABoxAreItsSidesAndLid) {
     const auto faces = box_faces(test::rectangle_ring({0.0, 0.0}, {2.0, 3.0}), 0.0, 4.0);
     EXPECT_EQ(faces.size(), 5U);
     EXPECT_NEAR(volume_above(faces, 0.0), 24.0, 1e-12);
+}
+
+TEST(Buildings, OutlinesOfAllSizesHaveARoof) {
+    for (double size = 1e-6; size < 1e300; size *= 3.0) {
+        for (const double width : {1e-9, 1e-3, 1.0}) {
+            const Footprint shape =
+                triangle({7.0, 45.0}, {7.0 + size, 45.0}, {7.0, 45.0 + size * width});
+            const auto faces = building_of(shape, RoofKind::hipped, -1.0, 9.0);
+            EXPECT_FALSE(faces.empty()) << size << " " << width;
+        }
+    }
+    EXPECT_FALSE(has_hips(triangle({0.0, 0.0}, {1e-4, 0.0}, {0.0, 1e-4}), RoofKind::hipped));
+    EXPECT_TRUE(has_hips(triangle({0.0, 0.0}, {9.0, 0.0}, {0.0, 9.0}), RoofKind::hipped));
 }
 
 } // namespace

@@ -23,16 +23,24 @@ struct Target {
 };
 
 const std::vector<Target>& targets() {
-    static const std::vector<Target> all{
-        {"cache", cache_target},      {"error_index", error_index_target},
-        {"flight", flight_target},    {"footprints", footprints_target},
-        {"geoid", geoid_target},      {"hits", hits_target},
-        {"imagery", imagery_target},  {"mesh", mesh_target},
-        {"picture", picture_target},  {"place", place_target},
-        {"ramp", ramp_target},        {"raster", raster_target},
-        {"results", results_target},  {"scene", scene_target},
-        {"texture", texture_target},  {"tile_index", tile_index_target},
-        {"web_tile", web_tile_target}};
+    static const std::vector<Target> all{{"bookmarks", bookmarks_target},
+                                         {"cache", cache_target},
+                                         {"error_index", error_index_target},
+                                         {"flight", flight_target},
+                                         {"footprints", footprints_target},
+                                         {"geoid", geoid_target},
+                                         {"hits", hits_target},
+                                         {"imagery", imagery_target},
+                                         {"mesh", mesh_target},
+                                         {"picture", picture_target},
+                                         {"place", place_target},
+                                         {"ramp", ramp_target},
+                                         {"raster", raster_target},
+                                         {"results", results_target},
+                                         {"scene", scene_target},
+                                         {"texture", texture_target},
+                                         {"tile_index", tile_index_target},
+                                         {"web_tile", web_tile_target}};
     return all;
 }
 

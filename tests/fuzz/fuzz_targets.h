@@ -7,6 +7,7 @@ namespace reljef::fuzz {
 
 // Each reads an input as one reader's file. A property that does not hold is a Finding.
 
+void bookmarks_target(std::string_view input);
 void cache_target(std::string_view input);
 void error_index_target(std::string_view input);
 void flight_target(std::string_view input);

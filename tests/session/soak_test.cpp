@@ -37,11 +37,11 @@ int frames_of_soak() {
     return wanted != nullptr ? std::max(std::atoi(wanted), 60) : 60;
 }
 
-/// What was told of the files.
+/// The errors of files, without the notes on those that changed.
 class KeptLog : public session::Log {
 public:
-    void message(session::MessageKind /*kind*/, std::string_view sentence) override {
-        all_ += std::string(sentence) + "\n";
+    void message(session::MessageKind kind, std::string_view sentence) override {
+        all_ += kind == session::MessageKind::note ? "" : std::string(sentence) + "\n";
     }
     [[nodiscard]] const std::string& all() const { return all_; }
 

@@ -25,7 +25,8 @@ protected:
         options_.environment["XDG_CACHE_HOME"] = (folder_.path() / "cache").string();
         options_.environment["LIBGL_ALWAYS_SOFTWARE"] = "1";
     }
-    void write_cell(const std::string& name, int west, int south) const {
+    /// `raise`: metres.
+    void write_cell(const std::string& name, int west, int south, int raise = 0) const {
         constexpr int side = 1201;
         std::string bytes;
         for (int row = 0; row < side; ++row) {
@@ -33,7 +34,7 @@ protected:
                 const double x = west + col / 1200.0;
                 const double y = south + 1.0 - row / 1200.0;
                 const auto height = static_cast<std::int16_t>(
-                    1500.0 + 900.0 * std::sin(40.0 * x) * std::cos(37.0 * y) +
+                    1500.0 + raise + 900.0 * std::sin(40.0 * x) * std::cos(37.0 * y) +
                     60.0 * std::sin(700.0 * x + 500.0 * y));
                 bytes.push_back(static_cast<char>(height >> 8));
                 bytes.push_back(static_cast<char>(height & 0xff));

@@ -1,3 +1,5 @@
+#include <array>
+#include <chrono>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,6 +9,7 @@
 #include "engine/session/streaming.h"
 #include "tests/app/command_line.h"
 #include "tests/session/streamed_cells.h"
+#include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 
 namespace reljef {
@@ -88,6 +91,36 @@ TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
     const Image picture = picture_of("c.png");
     EXPECT_EQ(shown(picture(2, 60)), Shown::red);
     EXPECT_EQ(shown(picture(157, 60)), Shown::blue);
+}
+
+TEST_F(StreamedImagery, that_changes_is_told_once_and_read_again) {
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
+    session::SourceOptions choice = streamed_choice();
+    choice.imagery = {path("images/west.vrt")};
+    auto source = test::open_terrain(choice);
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene = test::make_scene(std::move(*source), choice, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    scene::TileStream& stream = *scene->terrain->get<scene::TerrainNode>()->stream;
+    const terrain::TreeTile seen{0, 9, 24};
+    const auto load = [&](terrain::TreeTile missing) {
+        stream.request(std::array{missing}, std::array{seen});
+        ASSERT_TRUE(stream.wait({}));
+    };
+    const auto color = [&] {
+        const Image& albedo = stream.find(seen)->albedo;
+        return shown(albedo(albedo.cols() / 2, albedo.rows() / 2));
+    };
+    load(seen);
+    EXPECT_EQ(color(), Shown::red);
+    write_image("west.vrt", 290000.0, 40000.0, "\x10\x10\xff");
+    const auto later = std::filesystem::file_time_type::clock::now() + std::chrono::hours(1);
+    std::filesystem::last_write_time(path("images/west.vrt"), later);
+    load({0, 8, 24});
+    load({0, 10, 24});
+    EXPECT_EQ(color(), Shown::blue);
+    EXPECT_THAT(stream.take_notes(),
+                ::testing::ElementsAre(HasSubstr("west.vrt: changed while open")));
 }
 
 /// A patch of pixels of which 8,400 would lie along the terrain, which fits the memory.

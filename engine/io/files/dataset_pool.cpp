@@ -62,7 +62,22 @@ Result<DatasetPool::Loan> DatasetPool::borrow(const std::filesystem::path& path,
     if (!opened) {
         forget(path);
     }
-    return opened ? Result<Loan>(Loan(*this, path, now, std::move(*opened))) : opened.error();
+    if (!opened) {
+        return opened.error();
+    }
+    Loan loan(*this, path, now, std::move(*opened));
+    loan.found_change_ = is_changed(path, now);
+    return loan;
+}
+
+// A file may change again and again: each change counts once.
+bool DatasetPool::is_changed(const std::filesystem::path& path, const FileState& now) {
+    const std::lock_guard lock(mutex_);
+    const auto [found, is_new] = opened_.try_emplace(path, now);
+    const bool is_changed = !is_new && found->second != now;
+    found->second = now;
+    changes_ += is_changed ? 1 : 0;
+    return is_changed;
 }
 
 void DatasetPool::give_back(Idle idle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -51,14 +52,19 @@ public:
 
         GDALDataset& operator*() const { return *dataset_; }
         GDALDataset* operator->() const { return dataset_.get(); }
+        /// Whether this is the first loan of a file that changed since it was first opened.
+        [[nodiscard]] bool found_change() const { return found_change_; }
         /// Closes a raster that failed.
         void discard();
 
     private:
+        friend class DatasetPool;
+
         DatasetPool* pool_;
         std::filesystem::path path_;
         FileState opened_;
         Dataset dataset_;
+        bool found_change_ = false;
     };
 
     /// Checks or replaces a dataset that was just opened.
@@ -69,6 +75,9 @@ public:
     Result<Loan> borrow(const std::filesystem::path& path, const GdalMessages& messages,
                         const Check& check = {});
 
+    /// How often an opened file had another state than when it was opened before.
+    [[nodiscard]] std::uint64_t changes() const { return changes_; }
+
 private:
     struct Idle {
         std::filesystem::path path;
@@ -76,11 +85,19 @@ private:
         Dataset dataset;
     };
     void give_back(Idle idle);
+    bool is_changed(const std::filesystem::path& path, const FileState& now);
 
     const Opener open_;
     std::mutex mutex_;
     std::list<Idle> idle_; // newest first
+    std::map<std::filesystem::path, FileState> opened_;
+    std::atomic<std::uint64_t> changes_{0};
 };
+
+/// A note on a file with DatasetPool::Loan::found_change().
+inline constexpr const char* changed_note =
+    "changed while open: its tiles are read again; the overview shows what it held until the next "
+    "start";
 
 /// Files that failed repeatedly. Readers skip them for a while (BackOff).
 class FailingFiles {

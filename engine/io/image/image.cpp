@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/image/image_encoder.h"
+#include "engine/io/image/picture_checksum.h"
 #include "engine/io/image/picture_file.h"
 
 namespace reljef::io {
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int jpeg_quality = 95;
+constexpr std::size_t max_picture_bytes = std::size_t{1} << 30;
 constexpr int rows_at_a_time = 64;
 constexpr int sheet_gap = 4; // pixels
 constexpr Rgba8 sheet_background{24, 24, 24, 255};
@@ -109,13 +111,36 @@ Result<std::unique_ptr<OIIO::ImageOutput>> output_for(const fs::path& path, cons
                   : unknown_format(path);
 }
 
-// OpenImageIO would write JPEG in a TIFF, too, which loses colours.
+bool is_of_format(const OIIO::ImageOutput& output, std::string_view format) {
+    return output.format_name() == format;
+}
+
+// Formats whose pictures have a checksum of ours. PNG has its own.
+bool gets_checksum(const OIIO::ImageOutput& output) {
+    return is_of_format(output, "jpeg") || is_of_format(output, "tiff");
+}
+
+// OpenImageIO would write JPEG in a TIFF, too, which loses colours, and the time, which makes equal
+// pictures differ; blanks are an unknown time (Exif 2.3, DateTime).
 OIIO::ImageSpec spec_of(const Image& image, const OIIO::ImageOutput& output) {
-    const bool is_jpeg = output.format_name() == std::string_view("jpeg");
     OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Compression", is_jpeg ? fmt::format("jpeg:{}", jpeg_quality) : "zip");
+    spec.attribute("Compression",
+                   is_of_format(output, "jpeg") ? fmt::format("jpeg:{}", jpeg_quality) : "zip");
+    if (is_of_format(output, "tiff")) {
+        spec.attribute("DateTime", "    :  :     :  :  ");
+    }
+    if (gets_checksum(output)) {
+        spec.attribute("ImageDescription", std::string(checksum_text));
+    }
     return spec;
+}
+
+Result<std::vector<std::byte>> encoded_picture(std::unique_ptr<OIIO::ImageOutput> output,
+                                               const Image& image) {
+    const OIIO::ImageSpec spec = spec_of(image, *output);
+    auto bytes = encoded(std::move(output), spec, image.samples().data(), sizeof(Rgba8));
+    return bytes ? with_checksum(std::move(*bytes)) : std::move(bytes);
 }
 
 Image resized(const Image& picture, int width) {
@@ -144,6 +169,27 @@ Result<Image> read_image(const fs::path& path) {
         path, [&](OIIO::ImageInput& input) { return read_open_image(input, path); });
 }
 
+bool shows_damage(const fs::path& path) {
+    const auto output = output_for(path);
+    return output != nullptr && (is_of_format(*output, "png") || gets_checksum(*output));
+}
+
+Result<Image> read_undamaged_image(const fs::path& path) {
+    const auto output = output_for(path);
+    if (output != nullptr && gets_checksum(*output)) {
+        const auto text = read_text_file(path, max_picture_bytes);
+        if (!text) {
+            return text.error();
+        }
+        if (!has_right_checksum(std::as_bytes(std::span(*text)))) {
+            return Error{fmt::format("{}: has changed since it was written, or was not written by "
+                                     "reljef, a picture with its checksum was expected",
+                                     path.string())};
+        }
+    }
+    return read_image(path);
+}
+
 Result<void> check_image_name(const fs::path& path) {
     return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
 }
@@ -153,8 +199,10 @@ Result<AtomicFile> prepare_image(const fs::path& path, const Image& image) {
     if (!output) {
         return output.error();
     }
-    const OIIO::ImageSpec spec = spec_of(image, **output);
-    return prepare_encoded(std::move(*output), spec, image.samples().data(), sizeof(Rgba8), path);
+    const auto bytes = encoded_picture(std::move(*output), image);
+    return bytes ? prepare_file(path, *bytes)
+                 : Error{fmt::format("{}: cannot be written: {}", path.string(),
+                                     bytes.error().message)};
 }
 
 Result<void> write_image(const fs::path& path, const Image& image) {
@@ -168,8 +216,7 @@ Result<std::vector<std::byte>> encode_image(const std::string& extension, const 
     if (!output) {
         return output.error();
     }
-    const OIIO::ImageSpec spec = spec_of(image, **output);
-    return encoded(std::move(*output), spec, image.samples().data(), sizeof(Rgba8));
+    return encoded_picture(std::move(*output), image);
 }
 
 Image contact_sheet(std::span<const Image> pictures, int columns, int width) {

@@ -16,6 +16,12 @@ namespace reljef::io {
 /// Reads any picture of a format that picture_format() knows, as 8-bit sRGB.
 Result<Image> read_image(const std::filesystem::path& path);
 
+/// Whether damage to a picture of this name's format shows: .png, .jpg and .tif have checksums.
+bool shows_damage(const std::filesystem::path& path);
+/// Reads a picture that write_image() wrote. Fails if it is cut or damaged. Precondition:
+/// shows_damage().
+Result<Image> read_undamaged_image(const std::filesystem::path& path);
+
 /// Writes an opaque picture whole or not at all. The extension selects the format (.png, .jpg, …).
 Result<void> write_image(const std::filesystem::path& path, const Image& image);
 /// The same, ready for commit().

@@ -143,6 +143,7 @@ struct ImagerySet::State {
     bool complete = true;          ///< all images could be opened
     mutable DatasetPool pool;
     mutable FailingFiles failing;
+    mutable NewNotes new_notes;
 
     /// Draws an image into an empty picture.
     Result<void> draw(const ImageInfo& image, const Choice& choice, const TileGrid& grid,
@@ -151,6 +152,9 @@ struct ImagerySet::State {
         auto rgb = pool.borrow(image.path, messages);
         if (!rgb) {
             return rgb.error();
+        }
+        if (rgb->found_change()) {
+            new_notes.add(image.path, changed_note);
         }
         const Dataset raster = raster_over(texels);
         const WarpOptions options{.overview = choice.overview,
@@ -282,6 +286,14 @@ ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
                           (side_of(image) < 0.999 * spacing && (shows || is_tiny(image, spacing)));
     }
     return window;
+}
+
+std::uint64_t ImagerySet::changes() const {
+    return state_->pool.changes();
+}
+
+std::vector<std::string> ImagerySet::take_new_notes() const {
+    return state_->new_notes.take();
 }
 
 std::optional<std::string> ImagerySet::missing_overviews() const {

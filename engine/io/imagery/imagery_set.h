@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -56,6 +57,9 @@ public:
                                      const std::stop_token& stop = {}) const;
     static constexpr double max_pixels_read = 1U << 26U;
 
+    /// As those of TileSet.
+    [[nodiscard]] std::uint64_t changes() const;
+    [[nodiscard]] std::vector<std::string> take_new_notes() const;
     /// A warning for the first image that coarse views skip for lack of overviews, with the command
     /// that adds them.
     [[nodiscard]] std::optional<std::string> missing_overviews() const;

@@ -14,23 +14,6 @@
 namespace reljef::scene {
 namespace {
 
-// The drawn tiles' share of memory. The rest is for their ancestors, a third as many, and for tiles
-// that are read ahead.
-constexpr double drawn_share = 0.6;
-
-std::size_t drawn_within(std::size_t memory_budget, std::size_t bytes_per_tile) {
-    return static_cast<std::size_t>(drawn_share * static_cast<double>(memory_budget) /
-                                    static_cast<double>(bytes_per_tile));
-}
-
-// Summaries of evicted tiles: a 64th of the budget, or enough for a view of min_drawn tiles.
-std::size_t max_remembered(std::size_t memory_budget) {
-    constexpr std::size_t bytes_of_node = 48; // of a map, about
-    constexpr std::size_t bytes =
-        sizeof(TileSummary) + 2 * sizeof(terrain::TreeTile) + bytes_of_node;
-    return std::max(64 * TileStream::min_drawn, memory_budget / 64 / bytes);
-}
-
 std::size_t texels_shown(const Image& texels) {
     const auto samples = texels.samples();
     return static_cast<std::size_t>(
@@ -132,23 +115,6 @@ std::vector<std::shared_ptr<const TerrainTile>> TileStream::loaded() const {
     return tiles;
 }
 
-std::size_t TileStream::max_drawn() const {
-    return std::max(min_drawn, drawn_within(options_.memory_budget, maker_.bytes_per_tile()));
-}
-
-std::size_t TileStream::budget_for(std::size_t drawn_tiles) const {
-    return static_cast<std::size_t>(
-        std::ceil(static_cast<double>(drawn_tiles * maker_.bytes_per_tile()) / drawn_share));
-}
-
-int TileStream::texels_within(std::size_t memory_budget) {
-    int texels = max_texels_per_cell;
-    while (texels > 1 && drawn_within(memory_budget, bytes_of_tile(texels)) < min_drawn) {
-        texels /= 2;
-    }
-    return texels;
-}
-
 void TileStream::request(std::span<const terrain::TreeTile> missing,
                          std::span<const terrain::TreeTile> used, bool with_cones) {
     {
@@ -176,16 +142,19 @@ void TileStream::request(std::span<const terrain::TreeTile> missing,
     changed_.notify_all();
 }
 
-// The tiles that are not loaded, and the loaded tiles in use whose picture is incomplete.
+// The tiles that are not loaded, and the loaded tiles in use whose picture is incomplete or that
+// are outdated.
 std::vector<terrain::TreeTile>
 TileStream::requests_for(std::span<const terrain::TreeTile> tiles) const {
     std::vector<terrain::TreeTile> requests(tiles.begin(), tiles.end());
     std::erase_if(requests, [&](terrain::TreeTile tile) {
-        return tiles_.contains(tile) && !failures_.contains(tile) && !lacks_cones(tile);
+        return tiles_.contains(tile) && !failures_.contains(tile) && !lacks_cones(tile) &&
+               !is_outdated(tile);
     });
     const std::set<terrain::TreeTile> known(requests.begin(), requests.end());
     for (const auto& [tile, entry] : tiles_) {
-        if (entry.used + 1 >= view_ && failures_.contains(tile) && !known.contains(tile)) {
+        const bool is_to_read = failures_.contains(tile) || is_outdated(tile);
+        if (is_in_use(entry) && is_to_read && !known.contains(tile)) {
             requests.push_back(tile);
         }
     }
@@ -290,8 +259,9 @@ void TileStream::work(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const auto tile = next_tile(Clock::now());
         if (!tile) {
-            const auto ready = [&] { return next_tile(Clock::now()).has_value(); };
-            if (const auto again = next_attempt()) {
+            const auto again = next_attempt();
+            const auto ready = [&] { return next_tile(Clock::now()) || next_attempt() != again; };
+            if (again) {
                 changed_.wait_until(lock, stop, *again, ready);
             } else {
                 changed_.wait(lock, stop, ready);
@@ -313,7 +283,8 @@ void TileStream::work(const std::stop_token& stop) {
 void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock) {
     const std::stop_token cancelled = in_flight_[tile].get_token();
     const auto entry = tiles_.find(tile);
-    const Made before = entry != tiles_.end() ? entry->second.made : Made{};
+    const Made before = entry != tiles_.end() && !is_outdated(tile) ? entry->second.made : Made{};
+    const std::uint64_t changes = changes_of_source();
     const bool is_read = before.tile != nullptr && !failures_.contains(tile);
     const bool with_cones = with_cones_;
     lock.unlock();
@@ -322,11 +293,13 @@ void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock
     Made made = is_read ? before : Made{};
     if (!is_read && !stopped && content.errors.empty()) {
         made = make(tile, content, before);
+        made.changes = changes;
     }
     if (with_cones && !stopped) {
         made = with_cones_over(made.tile != nullptr ? made : before);
     }
     lock.lock();
+    note_changes();
     note_cones(made);
     finish(tile, content, std::move(made), stopped);
 }
@@ -411,68 +384,16 @@ void TileStream::finish(terrain::TreeTile tile, const TileContent& content, Made
     if (made.tile->is_proven && !has_proofs_) {
         return; // made before the proofs ended: is read again
     }
+    const auto before = tiles_.find(tile);
+    if (before == tiles_.end() || before->second.made.tile != made.tile) {
+        keep(tile, std::move(made)); // before the request ends, which needs no memory
+    }
     const auto& errors = content.errors.empty() ? content.picture_errors : content.errors;
     if (errors.empty()) {
         forget_failure(tile);
         std::erase(requested_, tile);
     } else {
         note_failure(tile, errors);
-    }
-    const auto before = tiles_.find(tile);
-    if (before == tiles_.end() || before->second.made.tile != made.tile) {
-        keep(tile, std::move(made));
-    }
-}
-
-void TileStream::drop_proofs() {
-    has_proofs_ = false;
-    remembered_.clear();
-    remembered_order_.clear();
-    ++revision_;
-    for (auto entry = tiles_.begin(); entry != tiles_.end();) {
-        const TerrainTile& tile = *entry->second.made.tile;
-        stats_.bytes -= tile.is_proven ? tile.bytes() : 0;
-        entry = tile.is_proven ? tiles_.erase(entry) : std::next(entry);
-    }
-}
-
-void TileStream::keep(terrain::TreeTile tile, Made made) {
-    Entry& entry = tiles_[tile];
-    const TerrainTile* before = entry.made.tile.get();
-    stats_.read += before == nullptr ? 1 : 0;
-    stats_.bytes += made.tile->bytes() - (before != nullptr ? before->bytes() : 0);
-    entry = {std::move(made), view_};
-    has_arrivals_ = true;
-    ++revision_;
-    evict();
-    stats_.max_bytes = std::max(stats_.max_bytes, stats_.bytes);
-}
-
-// Keeps the tiles of this view.
-void TileStream::evict() {
-    while (stats_.bytes > options_.memory_budget) {
-        const auto oldest =
-            std::min_element(tiles_.begin(), tiles_.end(), [](const auto& a, const auto& b) {
-                return a.second.used < b.second.used;
-            });
-        if (oldest->second.used >= view_) {
-            return;
-        }
-        remember(*oldest->second.made.tile);
-        stats_.bytes -= oldest->second.made.tile->bytes();
-        ++stats_.evicted;
-        ++revision_;
-        tiles_.erase(oldest);
-    }
-}
-
-void TileStream::remember(const TileSummary& tile) const {
-    if (remembered_.insert_or_assign(tile.id, tile).second) {
-        remembered_order_.push_back(tile.id);
-    }
-    while (remembered_.size() > max_remembered(options_.memory_budget)) {
-        remembered_.erase(remembered_order_.front());
-        remembered_order_.pop_front();
     }
 }
 

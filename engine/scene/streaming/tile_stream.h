@@ -54,6 +54,9 @@ struct TileStreamOptions {
     /// As the stream's reader, without pictures; empty: that reader.
     TileContentReader read_heights = {};
     TileProofFinder find_proof = {}; ///< empty: no tile is proven
+    /// Grows when a reading finds that the source changed: tiles of earlier readings are outdated.
+    /// Empty: it does not change.
+    std::function<std::uint64_t()> source_changes = {};
     /// Pause after the first failure of a file; each further pause is four times as long.
     std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };
@@ -111,8 +114,8 @@ public:
 
     /// Begins a view. Reads the missing tiles, the most urgent first, and cancels earlier requests
     /// that are not repeated. Keeps the used tiles, and reads them again if their picture is
-    /// incomplete. If memory runs out, evicts tiles that this view does not use. `with_cones`: the
-    /// view needs TerrainTile::cones; loaded tiles without them are missing.
+    /// incomplete or they are outdated. If memory runs out, evicts tiles that this view does not
+    /// use. `with_cones`: the view needs TerrainTile::cones; loaded tiles without them are missing.
     void request(std::span<const terrain::TreeTile> missing,
                  std::span<const terrain::TreeTile> used = {}, bool with_cones = false);
     /// Waits until all requested tiles are loaded or have failed max_attempts times; false after a
@@ -129,6 +132,8 @@ public:
     [[nodiscard]] std::uint64_t revision() const;
     /// Whether tiles arrived since the last call.
     bool take_arrivals();
+    /// Whether tiles of this view are outdated and did not fail: request() reads them again.
+    [[nodiscard]] bool has_outdated() const;
     /// Whether requested tiles are still missing.
     [[nodiscard]] bool is_busy() const;
     /// Errors since the last call, one per file in the stream's life.
@@ -142,6 +147,7 @@ private:
     struct Made {
         std::shared_ptr<const TerrainTile> tile; // null: there were errors
         std::size_t shown = 0;                   // opaque texels of its picture
+        std::uint64_t changes = 0;               // of the source when its reading began
     };
     struct Entry {
         Made made;
@@ -166,6 +172,10 @@ private:
     void record_errors(std::span<const FileError> errors);
     void keep(terrain::TreeTile tile, Made made);
     void drop_proofs();
+    [[nodiscard]] std::uint64_t changes_of_source() const;
+    void note_changes();
+    [[nodiscard]] bool is_outdated(terrain::TreeTile tile) const;
+    [[nodiscard]] bool is_in_use(const Entry& entry) const { return entry.used + 1 >= view_; }
     [[nodiscard]] std::vector<terrain::TreeTile>
     requests_for(std::span<const terrain::TreeTile> tiles) const;
     void evict();
@@ -190,6 +200,7 @@ private:
     std::vector<std::string> new_errors_;
     std::vector<std::string> new_notes_;
     bool has_proofs_ = false;
+    std::uint64_t changes_ = 0; // of the source that readings found
     std::uint64_t view_ = 0;
     bool with_cones_ = false; // in this view
     bool has_noted_cones_ = false;

@@ -253,7 +253,9 @@ glm::vec3 RampColors::at(double height) const {
     }
     const RampStop& below = *(above - 1);
     const double part = (height - below.height) / (above->height - below.height);
-    return glm::mix(below.color, above->color, static_cast<float>(part));
+    // Rounding must not leave the range between the two.
+    return glm::clamp(glm::mix(below.color, above->color, static_cast<float>(part)),
+                      glm::min(below.color, above->color), glm::max(below.color, above->color));
 }
 
 glm::vec3 RampColors::at(double height, glm::vec2 gradient) const {

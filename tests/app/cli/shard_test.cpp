@@ -32,7 +32,7 @@ protected:
         std::vector<std::string> arguments{"render",   "natural", "--path",    "flyover",
                                            "--frames", "7",       "--context", "cpu",
                                            "--size",   "64x48",   "-o"};
-        arguments.push_back((folder_.path() / name / "%02d.png").string());
+        arguments.push_back((folder_.path() / name / ("%02d" + extension_)).string());
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
     }
@@ -40,7 +40,10 @@ protected:
         EXPECT_EQ(result.exit_code, 0) << result.err;
     }
     [[nodiscard]] std::string picture(const std::string& name, int index) const {
-        return test::read_bytes(folder_.path() / name / ("0" + std::to_string(index) + ".png"));
+        return test::read_bytes(folder_.path() / name / file(index));
+    }
+    [[nodiscard]] std::string file(int index) const {
+        return "0" + std::to_string(index) + extension_;
     }
     void expect_same_pictures(const std::string& a, const std::string& b) const {
         for (int index = 0; index < frames; ++index) {
@@ -48,6 +51,28 @@ protected:
             EXPECT_EQ(picture(a, index), picture(b, index)) << index;
         }
     }
+    /// Damages some pictures of a whole flight and draws them again.
+    void expect_damage_is_found() {
+        expect_drawn(run(flight("whole")));
+        const fs::path parts = folder_.path() / "parts";
+        fs::copy(folder_.path() / "whole", parts);
+        const std::string whole = picture("whole", 2);
+        const auto write = [&](int index, const std::string& bytes) {
+            folder_.write("parts/" + file(index), bytes);
+        };
+        fs::remove(parts / file(1));
+        write(2, whole.substr(0, whole.size() / 2));
+        write(3, "");
+        ASSERT_TRUE(io::write_image(parts / file(4), Image(63, 48)));
+        std::string flipped = picture("whole", 6);
+        flipped[2 * flipped.size() / 3] = static_cast<char>(flipped[2 * flipped.size() / 3] ^ 1);
+        write(6, flipped);
+        const auto kept = fs::last_write_time(parts / file(5));
+        expect_drawn(run(flight("parts", {"--resume"})));
+        expect_same_pictures("whole", "parts");
+        EXPECT_EQ(fs::last_write_time(parts / file(5)), kept);
+    }
+    std::string extension_ = ".png";
     test::TemporaryFolder folder_;
 };
 
@@ -86,18 +111,16 @@ TEST_F(Shards, AKilledWorkersPartIsCompletedByASecondRun) {
 }
 
 TEST_F(Shards, ResumeDrawsMissingDamagedAndSmallerPicturesAgain) {
-    expect_drawn(run(flight("whole")));
-    const fs::path parts = folder_.path() / "parts";
-    fs::copy(folder_.path() / "whole", parts);
-    const std::string whole = picture("whole", 2);
-    fs::remove(parts / "01.png");
-    folder_.write("parts/02.png", whole.substr(0, whole.size() / 2));
-    folder_.write("parts/03.png", "");
-    ASSERT_TRUE(io::write_image(parts / "04.png", Image(63, 48)));
-    const auto kept = fs::last_write_time(parts / "05.png");
-    expect_drawn(run(flight("parts", {"--resume"})));
-    expect_same_pictures("whole", "parts");
-    EXPECT_EQ(fs::last_write_time(parts / "05.png"), kept);
+    expect_damage_is_found();
+}
+
+TEST_F(Shards, ResumeFindsDamageInFormatsWithoutChecksums) {
+    for (const char* extension : {".jpg", ".tif"}) {
+        extension_ = extension;
+        expect_damage_is_found();
+        fs::remove_all(folder_.path() / "whole");
+        fs::remove_all(folder_.path() / "parts");
+    }
 }
 
 TEST_F(Shards, OnlyNumberedPicturesHaveParts) {
@@ -110,6 +133,8 @@ TEST_F(Shards, OnlyNumberedPicturesHaveParts) {
     refused({"-o", "a.png", "--shard", "0/2"}, "--shard: 'a.png' found");
     refused({"-o", "a.mp4", "--path", "orbit", "--frames", "9", "--resume"},
             "--resume: 'a.mp4' found");
+    refused({"-o", "%d.bmp", "--path", "orbit", "--frames", "9", "--resume"},
+            "--resume: '%d.bmp' found as -o, .png, .jpg or .tif");
     refused({"-o", "%d.png", "--contact-sheet", "s.png", "--shard", "0/2"}, "--contact-sheet");
     refused({"-o", "%d.png", "--hit", hits, "--resume"}, "--hit");
     refused({"-o", "%d.png", "--shard", "2/2"}, "'2/2' found");

@@ -1,5 +1,9 @@
 #include "bench/report/result_parts.h"
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,6 +41,43 @@ TEST(ResultParts, TheRowsOfAllPartsAreOneRun) {
     EXPECT_FALSE(all->complete());
 }
 
+TEST(ResultParts, RowsAndFrontsAreInTheOrderOfOneProcess) {
+    Results first = part(0, 2, "a");
+    Results second = part(1, 2, "b");
+    const std::vector<Row> more = part(0, 2, "c").rows;
+    first.rows.insert(first.rows.end(), more.begin(), more.end());
+    const auto front_of = [](const std::string& scene) {
+        Front front;
+        front.scene = scene;
+        return front;
+    };
+    first.fronts = {front_of("a"), front_of("c")};
+    second.fronts = {front_of("b")};
+    const auto all = merged({first, second});
+    ASSERT_TRUE(all) << all.error().message;
+    std::string scenes;
+    for (const Row& row : all->rows) {
+        scenes += row.scene;
+    }
+    EXPECT_EQ(scenes, "aaabbbccc");
+    std::string fronts;
+    for (const Front& front : all->fronts) {
+        fronts += front.scene;
+    }
+    EXPECT_EQ(fronts, "abc");
+}
+
+// The same terrain twice, whose items follow each other in a part.
+TEST(ResultParts, TheNullRowEndsAnItem) {
+    Results first = part(0, 2, "a");
+    const std::vector<Row> again = first.rows;
+    first.rows.insert(first.rows.end(), again.begin(), again.end());
+    const auto all = merged({first, part(1, 2, "b")});
+    ASSERT_TRUE(all) << all.error().message;
+    ASSERT_EQ(all->rows.size(), 9U);
+    EXPECT_EQ(all->rows[3].scene, "b");
+}
+
 TEST(ResultParts, MissingAndForeignPartsAreRefused) {
     EXPECT_EQ(error_of({part(0, 2, "a"), part(1, 2, "b")}), "");
     EXPECT_THAT(error_of({}), HasSubstr("no parts"));
@@ -66,6 +107,17 @@ TEST(ResultParts, APartsFileKeepsItsNumber) {
     const auto missing = read_result_parts(name);
     ASSERT_FALSE(missing);
     EXPECT_THAT(missing.error().message, HasSubstr("part-1.json"));
+}
+
+TEST(ResultParts, TheFilesThatAreThereAreCounted) {
+    const test::TemporaryFolder folder;
+    const auto name = folder.path() / "part-%d.json";
+    EXPECT_TRUE(part_files(name).empty());
+    const auto first = folder.write("part-0.json", "");
+    const auto second = folder.write("part-1.json", "");
+    folder.write("part-3.json", "");
+    EXPECT_EQ(part_files(name), (std::vector{first, second}));
+    EXPECT_EQ(part_files("a.json"), std::vector<std::filesystem::path>{"a.json"});
 }
 
 TEST(ResultParts, AWrongPartInAFileIsRefused) {

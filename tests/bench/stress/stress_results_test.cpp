@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/stress/stress_run.h"
+#include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
 namespace {
@@ -72,6 +73,101 @@ TEST(StressResults, ReportsEveryRowWithLimitAndVerdict) {
     EXPECT_EQ(json["rows"][1]["verdict"], "OVER");
     EXPECT_TRUE(json["rows"][2]["limit"].is_null());
     EXPECT_EQ(json["rows"][2]["verdict"], "reported");
+}
+
+StressResults part_of(Shard shard, std::vector<StressRow> rows) {
+    StressResults results;
+    results.environment.cpu = "a processor";
+    results.options.shard = shard;
+    results.options.poses = 7;
+    results.options.terrains = {"natural"};
+    results.options.techniques = {scene::make_technique(scene::TechniqueId::exact)};
+    results.rows = std::move(rows);
+    return results;
+}
+
+StressRow row_by(const std::string& only, double value) {
+    StressRow row = row_of(value, 3.0);
+    row.only = only;
+    return row;
+}
+
+TEST(StressReports, AreReadAsTheyWereWritten) {
+    const test::TemporaryFolder folder;
+    StressResults results = part_of({1, 2}, {row_by("scale", 2.5)});
+    results.rows.push_back({.stress = "repeat",
+                            .terrain = "natural",
+                            .technique = "exact",
+                            .figure = "holes",
+                            .value = std::nan(""),
+                            .at = "the pole",
+                            .known = "a later version"});
+    const std::string json = figure_json(figure_table(results));
+    const auto read = read_stress_report(folder.write("s.json", json));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->options.shard, (Shard{1, 2}));
+    EXPECT_EQ(figure_json(figure_table(*read)), json);
+    EXPECT_EQ(stress_text(*read), stress_text(results));
+}
+
+TEST(StressReports, OfARunThatEndedEarlySaySo) {
+    const test::TemporaryFolder folder;
+    StressResults results = part_of({}, {row_by("scale", 1.0)});
+    results.end.stopped = Error{"interrupted"};
+    const auto file = folder.write("s.json", figure_json(figure_table(results)));
+    const auto read = read_stress_report(file);
+    ASSERT_TRUE(read) << read.error().message;
+    ASSERT_TRUE(read->end.stopped);
+    EXPECT_EQ(read->end.stopped->message, "interrupted");
+}
+
+TEST(StressReports, DamageIsNamedWithItsPlace) {
+    const test::TemporaryFolder folder;
+    const std::string json = figure_json(figure_table(part_of({}, {row_by("scale", 1.0)})));
+    for (const auto& [from, to, place] :
+         {std::tuple("reljef-bench-stress/1", "reljef-bench/1", "schema"),
+          {"\"value\": 1.0", "\"value\": \"1\"", "rows[0].value"},
+          {"\"exact\"", "\"exactly\"", "techniques"},
+          {"1024x768", "1024", "size"}}) {
+        std::string damaged = json;
+        ASSERT_NE(damaged.find(from), std::string::npos) << from;
+        damaged.replace(damaged.find(from), std::string_view(from).size(), to);
+        const auto read = read_stress_report(folder.write("s.json", damaged));
+        ASSERT_FALSE(read) << place;
+        EXPECT_THAT(read.error().message, HasSubstr(std::string("s.json: ") + place));
+    }
+}
+
+TEST(StressParts, AreOneRunInTheOrderOfTheStresses) {
+    const std::vector<std::string> order{"threads", "geodesy", "scale"};
+    StressResults late = part_of({1, 2}, {row_by("geodesy", 2.0), row_by("geodesy", 1.0)});
+    late.end.stopped = Error{"interrupted"};
+    const auto all =
+        merged({late, part_of({0, 2}, {row_by("threads", 5.0), row_by("scale", 3.0)})}, order);
+    ASSERT_TRUE(all) << all.error().message;
+    std::vector<double> values;
+    for (const StressRow& row : all->rows) {
+        values.push_back(row.value);
+    }
+    EXPECT_THAT(values, testing::ElementsAre(5.0, 2.0, 1.0, 3.0));
+    EXPECT_TRUE(all->options.shard.is_whole());
+    EXPECT_TRUE(all->end.stopped);
+}
+
+TEST(StressParts, OfOtherRunsAreRefused) {
+    const std::vector<std::string> order{"scale"};
+    const auto refusal = [&](StressResults second) {
+        const auto all = merged({part_of({0, 2}, {}), std::move(second)}, order);
+        return all ? "" : all.error().message;
+    };
+    EXPECT_EQ(refusal(part_of({1, 2}, {})), "");
+    EXPECT_THAT(refusal(part_of({0, 2}, {})), HasSubstr("1/2 was expected"));
+    StressResults other = part_of({1, 2}, {});
+    other.options.seed = 9;
+    EXPECT_THAT(refusal(other), HasSubstr("part 1/2 was measured with other options"));
+    other = part_of({1, 2}, {});
+    other.environment.cpu = "another one";
+    EXPECT_THAT(refusal(other), HasSubstr("another environment"));
 }
 
 TEST(Worst, KeepsTheLargestValueAndANumberThatIsNone) {

@@ -70,5 +70,28 @@ TEST_F(Datasets, AreOpenedAnewWhereTheFileWasReplacedDuringAReading) {
     EXPECT_EQ(opened_, 2);
 }
 
+TEST_F(Datasets, OfChangedFilesAreCountedAndToldOnce) {
+    EXPECT_FALSE(borrowed().found_change());
+    EXPECT_FALSE(borrowed().found_change());
+    for (const int change : {1, 2}) {
+        put(change, std::chrono::seconds(change));
+        EXPECT_EQ(pool_.changes(), static_cast<std::uint64_t>(change - 1));
+        EXPECT_TRUE(borrowed().found_change());
+        EXPECT_FALSE(borrowed().found_change());
+        EXPECT_EQ(pool_.changes(), static_cast<std::uint64_t>(change));
+    }
+}
+
+TEST_F(Datasets, OfAFileThatWasAwayAreUnchanged) {
+    EXPECT_FALSE(borrowed().found_change());
+    const auto away = folder_.path() / "away.tif";
+    std::filesystem::rename(file_, away);
+    const GdalMessages messages;
+    EXPECT_FALSE(pool_.borrow(file_, messages));
+    std::filesystem::rename(away, file_);
+    EXPECT_FALSE(borrowed().found_change());
+    EXPECT_EQ(pool_.changes(), 0U);
+}
+
 } // namespace
 } // namespace reljef::io

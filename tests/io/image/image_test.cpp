@@ -58,6 +58,45 @@ TEST(ImageFile, EncodedInMemoryItIsTheFileByteForByte) {
     }
 }
 
+// PNG's checksums cover what decides the pixels.
+TEST(ImageFile, DamageAnywhereIsFound) {
+    const test::TemporaryFolder folder;
+    for (const std::string extension : {".png", ".jpg", ".tif"}) {
+        const auto path = folder.path() / ("a" + extension);
+        ASSERT_TRUE(shows_damage(path));
+        ASSERT_TRUE(write_image(path, random_image(9, 7)));
+        const auto whole = read_undamaged_image(path);
+        ASSERT_TRUE(whole) << whole.error().message;
+        EXPECT_EQ(*whole, *read_image(path));
+        const std::string bytes = test::read_bytes(path);
+        testing::internal::CaptureStderr(); // libpng's words
+        for (std::size_t place = 0; place < bytes.size(); place += 3) {
+            std::string damaged = bytes;
+            damaged[place] = static_cast<char>(damaged[place] ^ 8);
+            folder.write(path.filename().string(), damaged);
+            const auto found = read_undamaged_image(path);
+            EXPECT_TRUE(!found || (extension == ".png" && *found == *whole)) << path << place;
+            folder.write(path.filename().string(), bytes.substr(0, place));
+            EXPECT_FALSE(read_undamaged_image(path)) << path << place;
+        }
+        testing::internal::GetCapturedStderr();
+    }
+    EXPECT_FALSE(shows_damage("a.bmp"));
+    EXPECT_FALSE(shows_damage("a"));
+}
+
+TEST(ImageFile, EqualPicturesAreEqualFiles) {
+    const test::TemporaryFolder folder;
+    for (const std::string extension : {".png", ".jpg", ".tif"}) {
+        const auto bytes = encode_image(extension, random_image(9, 7));
+        ASSERT_TRUE(bytes) << bytes.error().message;
+        EXPECT_EQ(*bytes, *encode_image(extension, random_image(9, 7)));
+        const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        const bool holds_no_time = text.find("    :  :     :  :  ") != std::string::npos;
+        EXPECT_TRUE(extension != ".tif" || holds_no_time);
+    }
+}
+
 TEST(ImageFile, WhatCannotBeEncodedIsNamed) {
     const auto unknown = encode_image(".nothing", random_image(2, 2));
     ASSERT_FALSE(unknown);

@@ -38,6 +38,15 @@ TEST(ColorRamp, IsLinearBetweenStopsAndConstantBeyond) {
     EXPECT_EQ(colors.at(1000.0).r, 50.0F);
 }
 
+TEST(ColorRamp, RoundingLeavesNoRangeBetweenTwoStops) {
+    const ColorRamp ramp{
+        "two", {{-5.0, {0.0F, 0.0F, 255.0F}}, {1201.5, glm::vec3(255.0F)}}, false, false, {}};
+    const RampColors colors(ramp, land(0.0F, 400.0F));
+    for (int i = -10; i <= 2500; ++i) {
+        EXPECT_EQ(colors.at(0.5 * i).b, 255.0F) << i;
+    }
+}
+
 TEST(ColorRamp, ColorsOfAHeightDoNotDependOnTheTerrain) {
     const ColorRamp ramp = *named_ramp(default_ramp);
     EXPECT_EQ(RampColors(ramp, land(0.0F, 250.0F)).at(200.0),
