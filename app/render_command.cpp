@@ -101,6 +101,22 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                                   scene->failed_files + session::failed_files(scene->scene));
 }
 
+// Of a technique, the exact picture has the shadows only.
+void check_truth(const cli::ViewChoice& view) {
+    if (view.max_error.value_or(0.0) > 0.0) {
+        throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
+                                   "of them was expected");
+    }
+    scene::Technique exact{scene::Exact{}};
+    const bool is_exact = !view.technique || *view.technique == exact;
+    exact.options.shadow = scene::Shadow{.depth = 0.0};
+    if (!is_exact && *view.technique != exact) {
+        cli::fail_usage(
+            fmt::format("--technique: {} found beside --truth; exact or {} was expected",
+                        scene::to_string(*view.technique), scene::to_string(exact)));
+    }
+}
+
 constexpr const char* examples =
     "Examples:\n"
     "  reljef render N45E006.hgt -o alps.png\n"
@@ -144,10 +160,11 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* truth = arguments->add_flag(
         "--truth", choice->truth,
         "draw the reference picture with exact rays on the CPU, of all samples, also "
-        "of a terrain larger than --memory");
+        "of a terrain larger than --memory; with --technique exact:shadow=hard, rays to the sun "
+        "decide what is in shadow, of meshes, too");
     add_compare_option(*arguments, choice->compare);
-    for (const char* option : {"--compare", "--wireframe", "--context", "--simd", "--technique",
-                               "--shader-dir", "--detail", "--samples", "--calibration"}) {
+    for (const char* option : {"--compare", "--wireframe", "--context", "--simd", "--shader-dir",
+                               "--detail", "--samples", "--calibration"}) {
         truth->excludes(arguments->get_option(option));
     }
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),
@@ -164,9 +181,8 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         expect_choice(choice->shows_choice, choice->view, choice->truth);
-        if (choice->truth && choice->view.max_error.value_or(0.0) > 0.0) {
-            throw CLI::ValidationError("--max-error: found beside --truth, which has no error; one "
-                                       "of them was expected");
+        if (choice->truth) {
+            check_truth(choice->view);
         }
         expect_outputs(*choice);
     });

@@ -112,7 +112,7 @@ struct BlockJob {
     const TilePaint* paint = nullptr; ///< not needed for hits
     /// What the sun adds to it where none of its tiles hides it; null: `paint` has its light.
     const TilePaint* sun = nullptr;
-    std::span<const SunTile> sun_tiles = {};
+    std::span<const SunTile> sun_tiles = {}; ///< of hits on a tile, that one first
     /// What is certain of the sun in each cell: 2 bits, 16 cells of a row in a word.
     /// Null: nothing.
     const std::int32_t* certain_sun = nullptr;

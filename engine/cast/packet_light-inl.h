@@ -30,6 +30,28 @@ HWY_INLINE Color scaled(const Color& color, Floats by) {
     return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
 }
 
+// How the surface lies: its slopes at the hits, metres per sample.
+struct Slopes {
+    Floats col;
+    Floats row;
+};
+
+HWY_INLINE Slopes slopes_of(const PacketHits& hits) {
+    const Corners& corners = hits.corners;
+    return {
+        mixed(hn::Sub(corners.h10, corners.h00), hn::Sub(corners.h11, corners.h01), hits.row_part),
+        mixed(hn::Sub(corners.h01, corners.h00), hn::Sub(corners.h11, corners.h10), hits.col_part)};
+}
+
+// The hits whose surface rises less than the rays to the sun. From the others these lead into the
+// ground, whatever rounding makes of their starts.
+HWY_INLINE Lanes facing_sun(const BlockJob& job, const PacketHits& hits) {
+    const glm::vec3 to_sun = job.sun_tiles.front().to_sun;
+    const Slopes slopes = slopes_of(hits);
+    const Floats ground = hn::MulAdd(slopes.col, all(to_sun.x), hn::Mul(slopes.row, all(to_sun.y)));
+    return hn::And(hits.found, hn::Lt(ground, all(to_sun.z)));
+}
+
 // A tile that may hide the sun, for the functions that walk through it.
 HWY_INLINE void target_sun_tile(const BlockJob& job, const SunTile& tile, BlockJob& target) {
     target.tile = tile.tile;
@@ -103,18 +125,19 @@ HWY_INLINE Ints certain_sun_of(const BlockJob& job, const PacketHits& hits) {
 // The hits that the sun reaches. Rays look for it only where it is not certain.
 template <class Mode>
 HWY_INLINE Lanes seen_by_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
-    if (job.certain_sun == nullptr) {
-        return hn::AndNot(hidden_from_sun<Mode>(job, hits, work), hits.found);
-    }
-    if constexpr (Mode::counts) {
-        work.tap(hits.found, 1);
-    }
-    const Ints certain = certain_sun_of(job, hits);
-    const auto is = [&](std::int32_t what)
-                        HWY_ATTR { return hn::RebindMask(floats, hn::Eq(certain, all(what))); };
+    Lanes lit = no_lanes();
     PacketHits open = hits;
-    open.found = hn::And(hits.found, is(0));
-    const Lanes lit = hn::And(hits.found, is(sun_certain));
+    open.found = facing_sun(job, hits);
+    if (job.certain_sun != nullptr) {
+        if constexpr (Mode::counts) {
+            work.tap(hits.found, 1);
+        }
+        const Ints certain = certain_sun_of(job, hits);
+        const auto is = [&](std::int32_t what)
+                            HWY_ATTR { return hn::RebindMask(floats, hn::Eq(certain, all(what))); };
+        lit = hn::And(hits.found, is(sun_certain));
+        open.found = hn::And(open.found, is(0));
+    }
     if (hn::AllFalse(floats, open.found)) {
         return lit;
     }

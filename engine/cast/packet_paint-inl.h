@@ -207,19 +207,6 @@ HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
                     chosen(below, plane_color(paint, angles), above_horizon(paint, angles)));
 }
 
-// How the surface lies: its slopes at the hits, metres per sample.
-struct Slopes {
-    Floats col;
-    Floats row;
-};
-
-HWY_INLINE Slopes slopes_of(const PacketHits& hits) {
-    const Corners& corners = hits.corners;
-    return {
-        mixed(hn::Sub(corners.h10, corners.h00), hn::Sub(corners.h11, corners.h01), hits.row_part),
-        mixed(hn::Sub(corners.h01, corners.h00), hn::Sub(corners.h11, corners.h10), hits.col_part)};
-}
-
 // Squared texels by which the hit moves from a pixel to its neighbour in the plane that touches the
 // surface. `origin`, `direction`: the changes of the ray.
 HWY_INLINE Floats texels_moved(const TilePaint& paint, const Rays& rays, const PacketHits& hits,

@@ -334,11 +334,13 @@ Result<Image> TruthFrames::draw(const scene::Scene& scene, const ParallelOptions
         return prepared.error();
     }
     if (!shading_ && !streamed_) {
-        shading_.emplace(scene, *caster_);
+        shading_.emplace(scene, *caster_, truth::sun_shadow_of(scene));
     }
     prepare_ms_ = std::max(prepare_ms_, preparing.milliseconds());
     const Stopwatch drawing;
-    const truth::DrawOptions options{.rays_per_side = rays_per_side_, .parallel = parallel};
+    const truth::DrawOptions options{.rays_per_side = rays_per_side_,
+                                     .shadow = truth::sun_shadow_of(scene),
+                                     .parallel = parallel};
     auto picture = streamed_ ? streamed_->draw(scene.camera(), size_, options)
                              : truth::draw(*caster_, *shading_, scene.camera(), size_, options);
     draw_ms_ = drawing.milliseconds();

@@ -77,6 +77,17 @@ glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Lig
                       distance * mean_density(sky, eye, eye + direction.z * distance));
 }
 
+SunShadow sun_shadow_of(const scene::Scene& scene) {
+    SunShadow found = SunShadow::sweep;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
+        const auto* const terrain = node.get<scene::TerrainNode>();
+        if (terrain != nullptr && scene::casts_hard_shadows(terrain->material.technique.options)) {
+            found = SunShadow::ray;
+        }
+    });
+    return found;
+}
+
 Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)
     : caster_(shadow == SunShadow::ray ? &caster : nullptr), backdrop_{scene.sun(), scene.sky()} {
     for (const PlacedTerrain& terrain : caster.terrains()) {
@@ -140,29 +151,39 @@ glm::vec3 Shading::background(const Ray& ray) const {
     return backdrop_.behind(ray);
 }
 
+Ray sun_ray_from(glm::dvec3 place, glm::dvec2 spacing, glm::dvec3 to_sun) {
+    constexpr double start = 1e-3; // samples
+    Ray ray{place, glm::normalize(to_sun)};
+    ray.origin = ray.at(start * std::min(spacing.x, spacing.y));
+    return ray;
+}
+
+std::optional<Ray> sun_ray_from(const MeshCaster& meshes, const MeshHit& hit, const Ray& ray,
+                                glm::dvec3 to_sun) {
+    constexpr double start = 1e-6; // metres: doubles of places on the Earth are rounded by less
+    const glm::dvec3 face = meshes.face_at(hit);
+    return glm::dot(face, to_sun) > 0.0 ? std::optional(Ray{ray.at(hit.t) + start * face, to_sun})
+                                        : std::nullopt;
+}
+
 bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun) {
     const PlacedTerrain& terrain = caster.terrains()[hit.terrain];
     const scene::TerrainSurface& surface = *terrain.surface;
-    Ray ray;
-    ray.origin = surface.placement().world_from_sample(hit.surface.sample);
-    ray.direction = glm::normalize(glm::dmat3(terrain.local_from_world) * to_sun);
-    constexpr double start = 1e-3; // samples
-    const glm::dvec2 spacing = surface.heightfield().spacing;
-    ray.origin = ray.at(start * std::min(spacing.x, spacing.y));
+    const Ray ray =
+        sun_ray_from(surface.placement().world_from_sample(hit.surface.sample),
+                     surface.heightfield().spacing, glm::dmat3(terrain.local_from_world) * to_sun);
     return !is_below(surface, ray.origin) && !terrain.caster.first_hit(ray) &&
            !caster.meshes().hides(transformed(terrain.world_from_local, ray));
 }
 
 bool sees_sun(const SceneCaster& caster, const MeshHit& hit, const Ray& ray, glm::dvec3 to_sun) {
-    constexpr double start = 1e-6; // metres: doubles of places on the Earth are rounded by less
-    const glm::dvec3 face = caster.meshes().face_at(hit);
-    const Ray onward{ray.at(hit.t) + start * face, to_sun};
-    if (glm::dot(face, to_sun) <= 0.0 || caster.meshes().hides(onward)) {
+    const auto onward = sun_ray_from(caster.meshes(), hit, ray, to_sun);
+    if (!onward || caster.meshes().hides(*onward)) {
         return false;
     }
     return std::none_of(
         caster.terrains().begin(), caster.terrains().end(), [&](const PlacedTerrain& terrain) {
-            const Ray local = transformed(terrain.local_from_world, onward);
+            const Ray local = transformed(terrain.local_from_world, *onward);
             return is_below(*terrain.surface, local.origin) || terrain.caster.first_hit(local);
         });
 }

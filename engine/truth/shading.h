@@ -37,12 +37,23 @@ enum class SunShadow {
     ray,   ///< exact, see sees_sun(); meshes cast and get shadows, too
 };
 
+/// `ray` if a visible terrain casts hard shadows (`shadow=hard`).
+SunShadow sun_shadow_of(const scene::Scene& scene);
+
+/// The ray to the sun from a place of a terrain, in its local coordinates: begins a thousandth of a
+/// sample away. `spacing`: metres between samples.
+Ray sun_ray_from(glm::dvec3 place, glm::dvec2 spacing, glm::dvec3 to_sun);
+/// The same from a hit of a mesh along `ray`, in the world: begins a micrometre outside of the
+/// triangle. Empty from one that is turned away.
+std::optional<Ray> sun_ray_from(const MeshCaster& meshes, const MeshHit& hit, const Ray& ray,
+                                glm::dvec3 to_sun);
+
 /// Whether the ray from a hit to the sun meets nothing of the hit's terrain, and no mesh: exact, no
-/// penumbra. The ray starts a thousandth of a sample away. `to_sun`: unit vector in the world.
+/// penumbra. `to_sun`: unit vector in the world.
 bool sees_sun(const SceneCaster& caster, const SceneHit& hit, glm::dvec3 to_sun);
 
 /// The same of a hit of a mesh, along `ray`: of all terrains and meshes. A triangle that is turned
-/// away from the sun does not see it. The ray starts a micrometre outside of the triangle.
+/// away from the sun does not see it.
 bool sees_sun(const SceneCaster& caster, const MeshHit& hit, const Ray& ray, glm::dvec3 to_sun);
 
 /// Linear colours of a scene's hits. The constructor computes albedo, slopes and shadows of all

@@ -64,7 +64,20 @@ struct StreamedTruth::Batch {
     std::vector<glm::dvec2> places; // on the picture
     std::vector<std::optional<terrain::SurfaceHit>> hits;
     std::vector<std::optional<MeshHit>> mesh_hits; // before the terrain; empty without meshes
+    std::vector<bool> is_sunny;                    // empty: the overview's shadows
     std::vector<glm::vec3> colors;                 // linear
+
+    [[nodiscard]] const MeshHit* mesh_hit(std::size_t ray) const {
+        return mesh_hits.empty() || !mesh_hits[ray] ? nullptr : &*mesh_hits[ray];
+    }
+    [[nodiscard]] std::optional<bool> sun_at(std::size_t ray) const {
+        return is_sunny.empty() ? std::nullopt : std::optional<bool>(is_sunny[ray]);
+    }
+};
+
+struct StreamedTruth::TerrainHit {
+    terrain::SurfaceHit surface;
+    std::optional<bool> is_sunny; // absent: as the overview
 };
 
 Result<StreamedTruth> StreamedTruth::create(const scene::Scene& scene,
@@ -134,8 +147,78 @@ void StreamedTruth::trace_meshes(const Eye& eye, Batch& batch) const {
 }
 
 Hit StreamedTruth::shown_hit(const Batch& batch, std::size_t ray) {
-    const bool shows_mesh = !batch.mesh_hits.empty() && batch.mesh_hits[ray];
-    return shows_mesh ? MeshCaster::as_shown(*batch.mesh_hits[ray]) : as_shown(batch.hits[ray]);
+    const MeshHit* const mesh = batch.mesh_hit(ray);
+    return mesh != nullptr ? MeshCaster::as_shown(*mesh) : as_shown(batch.hits[ray]);
+}
+
+// From a hit towards the sun, in the world; empty from the sky and from what is turned away.
+std::optional<Ray> StreamedTruth::sun_ray(const Eye& eye, const Batch& batch,
+                                          std::size_t ray) const {
+    const glm::dvec3 to_sun = scene::to_light(*backdrop_.sun);
+    if (const MeshHit* const mesh = batch.mesh_hit(ray)) {
+        return sun_ray_from(meshes_, *mesh, eye.ray(batch.places[ray]), to_sun);
+    }
+    if (!batch.hits[ray]) {
+        return std::nullopt;
+    }
+    const scene::TileBuilder& builder = surface_.stream().maker();
+    const glm::dvec3 place = surface_.world_from_sample(batch.hits[ray]->sample);
+    const glm::dvec2 spacing =
+        builder.overview().heightfield().spacing / static_cast<double>(builder.reduction());
+    return transformed(world_from_local_,
+                       sun_ray_from(place, spacing, glm::dmat3(local_from_world_) * to_sun));
+}
+
+// Whether rays begin below the terrain.
+Result<std::vector<bool>> StreamedTruth::are_below(std::span<const Ray> local_rays,
+                                                   const ParallelOptions& parallel) {
+    std::vector<glm::dvec2> samples(local_rays.size());
+    std::vector<double> rises(local_rays.size(), std::numeric_limits<double>::infinity());
+    const glm::dvec2 last(surface_.last_sample());
+    for (std::size_t i = 0; i < local_rays.size(); ++i) {
+        const auto sample = surface_.sample_from_world(local_rays[i].origin);
+        if (sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
+            sample->y <= last.y) {
+            samples[i] = glm::dvec2(*sample);
+            rises[i] = sample->z;
+        }
+    }
+    const auto heights = heights_at(surface_, samples, parallel);
+    if (!heights) {
+        return heights.error();
+    }
+    std::vector<bool> below(local_rays.size());
+    for (std::size_t i = 0; i < below.size(); ++i) {
+        below[i] = rises[i] < (*heights)[i];
+    }
+    return below;
+}
+
+Result<void> StreamedTruth::find_sun(const Eye& eye, Batch& batch,
+                                     const ParallelOptions& parallel) {
+    batch.is_sunny.assign(batch.places.size(), false);
+    std::vector<std::size_t> open; // no mesh hides the sun
+    std::vector<Ray> rays;         // of these, local
+    for (std::size_t i = 0; i < batch.places.size(); ++i) {
+        const auto ray = sun_ray(eye, batch, i);
+        if (ray && !meshes_.hides(*ray)) {
+            open.push_back(i);
+            rays.push_back(transformed(local_from_world_, *ray));
+        }
+    }
+    const auto below = are_below(rays, parallel);
+    if (!below) {
+        return below.error();
+    }
+    const auto hits =
+        first_hits(surface_, rays, {0.0, std::numeric_limits<double>::infinity()}, parallel);
+    if (!hits) {
+        return hits.error();
+    }
+    for (std::size_t i = 0; i < open.size(); ++i) {
+        batch.is_sunny[open[i]] = !(*below)[i] && !(*hits)[i];
+    }
+    return {};
 }
 
 // The finest tiles, row by row as files store them.
@@ -162,11 +245,11 @@ StreamedTruth::hits_by_tile(const scene::TileBuilder& builder,
 // Bilinear in the tile's texels, or in the colours of the vertices around the hit.
 glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
                                        const scene::TerrainTile* whole, terrain::TreeTile tile,
-                                       const terrain::SurfaceHit& hit) const {
+                                       const TerrainHit& hit) const {
     const scene::TileBuilder& builder = surface_.stream().maker();
     const glm::dvec2 first(terrain::TileTree::first(tile));
     const glm::ivec2 cells = builder.tree().cells(tile);
-    glm::dvec2 place = glm::clamp(builder.tree_sample(glm::dvec2(hit.sample)) - first,
+    glm::dvec2 place = glm::clamp(builder.tree_sample(glm::dvec2(hit.surface.sample)) - first,
                                   glm::dvec2(0.0), glm::dvec2(cells));
     scene::TerrainTile cell;
     if (whole == nullptr) {
@@ -184,8 +267,13 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     const glm::dvec2 on_overview =
-        builder.around_overview(builder.on_overview(glm::dvec2(hit.sample)));
+        builder.around_overview(builder.on_overview(glm::dvec2(hit.surface.sample)));
     const glm::dvec2 inside = glm::clamp(on_overview, glm::dvec2(0.0), last);
+    if (hit.is_sunny) {
+        const scene::IrradianceParts parts =
+            irradiance_->parts_at(part.normal_at(place), part.up, irradiance_->openness(inside));
+        return albedo * (*hit.is_sunny ? parts.sky + parts.sun : parts.sky);
+    }
     return albedo * irradiance_->at(part.normal_at(place), part.up, irradiance_->visibility(inside),
                                     irradiance_->openness(inside));
 }
@@ -195,10 +283,10 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
     batch.colors.resize(batch.places.size());
     for (std::size_t i = 0; i < batch.hits.size(); ++i) {
         const Ray ray = eye.ray(batch.places[i]);
-        if (!batch.mesh_hits.empty() && batch.mesh_hits[i]) {
-            const MeshHit& hit = *batch.mesh_hits[i];
-            batch.colors[i] = backdrop_.through_air(meshes_.color_at(hit, backdrop_.sun), ray,
-                                                    eye.distance(ray, hit.t));
+        if (const MeshHit* const hit = batch.mesh_hit(i)) {
+            const glm::vec3 color =
+                meshes_.color_at(*hit, backdrop_.sun, batch.sun_at(i).value_or(true));
+            batch.colors[i] = backdrop_.through_air(color, ray, eye.distance(ray, hit->t));
         } else if (!batch.hits[i]) {
             batch.colors[i] = backdrop_.behind(ray);
         }
@@ -237,21 +325,23 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
         whole = stream.maker().make(hits.tile, content->heights, content->picture);
     }
     for (const std::uint32_t ray : hits.rays) {
-        const terrain::SurfaceHit& hit = *batch.hits[ray];
+        const TerrainHit hit{*batch.hits[ray], batch.sun_at(ray)};
         const glm::vec3 color = color_in_tile(*content, whole ? &*whole : nullptr, hits.tile, hit);
         const Ray view_ray = eye.ray(batch.places[ray]);
-        batch.colors[ray] = backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.t));
+        batch.colors[ray] =
+            backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.surface.t));
     }
     return {};
 }
 
 // Calls `use(pixel, batch, index of the pixel's first ray)`.
 template <class Use>
-Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int rays_per_side,
-                                           bool has_colors, const ParallelOptions& parallel,
+Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size,
+                                           const DrawOptions& options, bool has_colors,
                                            const Use& use) {
+    const ParallelOptions& parallel = options.parallel;
     check(size.x >= 1 && size.y >= 1, "a picture of at least 1x1 pixels was expected");
-    const std::size_t per_pixel = places_per_pixel(rays_per_side);
+    const std::size_t per_pixel = places_per_pixel(options.rays_per_side);
     const std::size_t pixels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
     const std::size_t per_batch = std::max<std::size_t>(1, rays_per_batch_ / per_pixel);
     // Down the columns: the pixels of a column show the same tiles, near to far.
@@ -264,7 +354,7 @@ Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int 
         Batch batch;
         batch.places.reserve((end - first) * per_pixel);
         for (std::size_t i = first; i < end; ++i) {
-            add_places(pixel_at(i), rays_per_side, batch.places);
+            add_places(pixel_at(i), options.rays_per_side, batch.places);
         }
         const auto progress = [&](double part) {
             const double done =
@@ -275,6 +365,11 @@ Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size, int 
         of_batch.progress = parallel.progress ? Progress(progress) : Progress();
         if (auto traced = trace(eye, batch, of_batch); !traced) {
             return traced;
+        }
+        if (has_colors && backdrop_.sun && options.shadow == SunShadow::ray) {
+            if (auto found = find_sun(eye, batch, parallel); !found) {
+                return found;
+            }
         }
         if (auto shaded = has_colors ? shade(eye, batch, parallel) : Result<void>(); !shaded) {
             return shaded;
@@ -303,7 +398,7 @@ Result<Picture> StreamedTruth::draw(const scene::Camera& camera, glm::ivec2 size
         }
         picture.image(pixel.x, pixel.y) = rgba8_from_linear(color);
     };
-    const auto done = for_each_batch(eye_of(camera, size), size, n, true, options.parallel, use);
+    const auto done = for_each_batch(eye_of(camera, size), size, options, true, use);
     return done ? Result<Picture>(std::move(picture)) : done.error();
 }
 
@@ -313,7 +408,8 @@ Result<HitBuffer> StreamedTruth::draw_hits(const scene::Camera& camera, glm::ive
     const auto use = [&](glm::ivec2 pixel, const Batch& batch, std::size_t first) {
         hits(pixel.x, pixel.y) = shown_hit(batch, first);
     };
-    const auto done = for_each_batch(eye_of(camera, size), size, 1, false, parallel, use);
+    const auto done =
+        for_each_batch(eye_of(camera, size), size, {.parallel = parallel}, false, use);
     return done ? Result<HitBuffer>(std::move(hits)) : done.error();
 }
 

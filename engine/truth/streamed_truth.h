@@ -25,7 +25,8 @@ namespace reljef::truth {
 /// read when rays need them. A tile that cannot be read is an error.
 ///
 /// Hits are those of the terrain in memory. Colours and normals are those of the full-resolution
-/// tiles, with their imagery. The shadows are the overview's, as those of drawn tiles are.
+/// tiles, with their imagery. With SunShadow::sweep the shadows are the overview's, as those of
+/// drawn tiles are; with SunShadow::ray, rays through all samples decide.
 class StreamedTruth {
 public:
     /// `memory_budget`: bytes for rays and tiles; absent: that of the stream. Fails unless the
@@ -33,7 +34,7 @@ public:
     static Result<StreamedTruth> create(const scene::Scene& scene,
                                         std::optional<std::size_t> memory_budget = {});
 
-    /// As truth::draw(), with SunShadow::sweep. Also fails if a tile cannot be read.
+    /// As truth::draw(). Also fails if a tile cannot be read.
     Result<Picture> draw(const scene::Camera& camera, glm::ivec2 size,
                          const DrawOptions& options = {});
     Result<HitBuffer> draw_hits(const scene::Camera& camera, glm::ivec2 size,
@@ -63,8 +64,14 @@ private:
     static Hit shown_hit(const Batch& batch, std::size_t ray);
     void trace_meshes(const Eye& eye, Batch& batch) const;
     Result<void> trace(const Eye& eye, Batch& batch, const ParallelOptions& parallel);
+    [[nodiscard]] std::optional<Ray> sun_ray(const Eye& eye, const Batch& batch,
+                                             std::size_t ray) const;
+    Result<std::vector<bool>> are_below(std::span<const Ray> local_rays,
+                                        const ParallelOptions& parallel);
+    Result<void> find_sun(const Eye& eye, Batch& batch, const ParallelOptions& parallel);
     Result<void> shade(const Eye& eye, Batch& batch, const ParallelOptions& parallel) const;
     struct TileHits;
+    struct TerrainHit; // with its sun
     static std::vector<TileHits>
     hits_by_tile(const scene::TileBuilder& builder,
                  std::span<const std::optional<terrain::SurfaceHit>> hits);
@@ -72,10 +79,10 @@ private:
                             const std::stop_token& stop) const;
     [[nodiscard]] glm::vec3 color_in_tile(const scene::TileContent& content,
                                           const scene::TerrainTile* whole, terrain::TreeTile tile,
-                                          const terrain::SurfaceHit& hit) const;
+                                          const TerrainHit& hit) const;
     template <class Use>
-    Result<void> for_each_batch(const Eye& eye, glm::ivec2 size, int rays_per_side, bool has_colors,
-                                const ParallelOptions& parallel, const Use& use);
+    Result<void> for_each_batch(const Eye& eye, glm::ivec2 size, const DrawOptions& options,
+                                bool has_colors, const Use& use);
 
     StreamedSurface surface_;
     MeshCaster meshes_;

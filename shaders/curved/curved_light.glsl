@@ -30,11 +30,20 @@ float light_end_part() {
 
 // Visible share of the sun.
 float sun_over_earth(vec2 place, vec3 relative) {
-    count_ray();
     Curve view = curve;
     vec2 view_range = curve_range;
     vec3 metres_of_view = metres_per_unit;
+#ifdef FACING
+    SurfaceCell cell = surface_cell(place);
+    curve = light_curve(vec3(place, height_in(cell) + shadow_lift), relative);
+    if (!faces_sun(cell, curve.terms[0])) {
+        curve = view;
+        return 0.0;
+    }
+#else
     curve = light_curve(vec3(place, height_at(place) + shadow_lift), relative);
+#endif
+    count_ray();
     vec2 range = vec2(0.0, light_end_part());
 #if defined(SOFT_SHADOW) || !(defined(EXACT) || defined(CONE))
     range = vec2(0.0, range_inside(range).y);

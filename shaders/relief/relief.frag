@@ -151,7 +151,11 @@ float share_of_sun_at(vec2 place, vec3 relative) {
     return sun_over_earth(place, relative);
 #else
     vec3 sun_direction = space_from_relative * to_sun.xyz;
+#ifdef FACING
+    return sun_from_hit(place, sun_direction, box_begin.xyz, box_end.xyz);
+#else
     return sun_at(place, sun_direction, box_begin.xyz, box_end.xyz);
+#endif
 #endif
 }
 #endif

@@ -32,12 +32,15 @@ float share_of_sun(vec3 start, vec3 span) {
     return clamp(1.0 - deepest / shadow_depth, 0.0, 1.0);
 }
 #else
-// 1 if the ray is free (Policarpo, Oliveira and Comba 2005).
+// 1 if the ray is free (Policarpo, Oliveira and Comba 2005). It begins where cones are closed: their minimum steps
+// would skip what hides the sun.
 float share_of_sun(vec3 start, vec3 span) {
     float part;
     vec2 place;
 #ifdef CURVED
     return find_between(curve_range, false, part, place) ? 0.0 : 1.0;
+#elif defined(CONE) && !defined(TILE)
+    return find_exact_hit(start, span, part, place) ? 0.0 : 1.0;
 #else
     return find_hit(start, span, part, place) ? 0.0 : 1.0;
 #endif
@@ -50,3 +53,68 @@ float sun_at(vec2 place, vec3 sun_direction, vec3 low, vec3 high) {
     vec3 start = vec3(place, height_at(place) + outward() * shadow_lift);
     return share_of_sun(start, way_out(start, sun_direction, low, high));
 }
+
+#if defined(HARD_SHADOW) && !defined(TILE) && !defined(LAYERS)
+#define FACING
+// The bilinear surface in the cell of a hit, as exact as the hit: filtered heights may be rounded to 1/256 of a
+// cell, which is decimetres on a wall.
+struct SurfaceCell {
+    vec4 corners; // as from textureGather
+    vec2 part;    // of the place, [0,1]
+    vec2 extent;  // in the search space
+};
+
+#ifdef STREAMED
+SurfaceCell surface_cell(vec2 place) {
+    ivec2 cell = cell_at(place);
+    StreamedTile tile = tile_of_page(page_of(cell).x);
+    TileCell found = tile_cell(cell, tile.level);
+    count_taps(1.0);
+    vec4 corners =
+        textureGather(height_tiles, vec3((vec2(found.index) + 1.0) * height_texel, tile.layer));
+    return SurfaceCell((corners - height_span.x) * height_span.z,
+                       clamp((place - found.corner) / found.extent, 0.0, 1.0), found.extent);
+}
+#else
+SurfaceCell surface_cell(vec2 place) {
+    ivec2 last = textureSize(height_map, 0) - 2;
+    ivec2 cell = clamp(ivec2(floor(place)) + origin_cell, ivec2(0), last);
+    count_taps(1.0);
+    vec4 corners = textureGather(height_map, (vec2(cell) + 1.0) * height_texel);
+    return SurfaceCell(corners, clamp(place - vec2(cell - origin_cell), 0.0, 1.0), vec2(1.0));
+}
+#endif
+
+float height_in(SurfaceCell cell) {
+    vec2 columns = mix(cell.corners.wz, cell.corners.xy, cell.part.y);
+    return mix(columns.x, columns.y, cell.part.x);
+}
+
+// Whether the surface rises less than the ray to the sun. If not, that ray leads into the ground, whatever rounding
+// makes of its start.
+bool faces_sun(SurfaceCell cell, vec3 sun_direction) {
+    vec4 h = cell.corners;
+    vec2 slopes = vec2(mix(h.z - h.w, h.y - h.x, cell.part.y), mix(h.x - h.w, h.y - h.z, cell.part.x));
+    return dot(slopes / cell.extent, sun_direction.xy) < sun_direction.z;
+}
+
+#ifndef CURVED
+// Exact searches round heights in [0,1] by a few 2^-24. Others step over what is lower.
+#if defined(EXACT) || defined(CONE)
+const float hit_lift = 1.0 / 1048576.0;
+#else
+const float hit_lift = shadow_lift;
+#endif
+
+// Whether a ray of the same search reaches the sun.
+float sun_from_hit(vec2 place, vec3 sun_direction, vec3 low, vec3 high) {
+    SurfaceCell cell = surface_cell(place);
+    if (!faces_sun(cell, sun_direction)) {
+        return 0.0;
+    }
+    count_ray();
+    vec3 start = vec3(place, height_in(cell) + hit_lift);
+    return share_of_sun(start, way_out(start, sun_direction, low, high));
+}
+#endif
+#endif

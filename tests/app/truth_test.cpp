@@ -102,6 +102,12 @@ TEST_F(TruthOption, IsTheSameWithAnyNumberOfThreads) {
     EXPECT_TRUE(std::equal(one.samples().begin(), one.samples().end(), three.samples().begin()));
 }
 
+TEST_F(TruthOption, HasShadowsByRaysWithATechniqueThatCastsThem) {
+    EXPECT_EQ(picture({"--truth", "--technique", "exact"}), picture({"--truth"}));
+    EXPECT_NE(picture({"--truth", "--technique", "exact:shadow=hard", "--sun", "90,5"}),
+              picture({"--truth", "--sun", "90,5"}));
+}
+
 TEST_F(TruthOption, NeedsNoContext) {
     test::ProgramOptions options;
     options.environment = {{"DISPLAY", std::nullopt}};
@@ -116,6 +122,7 @@ TEST_F(TruthOption, RefusesWhatMakesNoSenseWithRays) {
     const std::string file = (folder_.path() / "a.png").string();
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--truth", "--wireframe"},
                                                  {"--truth", "--technique", "texture"},
+                                                 {"--truth", "--technique", "exact:shadow=soft"},
                                                  {"--truth", "--context", "osmesa"},
                                                  {"--truth", "--samples", "4"},
                                                  {"--rays", "2"},

@@ -47,6 +47,7 @@ template <class Height> scene::TileContentReader reader_of(const Height& height)
 struct Streamed {
     scene::Scene scene;
     scene::Node* node = nullptr;
+    scene::Node* light = nullptr;
 
     [[nodiscard]] const scene::TerrainSurface& surface() const {
         return *terrain_of(*node).surface;
@@ -60,7 +61,7 @@ struct Streamed {
 Streamed streamed(terrain::Heightfield overview, int reduction, scene::TileContentReader read) {
     Streamed made;
     made.node = &test::add_terrain(made.scene, std::move(overview));
-    made.scene.add_light();
+    made.light = &made.scene.add_light();
     made.scene.set_sky({});
     scene::TerrainNode& terrain = terrain_of(*made.node);
     scene::TileStreamOptions options;
@@ -161,6 +162,41 @@ TEST(StreamedTruth, MeshesAreWhereTheyAreOverTheTerrainInMemory) {
         }
     }
     EXPECT_GT(on_mesh, 20);
+}
+
+// Pixels that only one of two pictures shows black.
+int pixels_in_other_light(const Image& a, const Image& b) {
+    int different = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        different += (a.samples()[i].r == 0) != (b.samples()[i].r == 0) ? 1 : 0;
+    }
+    return different;
+}
+
+// The sun alone: what it does not reach is black.
+TEST(StreamedTruth, ShadowsByRaysAreThoseOverTheTerrainInMemory) {
+    Streamed made = rough_on_plane();
+    made.scene.root().remove(*made.light);
+    made.scene.add_light({250.0, 12.0, glm::vec3(2.0F), glm::vec3(0.0F)});
+    const Box bounds = made.surface().bounds();
+    made.scene.add_mesh(scene::box_mesh(glm::vec3(900.0F)))
+        .set_position({glm::dvec2(bounds.center()), bounds.high.z});
+    scene::Camera camera;
+    camera.eye = bounds.center() + glm::dvec3(0.0, -1.2 * bounds.size().y, 3000.0);
+    camera.target = bounds.center();
+    constexpr glm::ivec2 size{64, 48};
+    const DrawOptions by_rays{.shadow = SunShadow::ray};
+    const auto truth = made.truth().draw(camera, size, by_rays);
+    const auto swept = made.truth().draw(camera, size);
+    ASSERT_TRUE(truth && swept);
+    terrain_of(*made.node).stream = nullptr;
+    const SceneCaster caster = SceneCaster::create(made.scene).value();
+    const auto in_memory =
+        draw(caster, Shading(made.scene, caster, SunShadow::ray), camera, size, by_rays);
+    ASSERT_TRUE(in_memory);
+    EXPECT_LE(pixels_in_other_light(truth->image, in_memory->image),
+              5); // slopes along the sun's rays
+    EXPECT_GE(pixels_in_other_light(truth->image, swept->image), 50);
 }
 
 TEST(StreamedTruth, VerticalRaysOfAMapHitTheTerrain) {

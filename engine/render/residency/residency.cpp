@@ -54,9 +54,8 @@ Result<ResidentMaps> make_maps(const scene::TerrainSurface& surface,
 std::optional<scene::TerrainLight> light_of_certain_sun(const view::DrawList& list,
                                                         const view::TerrainDraw& draw) {
     const scene::Technique& technique = draw.terrain->material.technique;
-    const bool casts_hard_shadows = technique.id() == scene::TechniqueId::exact &&
-                                    technique.options.shadow &&
-                                    technique.options.shadow->depth <= 0.0;
+    const bool casts_hard_shadows =
+        technique.id() == scene::TechniqueId::exact && scene::casts_hard_shadows(technique.options);
     const auto light = view::light_on(list, draw.world_from_local);
     const bool is_known =
         casts_hard_shadows && light &&

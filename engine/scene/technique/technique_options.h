@@ -56,6 +56,11 @@ struct TechniqueOptions {
     friend bool operator==(const TechniqueOptions&, const TechniqueOptions&) = default;
 };
 
+/// Whether rays to the sun decide what is in shadow, without penumbra.
+inline bool casts_hard_shadows(const TechniqueOptions& options) {
+    return options.shadow && options.shadow->depth <= 0.0;
+}
+
 /// A number of an option: its row, and access to the member that holds it.
 struct OptionNumberInfo : NumberInfo {
     std::optional<double> (*getter)(const TechniqueOptions&) = nullptr;

@@ -71,6 +71,7 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
             .add("mesh", std::move(mesh.node))
             .set_parent_from_local(mesh.world_from_local);
     }
+    truth.shadow_ = truth::sun_shadow_of(scene);
     truth.sun_ = scene.sun();
     if (truth.sun_) {
         truth.scene_.add_light(*truth.sun_);
@@ -82,8 +83,9 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
 }
 
 bool SceneTruth::is_of(const scene::Scene& scene) const {
-    return sun_ == scene.sun() && scene_.sky() == scene.sky() &&
-           terrains_of(scene_) == terrains_of(scene) && meshes_of(scene_) == meshes_of(scene);
+    return sun_ == scene.sun() && shadow_ == truth::sun_shadow_of(scene) &&
+           scene_.sky() == scene.sky() && terrains_of(scene_) == terrains_of(scene) &&
+           meshes_of(scene_) == meshes_of(scene);
 }
 
 Result<void> SceneTruth::prepare() {
@@ -99,14 +101,15 @@ Result<void> SceneTruth::prepare() {
         if (!caster) {
             return caster.error();
         }
-        caster_.emplace(std::move(*caster));
-        shading_.emplace(scene_, *caster_);
+        caster_ = std::make_unique<const truth::SceneCaster>(std::move(*caster));
+        shading_.emplace(scene_, *caster_, shadow_);
     }
     return {};
 }
 
 Result<truth::Picture> SceneTruth::draw(const scene::Camera& camera, glm::ivec2 size,
-                                        const truth::DrawOptions& options) {
+                                        truth::DrawOptions options) {
+    options.shadow = shadow_;
     if (auto prepared = prepare(); !prepared) {
         return prepared.error();
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include <glm/vec2.hpp>
@@ -25,9 +26,10 @@ public:
     /// Whether the scene still shows the same terrains in the same light.
     [[nodiscard]] bool is_of(const scene::Scene& scene) const;
 
-    /// As truth::draw(). The first call also computes the light, which no stop request ends.
+    /// As truth::draw(), with the shadows of truth::sun_shadow_of(). The first call also computes
+    /// the light, which no stop request ends.
     Result<truth::Picture> draw(const scene::Camera& camera, glm::ivec2 size,
-                                const truth::DrawOptions& options = {});
+                                truth::DrawOptions options = {});
     /// As truth::geometric_errors(). Precondition: draw() was called.
     Result<truth::GeometricErrors> errors(const scene::Camera& camera, const HitBuffer& shown,
                                           const HitBuffer& truth,
@@ -39,8 +41,9 @@ private:
 
     scene::Scene scene_; // terrains, light and sky
     std::optional<scene::Light> sun_;
+    truth::SunShadow shadow_ = truth::SunShadow::sweep;
     bool is_streamed_ = false;
-    std::optional<truth::SceneCaster> caster_;
+    std::unique_ptr<const truth::SceneCaster> caster_; // the shading refers to it
     std::optional<truth::Shading> shading_;
     std::optional<truth::StreamedTruth> streamed_;
 };

@@ -156,6 +156,24 @@ TEST_F(SceneTruthTest, DoesNotDependOnTheTechnique) {
     EXPECT_TRUE(truth.is_of(scene.scene));
 }
 
+TEST_F(SceneTruthTest, HasTheShadowsOfRaysWhereTheTechniqueCastsHardOnes) {
+    scene.scene
+        .add_mesh(scene::box_mesh(glm::vec3(static_cast<float>(scene.bounds.size().x) / 10.0F)))
+        .set_position({glm::dvec2(scene.bounds.center()), scene.bounds.high.z});
+    truth = SceneTruth::create(scene.scene).value();
+    scene.materials().front()->technique = scene::parse_technique("exact:shadow=hard").value();
+    EXPECT_FALSE(truth.is_of(scene.scene));
+    SceneTruth by_rays = SceneTruth::create(scene.scene).value();
+    const auto drawn = by_rays.draw(camera, size);
+    const auto moved = SceneTruth(std::move(by_rays)).draw(camera, size);
+    const auto expected = truth::draw(scene.scene, size, {.shadow = truth::SunShadow::ray});
+    const auto swept = truth.draw(camera, size);
+    ASSERT_TRUE(drawn && moved && expected && swept);
+    EXPECT_EQ(drawn->image, expected->image);
+    EXPECT_EQ(moved->image, expected->image);
+    EXPECT_NE(swept->image, expected->image);
+}
+
 TEST_F(SceneTruthTest, HasObjectsAndEndsWhereTheyMove) {
     scene::Node& box = scene.scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
     EXPECT_FALSE(truth.is_of(scene.scene));

@@ -1,0 +1,171 @@
+// What pictures light, beside the truth's own rays to the sun.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "engine/cast/frame/driver.h"
+#include "engine/scene/motion/poses.h"
+#include "terrains/generators.h"
+#include "tests/cast/frame/true_sun.h"
+#include "tests/cast/made_rays.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/session/made_session.h"
+#include "tests/support/release_only.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr glm::ivec2 sunny_picture{320, 240};
+constexpr int compared_pixels = 3000; // of a picture
+
+// White ground below a sun alone, seen from poses and from 0.3 m above the ground.
+struct SunStage : Stage {
+    scene::Node* light = nullptr;
+
+    explicit SunStage(const terrain::Heightfield& heightfield)
+        : Stage(heightfield.heights, heightfield.spacing) {
+        light = &scene.add_light();
+    }
+    void use(const std::string& technique) {
+        terrain->get<scene::TerrainNode>()->material.technique =
+            test::must(scene::parse_technique(technique));
+    }
+    // Floats round heights by a few 2^-20 of the largest one: so do rays that begin above it.
+    [[nodiscard]] test::SunTolerance tolerance() const {
+        const terrain::MinMax total = surface().pyramid().total();
+        return {.metres = 0x1p-18 * std::max(std::abs(total.low), std::abs(total.high))};
+    }
+    [[nodiscard]] double ground(glm::dvec2 at) const {
+        return surface().height_at(at.x, at.y).value_or(surface().bounds().low.z);
+    }
+    void look_around(test::Chance& chance) {
+        *light->get<scene::Light>() =
+            test::bright_sun(chance.between(0.0, 360.0), chance.between(5.0, 80.0));
+        const int view = chance.whole(0, 7);
+        const Box bounds = surface().bounds();
+        if (view < 5) {
+            constexpr std::array poses{scene::Pose::overview, scene::Pose::low,
+                                       scene::Pose::grazing, scene::Pose::valley, scene::Pose::map};
+            look(scene::pose_camera(poses.at(static_cast<std::size_t>(view)), bounds,
+                                    [&](double x, double y) {
+                                        return ground({x, y});
+                                    }));
+            return;
+        }
+        const auto along = [&](double low, double high) {
+            return chance.between(0.9 * low + 0.1 * high, 0.1 * low + 0.9 * high);
+        };
+        const glm::dvec2 at(along(bounds.low.x, bounds.high.x), along(bounds.low.y, bounds.high.y));
+        scene::Camera camera = scene::camera_from_angles(
+            {at, ground(at) + 0.3}, chance.between(0.0, 360.0), chance.between(-10.0, 5.0));
+        camera.near = 0.01;
+        look(camera);
+    }
+};
+
+// `draw`: the picture of a scene.
+template <class Draw>
+test::LightCounts compared_pictures(SunStage& stage, unsigned seed, int views, const Draw& draw) {
+    test::Chance chance(seed);
+    test::LightCounts counts;
+    for (int view = 0; view < views; ++view) {
+        stage.look_around(chance);
+        const test::TrueSun truth(stage.scene, sunny_picture, stage.tolerance());
+        counts += test::compared_light(truth, draw(stage.scene), compared_pixels, chance);
+    }
+    return counts;
+}
+
+// At most one of `certain` pixels whose light is certain may have another one.
+void expect_true_light(const test::LightCounts& counts, int views, int certain = 20'000) {
+    EXPECT_GT(counts.lit, 100 * views);
+    EXPECT_GT(counts.hidden, 60 * views);
+    EXPECT_LT(counts.unstable, counts.certain() / 50);
+    EXPECT_LE(counts.wrong(), counts.certain() / certain)
+        << counts.wrongly_dark << " dark, " << counts.wrongly_lit << " lit, of "
+        << counts.certain();
+}
+
+terrain::Heightfield city() {
+    return test::must(terrains::generate_urban({.size = 385, .seed = 3})).heightfield;
+}
+
+terrain::Heightfield mountains() {
+    return test::must(terrains::generate_natural({.size = 257, .seed = 5})).heightfield;
+}
+
+// A lidar model: walls of 90 m in cells of 5 m, trees, water.
+terrain::Heightfield scanned_city() {
+    session::SourceOptions options;
+    options.terrain = test::data_path("urban/delft/tud-dsm-5m.tif").string();
+    terrain::Heightfield read = test::must(test::open_terrain(options)).terrain.heightfield;
+    return test::plane_heightfield(std::move(read.heights), read.spacing);
+}
+
+Image sunlit_by_rays(const scene::Scene& scene) {
+    Driver driver = test::must(Driver::create({.size = sunny_picture}));
+    test::must(driver.draw(view::select(scene, sunny_picture)));
+    return driver.read_color();
+}
+
+void expect_true_light_by_rays(const terrain::Heightfield& heightfield, unsigned seed) {
+    const int views = test::rounds(24, 2);
+    SunStage stage(heightfield);
+    stage.use("exact:shadow=hard");
+    expect_true_light(compared_pictures(stage, seed, views, sunlit_by_rays), views);
+}
+
+TEST(TrueSun, ReachesWhatRaysLightInACity) {
+    expect_true_light_by_rays(city(), 11);
+}
+
+TEST(TrueSun, ReachesWhatRaysLightInMountains) {
+    expect_true_light_by_rays(mountains(), 12);
+}
+
+TEST(TrueSun, ReachesWhatRaysLightInAScannedCity) {
+    RELJEF_NEED_DATA("urban/delft/tud-dsm-5m.tif");
+    expect_true_light_by_rays(scanned_city(), 13);
+}
+
+class TrueSunGlTest : public test::GlTest {
+protected:
+    static constexpr int views = test::rounds(24, 1);
+
+    static test::LightCounts compared(const std::string& technique,
+                                      const terrain::Heightfield& heightfield, unsigned seed) {
+        SunStage stage(heightfield);
+        stage.use(technique);
+        session::SceneRenderer renderer = test::must(test::make_renderer(sunny_picture));
+        const auto draw = [&](const scene::Scene& scene) {
+            test::must(renderer.draw(scene));
+            return renderer.read_color();
+        };
+        return compared_pictures(stage, seed, views, draw);
+    }
+};
+
+TEST_F(TrueSunGlTest, ReachesWhatShadersLightInACity) {
+    expect_true_light(compared("exact:shadow=hard", city(), 21), views);
+}
+
+TEST_F(TrueSunGlTest, ReachesWhatShadersLightInMountains) {
+    expect_true_light(compared("exact:shadow=hard", mountains(), 22), views);
+}
+
+TEST_F(TrueSunGlTest, ReachesWhatShadersLightInAScannedCity) {
+    RELJEF_NEED_DATA("urban/delft/tud-dsm-5m.tif");
+    expect_true_light(compared("exact:shadow=hard", scanned_city(), 23), views);
+}
+
+// Without minimum steps cones find the true hits, within the secant of their last step.
+TEST_F(TrueSunGlTest, ReachesWhatConesLight) {
+    expect_true_light(compared("cone:step=0,shadow=hard", city(), 24), views, 2000);
+}
+
+} // namespace
+} // namespace reljef::cast
