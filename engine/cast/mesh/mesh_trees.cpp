@@ -177,8 +177,11 @@ std::optional<MeshHit> PlacedMeshes::first_hit(const Ray& ray, Interval range) c
     Query query;
     rtcInitIntersectContext(&query.context);
     RTCRayHit found{};
-    found.ray = float_ray(glm::vec3(ray.origin), glm::vec3(ray.direction),
-                          static_cast<float>(range.begin), static_cast<float>(range.end));
+    // Embree aborts on a range that begins before the origin, as that of a map may.
+    const double moved = std::min(range.begin, 0.0);
+    found.ray =
+        float_ray(glm::vec3(ray.at(moved)), glm::vec3(ray.direction),
+                  static_cast<float>(range.begin - moved), static_cast<float>(range.end - moved));
     found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     found.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_->scene, &query.context, &found);

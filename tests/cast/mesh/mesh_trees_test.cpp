@@ -114,6 +114,19 @@ TEST(MeshTrees, ShowTheOutsideAndHideFromBothSides) {
 }
 
 // Trees may show triangles in any order: the first mesh's first triangle wins.
+// As those of maps, whose eye is among what they show.
+TEST(MeshTrees, RaysMayHitBeforeTheirOrigin) {
+    MadeMeshes made;
+    made.add(scene::box_mesh(glm::vec3(2.0F)), placed({0.0, 0.0, 50.0}));
+    MeshTrees trees;
+    const PlacedMeshes meshes = test::must(trees.place(made.draws, {}, glm::dvec3(0.0)));
+    const Ray down{{0.1, 0.2, 0.0}, {0.0, 0.0, -1.0}};
+    const auto hit = meshes.first_hit(down, {-1000.0, 1000.0});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->t, -51.0, 1e-9);
+    EXPECT_FALSE(meshes.first_hit(down, {-10.0, 1000.0}));
+}
+
 TEST(MeshTrees, OfEqualTrianglesTheFirstWins) {
     scene::Mesh twice = scene::plane_mesh({2.0F, 2.0F});
     const std::vector<std::uint32_t> once = twice.indices;
