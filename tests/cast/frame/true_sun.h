@@ -29,13 +29,13 @@ struct SunTolerance {
 };
 
 enum class TrueLight {
-    none,     ///< the pixel shows no terrain, or one that is turned away from the sun
+    none,     ///< the pixel shows the sky, or what is turned away from the sun
     unstable, ///< it changes within the tolerance
     lit,
     hidden
 };
 
-/// What the truth's own rays say of the pixels of a scene with one terrain and a sun.
+/// What the truth's own rays say of the pixels of a scene with one terrain, meshes and a sun.
 class TrueSun {
 public:
     TrueSun(const scene::Scene& scene, glm::ivec2 size, const SunTolerance& tolerance)
@@ -45,40 +45,65 @@ public:
                       {sun_, glm::dmat3(caster_.terrains().front().world_from_local)}) {}
 
     [[nodiscard]] TrueLight at(glm::dvec2 place) const {
-        const auto hit = hit_at(place);
-        if (!hit || irradiance_.parts_at(glm::dvec2(hit->surface.sample)).sun.r < 1.0F) {
+        const Seen seen = seen_at(place);
+        if (sunlight_of(seen) < 1.0F) {
             return TrueLight::none;
         }
-        const glm::dvec3 to_sun = scene::to_light(sun_);
-        const bool is_lit = sees(*hit, to_sun);
-        return is_stable(place, *hit, is_lit) ? (is_lit ? TrueLight::lit : TrueLight::hidden)
+        const bool is_lit = sees(seen, scene::to_light(sun_));
+        return is_stable(place, seen, is_lit) ? (is_lit ? TrueLight::lit : TrueLight::hidden)
                                               : TrueLight::unstable;
-    }
-    [[nodiscard]] std::optional<truth::SceneHit> hit_at(glm::dvec2 place) const {
-        return caster_.first_hit(eye_.ray(place), eye_.range());
     }
 
 private:
     static constexpr std::array<glm::dvec2, 4> ways{
         {{-1.0, -1.0}, {1.0, -1.0}, {-1.0, 1.0}, {1.0, 1.0}}};
 
-    [[nodiscard]] bool sees(const truth::SceneHit& hit, glm::dvec3 to_sun) const {
-        return truth::sees_sun(caster_, hit, to_sun);
+    // The nearest of both.
+    struct Seen {
+        Ray ray;
+        std::optional<truth::SceneHit> ground;
+        std::optional<truth::MeshHit> mesh;
+    };
+
+    [[nodiscard]] Seen seen_at(glm::dvec2 place) const {
+        Seen seen{eye_.ray(place), {}, {}};
+        Interval range = eye_.range();
+        seen.ground = caster_.first_hit(seen.ray, range);
+        range.end = seen.ground ? seen.ground->surface.t : range.end;
+        seen.mesh = caster_.meshes().first_hit(seen.ray, range);
+        return seen;
     }
-    [[nodiscard]] bool is_stable(glm::dvec2 place, truth::SceneHit hit, bool is_lit) const {
+    // If nothing hides the sun.
+    [[nodiscard]] float sunlight_of(const Seen& seen) const {
+        if (seen.mesh) {
+            return caster_.meshes().color_at(*seen.mesh, sun_).r;
+        }
+        return seen.ground ? irradiance_.parts_at(glm::dvec2(seen.ground->surface.sample)).sun.r
+                           : 0.0F;
+    }
+    [[nodiscard]] bool sees(const Seen& seen, glm::dvec3 to_sun) const {
+        if (seen.mesh) {
+            return truth::sees_sun(caster_, *seen.mesh, seen.ray, to_sun);
+        }
+        return seen.ground && truth::sees_sun(caster_, *seen.ground, to_sun);
+    }
+    [[nodiscard]] bool is_stable(glm::dvec2 place, Seen seen, bool is_lit) const {
         const glm::dvec3 to_sun = scene::to_light(sun_);
         const glm::dvec3 aside = glm::normalize(glm::cross(to_sun, glm::dvec3(0.1, 0.2, 0.97)));
         const glm::dvec3 above = glm::cross(aside, to_sun);
         for (const glm::dvec2 way : ways) {
-            const auto beside = hit_at(place + tolerance_.pixels * way);
+            const Seen beside = seen_at(place + tolerance_.pixels * way);
             const glm::dvec2 turn = tolerance_.radians * way;
             const glm::dvec3 turned = glm::normalize(to_sun + turn.x * aside + turn.y * above);
-            if (!beside || sees(*beside, to_sun) != is_lit || sees(hit, turned) != is_lit) {
+            if (beside.mesh.has_value() != seen.mesh.has_value() ||
+                sees(beside, to_sun) != is_lit || sees(seen, turned) != is_lit) {
                 return false;
             }
         }
-        hit.surface.sample.z += tolerance_.metres;
-        return sees(hit, to_sun) == is_lit;
+        if (seen.ground) {
+            seen.ground->surface.sample.z += tolerance_.metres;
+        }
+        return sees(seen, to_sun) == is_lit;
     }
 
     truth::SceneCaster caster_;

@@ -132,6 +132,32 @@ TEST(TrueSun, ReachesWhatRaysLightInAScannedCity) {
     expect_true_light_by_rays(scanned_city(), 13);
 }
 
+// Some are half in the ground; all cast shadows on each other and on the ground.
+void add_objects(SunStage& stage, test::Chance& chance) {
+    const Box bounds = stage.surface().bounds();
+    const auto size = static_cast<float>(0.06 * bounds.size().x);
+    scene::Material grey;
+    grey.color = glm::vec3(0.5F);
+    for (int i = 0; i < 16; ++i) {
+        const glm::dvec2 at(chance.between(bounds.low.x, bounds.high.x),
+                            chance.between(bounds.low.y, bounds.high.y));
+        const std::array meshes{scene::box_mesh({size, 0.5F * size, 3.0F * size}),
+                                scene::sphere_mesh(size), scene::torus_mesh(size, 0.3F * size),
+                                scene::cylinder_mesh(0.3F * size, 3.0F * size)};
+        stage.scene.add_mesh(meshes.at(static_cast<std::size_t>(i % 4)), grey)
+            .set_position({at, stage.ground(at) + 0.5 * size});
+    }
+}
+
+TEST(TrueSun, ReachesWhatRaysLightOfMeshesAndBesideThem) {
+    const int views = test::rounds(24, 2);
+    SunStage stage(mountains());
+    stage.use("exact:shadow=hard");
+    test::Chance chance(14);
+    add_objects(stage, chance);
+    expect_true_light(compared_pictures(stage, 15, views, sunlit_by_rays), views);
+}
+
 class TrueSunGlTest : public test::GlTest {
 protected:
     static constexpr int views = test::rounds(24, 1);
