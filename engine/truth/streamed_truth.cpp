@@ -334,6 +334,12 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
     return {};
 }
 
+Result<void> StreamedTruth::color(const Eye& eye, Batch& batch, const DrawOptions& options) {
+    const bool casts_rays = backdrop_.sun && options.shadow == SunShadow::ray;
+    auto found = casts_rays ? find_sun(eye, batch, options.parallel) : Result<void>();
+    return found ? shade(eye, batch, options.parallel) : found;
+}
+
 // Calls `use(pixel, batch, index of the pixel's first ray)`.
 template <class Use>
 Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size,
@@ -366,13 +372,8 @@ Result<void> StreamedTruth::for_each_batch(const Eye& eye, glm::ivec2 size,
         if (auto traced = trace(eye, batch, of_batch); !traced) {
             return traced;
         }
-        if (has_colors && backdrop_.sun && options.shadow == SunShadow::ray) {
-            if (auto found = find_sun(eye, batch, parallel); !found) {
-                return found;
-            }
-        }
-        if (auto shaded = has_colors ? shade(eye, batch, parallel) : Result<void>(); !shaded) {
-            return shaded;
+        if (auto done = has_colors ? color(eye, batch, options) : Result<void>(); !done) {
+            return done;
         }
         for (std::size_t i = first; i < end; ++i) {
             use(pixel_at(i), batch, (i - first) * per_pixel);

@@ -70,6 +70,7 @@ private:
                                         const ParallelOptions& parallel);
     Result<void> find_sun(const Eye& eye, Batch& batch, const ParallelOptions& parallel);
     Result<void> shade(const Eye& eye, Batch& batch, const ParallelOptions& parallel) const;
+    Result<void> color(const Eye& eye, Batch& batch, const DrawOptions& options);
     struct TileHits;
     struct TerrainHit; // with its sun
     static std::vector<TileHits>
