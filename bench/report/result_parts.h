@@ -29,6 +29,7 @@ template <class Part> Result<std::vector<Part>> whole_run(std::vector<Part> part
         return origin_of(a).shard.index < origin_of(b).shard.index;
     });
     std::vector<PartOrigin> origins;
+    origins.reserve(parts.size());
     for (const Part& part : parts) {
         origins.push_back(origin_of(part));
     }

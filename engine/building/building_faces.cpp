@@ -31,7 +31,8 @@ public:
 
 private:
     [[nodiscard]] glm::dvec2 window_at(glm::dvec3 place) const {
-        const double along = glm::distance(begin_, glm::dvec2(place)) / length_;
+        const double along = // an edge may be shorter than the square root of the least number
+            length_ > 0.0 ? glm::distance(begin_, glm::dvec2(place)) / length_ : 0.0;
         const double down = (extent_.eaves - place.z) / (extent_.eaves - extent_.ground);
         return {along * bays_, down * storeys_};
     }

@@ -145,6 +145,12 @@ TEST(Buildings, OutlinesOfAllSizesHaveARoof) {
             EXPECT_FALSE(faces.empty()) << size << " " << width;
         }
     }
+    const Footprint least = triangle({0.0, 0.0}, {1e-200, 0.0}, {0.0, 9.0});
+    for (const Face& face : building_of(least, RoofKind::flat, -1.0, 9.0)) {
+        for (const glm::dvec2 window : face.facade) {
+            EXPECT_TRUE(std::isfinite(window.x) && std::isfinite(window.y));
+        }
+    }
     EXPECT_FALSE(has_hips(triangle({0.0, 0.0}, {1e-4, 0.0}, {0.0, 1e-4}), RoofKind::hipped));
     EXPECT_TRUE(has_hips(triangle({0.0, 0.0}, {9.0, 0.0}, {0.0, 9.0}), RoofKind::hipped));
 }

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "engine/io/checks/exr_bytes.h"
+#include "engine/io/checks/jpeg2000_bytes.h"
 #include "engine/io/checks/picture_bytes.h"
 
 namespace reljef::io {
@@ -31,6 +32,7 @@ Result<void> check_image_file(const fs::path& path) {
         return Error{fmt::format("{}: is empty, a picture was expected", path.string())};
     }
     auto good = check_exr(path.string());
+    good = good ? check_jpeg2000(path.string()) : good;
     return good ? check_png(path.string(), PngPart::whole) : good;
 }
 

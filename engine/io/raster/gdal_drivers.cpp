@@ -12,6 +12,7 @@
 #include <gdal_frmts.h>
 #include <ogrsf_frmts.h>
 
+#include "engine/io/checks/jpeg2000_bytes.h"
 #include "engine/io/checks/picture_bytes.h"
 #include "engine/io/raster/references.h"
 #include "engine/io/remote/read_scope.h"
@@ -287,6 +288,7 @@ Result<Dataset> open_checked(const std::string& name, const OpenRequest& request
     const ServerFileScope scope(name);
     auto good = check_references(name);
     good = good ? check_png(name, PngPart::until_pixels) : good;
+    good = good ? check_jpeg2000(name) : good;
     if (!good) {
         return good.error();
     }

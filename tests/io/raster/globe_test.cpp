@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/imagery/imagery_set.h"
+#include "engine/io/terrain_file.h"
 #include "engine/io/tree_tile.h"
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/placement.h"
