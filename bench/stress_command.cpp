@@ -29,7 +29,7 @@ struct StressChoice {
 };
 
 Result<void> write_stress(const StressResults& results, const OutputChoice& outputs) {
-    const std::string json = figure_json(figure_table(results));
+    std::string json = figure_json(figure_table(results));
     return write_report(outputs, {.json = [&] { return json; },
                                   .page =
                                       [&](const std::filesystem::path& folder) {
