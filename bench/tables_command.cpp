@@ -36,7 +36,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "NAME");
     command.add_flag(
         "--moving", choice.options.suite.moving,
-        "the view moves sideways between frames, so that no triangles are kept; errors "
+        "the view moves sideways between frames, which cuts most triangles anew; errors "
         "are of the view at rest");
     command.add_flag(
         "--distances", choice.distances,

@@ -102,6 +102,9 @@ Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& ren
     }
     const bool has_rays = scene::searches_surface(kind.technique.id());
     samples.pixels += count_pixels(scene, *hits, has_rays) / views;
+    if (kind.technique.id() != scene::TechniqueId::interval) {
+        return {};
+    }
     const auto work = renderer.count_work(scene.scene);
     if (!work) {
         return work.error();

@@ -67,6 +67,10 @@ public:
     [[nodiscard]] const scene::Scene& scene() const { return scene_.scene; }
     /// World metres.
     [[nodiscard]] const Box& bounds() const { return scene_.bounds; }
+    /// World metres; of a detail texture, of its plane.
+    [[nodiscard]] double ground(double x, double y) const {
+        return detail_ ? 0.0 : scene_.ground(x, y);
+    }
     /// Precondition: a terrain.
     [[nodiscard]] const scene::Node& terrain() const { return *scene_.terrain; }
 

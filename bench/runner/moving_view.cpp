@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace reljef::bench {
 namespace {
@@ -17,14 +18,18 @@ int steps_of(int frame) {
 
 } // namespace
 
-MovingView::MovingView(const scene::Camera& camera, const Box& bounds) : camera_(camera) {
+MovingView::MovingView(const scene::Camera& camera, const Box& bounds, GroundHeight ground)
+    : camera_(camera), ground_(std::move(ground)),
+      clearance_(camera.eye.z - ground_(camera.eye.x, camera.eye.y)) {
     const glm::dvec3 size = bounds.size();
     step_ = std::max(size.x, size.y) / frames_over_the_width * scene::view_axes(camera).right;
 }
 
 scene::Camera MovingView::at(int frame) const {
     scene::Camera moved = camera_;
-    const glm::dvec3 way = static_cast<double>(steps_of(frame)) * step_;
+    glm::dvec3 way = static_cast<double>(steps_of(frame)) * step_;
+    const glm::dvec3 beside = camera_.eye + way;
+    way.z += std::max(ground_(beside.x, beside.y) + clearance_ - beside.z, 0.0);
     moved.eye += way;
     moved.target += way;
     return moved;

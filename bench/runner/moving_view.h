@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
 
@@ -7,10 +9,11 @@ namespace reljef::bench {
 
 /// A camera that moves sideways, there and back around its place: in each frame as far as a flight
 /// over `bounds` (metres) in 20 s at 25 frames a second, up to a fiftieth of their width to each
-/// side.
+/// side. Where the ground rises, the camera rises with it, so that it stays as far above at least.
 class MovingView {
 public:
-    MovingView(const scene::Camera& camera, const Box& bounds);
+    using GroundHeight = std::function<double(double x, double y)>; ///< metres
+    MovingView(const scene::Camera& camera, const Box& bounds, GroundHeight ground);
 
     /// Of a frame, from 0 on. No two frames in a row have the same camera.
     [[nodiscard]] scene::Camera at(int frame) const;
@@ -18,6 +21,8 @@ public:
 private:
     scene::Camera camera_;
     glm::dvec3 step_{0.0}; // metres
+    GroundHeight ground_;
+    double clearance_ = 0.0; // metres
 };
 
 } // namespace reljef::bench

@@ -330,7 +330,7 @@ private:
             entry.row.view = std::move(*view);
         }
         const Stopwatch since_checked;
-        if (auto drawn = frame_of(entry, scene, renderer_of(entry, driver))(); !drawn) {
+        if (auto drawn = frame_of(entry, scene, renderer_of(entry, driver), {})(); !drawn) {
             return drawn.error();
         }
         const double frame = since_checked.seconds();
@@ -372,7 +372,8 @@ private:
                           session::SceneRenderer& driver, MeasureOptions timing) {
         std::optional<MovingView> moving;
         if (options_.moving) {
-            moving.emplace(scene.scene().camera(), scene.bounds());
+            moving.emplace(scene.scene().camera(), scene.bounds(),
+                           [&](double x, double y) { return scene.ground(x, y); });
         }
         std::vector<DrawFrame> frames;
         frames.reserve(entries.size());
@@ -387,6 +388,9 @@ private:
         }
         if (!measurement) {
             return measurement.error();
+        }
+        if (moving) {
+            scene.set_camera(moving->at(0));
         }
         keep_rows(std::move(entries), *measurement, noise_floor_of(*measurement, repeated));
         return {};

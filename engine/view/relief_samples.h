@@ -15,6 +15,9 @@ namespace reljef::view {
 /// errors of 2^-24, and a ray adds a few of them.
 inline constexpr double relief_margin = 1.0 / 4096.0;
 
+/// Side of the block of pixels whose rays begin where their beam meets the first ground.
+inline constexpr int pixels_a_beam = 8;
+
 // The samples that the rays of a relief may meet: columns and rows of the terrain's surface (of a
 // stream: its overview), heights in true metres.
 

@@ -93,8 +93,8 @@ std::string choice_summary(const view::Choice& choice) {
         return "triangles";
     }
     if (choice.typical) {
-        return fmt::format("{}: {:.0f} % typical", choice.typical->technique,
-                           100.0 * choice.typical->share);
+        return fmt::format("unproven {}, right for {:.0f} % of the probes",
+                           choice.typical->technique, 100.0 * choice.typical->share);
     }
     return choice.tiles_as_triangles == 0
                ? std::string("rays")

@@ -7,8 +7,11 @@
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
+#include "engine/view/relief_samples.h"
 
 namespace reljef::render {
+
+static_assert(bindings::pixels_a_beam == view::pixels_a_beam);
 
 PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const ReliefSpace& space,
                          const glm::dmat4& local_from_world) {

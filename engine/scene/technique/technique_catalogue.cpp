@@ -107,7 +107,8 @@ constexpr std::array automatic_parameters{
     parameter_row<&Automatic::typical>(
         {.name = "typical",
          .high = 1.0,
-         .meaning = "1: also searches that keep the bound for most pixels, without a proof",
+         .meaning =
+             "1: also unproven searches that show nine of ten probed pixels within the bound",
          .is_tacit = true})};
 
 template <class Kind>

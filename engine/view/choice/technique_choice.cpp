@@ -16,8 +16,6 @@
 #include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/tile_layout.h"
 #include "engine/view/choice/ray_error.h"
-#include "engine/view/choice/typical_search.h"
-#include "engine/view/choice/view_plan.h"
 #include "engine/view/sample_count.h"
 
 namespace reljef::view {
@@ -27,8 +25,6 @@ constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
 // Estimates of triangles are that near: more may not fit.
 constexpr double certain_share = 0.8;
 constexpr double max_lack = 1e4; // times the triangles that fit
-// Of the probes that show terrain, those that a search without a proof must show within the bound.
-constexpr double typical_share = 0.9;
 // Of the time that what is proven takes: estimates are about that near.
 constexpr double share_worth_a_proof = 0.9;
 
@@ -264,6 +260,40 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     return decision;
 }
 
+// Rays alone: the pixels that triangles leave would be the worst ones, and between both there would
+// be cracks.
+void TechniqueChooser::consider_unproven(const DrawList& list, const std::vector<ProbeRay>& probes,
+                                         const ViewCosts& view, Decision& decision) const {
+    const TerrainDraw& draw = list.terrains.front();
+    const double bound = scene::error_bound(draw.terrain->material.technique);
+    if (!error_of_rays(list, draw, steepness_).keeps(bound)) {
+        return; // floats would round by more than the probes know
+    }
+    const double pixels = static_cast<double>(list.size.x) * list.size.y;
+    const TypicalSearch search({list.camera, list.size, glm::dvec3(draw.world_from_local[3])},
+                               *draw.terrain->surface);
+    double limit = share_worth_a_proof * decision.choice.estimated_ms;
+    const auto plan_with = [&](const scene::Technique& technique, double steps) {
+        return plan_up_to(-1, view, with_search(options_.costs, technique.id(), steps));
+    };
+    for (const scene::Technique& technique : typical_searches()) {
+        if (plan_with(technique, 0.0).ms >= limit) {
+            continue;
+        }
+        const auto trial = search.try_along(technique, probes, {bound});
+        const ViewPlan plan = plan_with(technique, trial ? trial->steps : 0.0);
+        if (trial && plan.ms < limit) {
+            limit = plan.ms;
+            decision.choice.estimated_ms = plan.ms;
+            decision.choice.ray_pixels = plan.ray_pixels / pixels;
+            decision.choice.typical = TypicalChoice{scene::to_string(technique), trial->share()};
+            decision.last_ring = plan.last_ring;
+            decision.search = technique;
+            decision.kept_error.reset();
+        }
+    }
+}
+
 TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds) {
     const TerrainDraw& draw = list.terrains.front();
     if (!may_have_rays(list, draw, max_map_side_)) {
@@ -272,33 +302,11 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
     know(*draw.terrain);
     const ProbedView probed = probe(list, draw);
     const ViewCosts view = view_costs(list, counts_, probed, samples_);
-    Decision best = decide_proven(list, view, kinds);
-    if (!allows_typical(*draw.terrain)) {
-        return best;
+    Decision decision = decide_proven(list, view, kinds);
+    if (allows_typical(*draw.terrain)) {
+        consider_unproven(list, probed.of_box, view, decision);
     }
-    const double bound = scene::error_bound(draw.terrain->material.technique);
-    const double pixels = static_cast<double>(list.size.x) * list.size.y;
-    const TypicalSearch search(list, *draw.terrain->surface, glm::dvec3(draw.world_from_local[3]));
-    double limit = share_worth_a_proof * best.choice.estimated_ms;
-    for (const scene::Technique& technique : typical_searches()) {
-        const auto trial = search.tried(technique, probed.of_box, {bound, typical_share});
-        if (!trial) {
-            continue;
-        }
-        const TechniqueCosts costs = with_search(options_.costs, technique.id(), trial->steps);
-        const ViewPlan plan = cheapest(view, costs, kinds);
-        if (plan.last_ring < view.rings.back().ring && plan.ms < limit) {
-            limit = plan.ms;
-            best.choice.estimated_ms = plan.ms;
-            best.choice.ray_pixels = plan.ray_pixels / pixels;
-            best.choice.typical = TypicalChoice{scene::to_string(technique), trial->share()};
-            best.last_ring = plan.last_ring;
-            best.search = technique;
-            best.kept_error.reset();
-            best.lacks_triangles = false;
-        }
-    }
-    return best;
+    return decision;
 }
 
 void TechniqueChooser::choose_for_parts(const DrawList& whole) {

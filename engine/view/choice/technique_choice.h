@@ -3,11 +3,13 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "engine/scene/graph/scene.h"
 #include "engine/terrain/mesh/bisection.h"
 #include "engine/view/choice/technique_costs.h"
 #include "engine/view/choice/triangle_counts.h"
+#include "engine/view/choice/typical_search.h"
 #include "engine/view/choice/view_plan.h"
 #include "engine/view/draw_list.h"
 
@@ -23,9 +25,9 @@ struct ChoiceOptions {
 /// Chooses what draws the terrain of a list whose technique is `auto`: triangles, exact rays, or
 /// triangles for the tiles around the eye and rays for all pixels that these leave. Tiles around
 /// the eye hide the others, but are hidden by none of them, so what is drawn first is in front. All
-/// candidates keep the error bound; with `typical`, searches that showed nine of ten probes within
-/// it are candidates, too. Equal lists get equal choices. Parts of a picture (scene::Camera::whole)
-/// must show one choice, or edges jump between them.
+/// candidates keep the error bound. With `typical`, unproven searches that show nine of ten
+/// probes within it may draw all of the view. Equal lists get equal choices. Parts of a picture
+/// (scene::Camera::whole) must show one choice, or edges jump between them.
 class TechniqueChooser {
 public:
     explicit TechniqueChooser(const ChoiceOptions& options) : options_(options) {}
@@ -54,6 +56,8 @@ private:
     void know(const scene::TerrainNode& terrain);
     Decision decide(const DrawList& list, Kinds kinds);
     Decision decide_proven(const DrawList& list, const ViewCosts& view, Kinds kinds);
+    void consider_unproven(const DrawList& list, const std::vector<ProbeRay>& probes,
+                           const ViewCosts& view, Decision& decision) const;
 
     ChoiceOptions options_;
     int samples_ = 1;

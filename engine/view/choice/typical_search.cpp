@@ -14,17 +14,17 @@
 namespace reljef::view {
 namespace {
 
-// Secant steps meet smooth ground in fewer steps than halvings; on walls these are nearer.
+// Secant steps meet smooth ground in fewer steps than bisection_steps_of_relief; on walls these are
+// nearer.
 constexpr std::array interval_steps{4, 8, 16, 32};
 constexpr std::array relief_steps{8, 16, 32};
 constexpr int secant_steps = 2;
-constexpr int halvings = 8;
-constexpr double pixels_a_beam = 8.0; // a side; the probe may be in any of its corners
+constexpr int bisection_steps_of_relief = 8;
 
 } // namespace
 
 // From the entry of a ray, or the near plane, to where it leaves; heights in [0,1] of the range.
-struct TypicalSearch::Way {
+struct TypicalSearch::RaySpan {
     glm::dvec3 start;
     glm::dvec3 span;
 
@@ -37,21 +37,21 @@ std::vector<scene::Technique> typical_searches() {
         found.push_back({scene::Interval{.linear_steps = steps, .secant_steps = secant_steps}});
     }
     for (const int steps : relief_steps) {
-        found.push_back({scene::Relief{.linear_steps = steps, .bisection_steps = halvings}});
+        found.push_back(
+            {scene::Relief{.linear_steps = steps, .bisection_steps = bisection_steps_of_relief}});
     }
     return found;
 }
 
-TypicalSearch::TypicalSearch(const DrawList& list, const scene::TerrainSurface& surface,
-                             glm::dvec3 offset)
-    : list_(list), surface_(surface), offset_(offset),
+TypicalSearch::TypicalSearch(const View& view, const scene::TerrainSurface& surface)
+    : view_(view), surface_(surface),
       caster_(surface.heightfield().heights.view(), surface.pyramid(), surface.placement()) {
     const terrain::MinMax heights = surface.pyramid().total();
     lowest_ = heights.low;
     range_ = heights.high > heights.low ? double{heights.high} - heights.low : 1.0;
 }
 
-double TypicalSearch::share_at(glm::dvec2 place) const {
+double TypicalSearch::height_at(glm::dvec2 place) const {
     const Grid<float>& heights = surface_.heightfield().heights;
     const glm::dvec2 last(heights.cols() - 1, heights.rows() - 1);
     const float height = bilinear(heights, glm::clamp(place, glm::dvec2(0.0), last),
@@ -65,13 +65,13 @@ bool TypicalSearch::is_on_surface(glm::dvec2 place) const {
            place.y <= heights.rows() - 1.0;
 }
 
-std::optional<TypicalSearch::Way> TypicalSearch::way_of(const Ray& ray) const {
+std::optional<TypicalSearch::RaySpan> TypicalSearch::way_of(const Ray& ray) const {
     const auto samples = terrain::sample_ray_on_plane(surface_.placement(), ray);
     const Grid<float>& heights = surface_.heightfield().heights;
     const double margin = relief_margin * range_;
     const Box box{{0.0, 0.0, lowest_ - margin},
                   {heights.cols() - 1.0, heights.rows() - 1.0, lowest_ + range_ + margin}};
-    const auto part = samples ? intersect(*samples, box, {list_.camera.near, 1e300}) : std::nullopt;
+    const auto part = samples ? intersect(*samples, box, {view_.camera.near, 1e300}) : std::nullopt;
     if (!part) {
         return std::nullopt;
     }
@@ -79,11 +79,11 @@ std::optional<TypicalSearch::Way> TypicalSearch::way_of(const Ray& ray) const {
         return glm::dvec3(sample.x, sample.y, (sample.z - lowest_) / range_);
     };
     const glm::dvec3 start = share(samples->at(part->begin));
-    return Way{start, share(samples->at(part->end)) - start};
+    return RaySpan{start, share(samples->at(part->end)) - start};
 }
 
 // Down to the highest ground near the hit that rays through the pixels around may meet.
-TypicalSearch::Way TypicalSearch::after_beam(const Way& way, const ProbeRay& probe) const {
+TypicalSearch::RaySpan TypicalSearch::after_beam(const RaySpan& way, const ProbeRay& probe) const {
     const Grid<float>& heights = surface_.heightfield().heights;
     const glm::dvec2 last_cell(heights.cols() - 2, heights.rows() - 2);
     if (!probe.hit || way.span.z >= 0.0) {
@@ -92,8 +92,9 @@ TypicalSearch::Way TypicalSearch::after_beam(const Way& way, const ProbeRay& pro
     glm::dvec2 low(*probe.hit);
     glm::dvec2 high = low;
     for (const glm::dvec2 corner : {glm::dvec2(-1.0, -1.0), {1.0, -1.0}, {-1.0, 1.0}, {1.0, 1.0}}) {
-        Ray ray = scene::view_ray(list_.camera, list_.size, probe.pixel + pixels_a_beam * corner);
-        ray.origin -= offset_;
+        Ray ray =
+            scene::view_ray(view_.camera, view_.size, probe.pixel + double{pixels_a_beam} * corner);
+        ray.origin -= view_.offset;
         const auto samples = terrain::sample_ray_on_plane(surface_.placement(), ray);
         const double part = (probe.hit->z - samples->origin.z) / samples->direction.z;
         if (!(part > 0.0 && std::isfinite(part))) {
@@ -127,23 +128,24 @@ TypicalSearch::Found TypicalSearch::find(const scene::Technique& technique,
     return find_by(std::get<scene::Parallax>(parameters), *way);
 }
 
-TypicalSearch::Found TypicalSearch::find_by(const scene::Parallax& parallax, const Way& way) const {
+TypicalSearch::Found TypicalSearch::find_by(const scene::Parallax& parallax,
+                                            const RaySpan& way) const {
     const double plane = -parallax.offset;
     const double part = (plane - way.start.z) / way.span.z;
     if (!(part >= 0.0 && part <= 1.0 && way.span.z < 0.0)) {
         return {};
     }
     const glm::dvec2 entry(way.at(part));
-    const glm::dvec2 place = entry + (share_at(entry) - plane) * glm::dvec2(way.span) / way.span.z;
+    const glm::dvec2 place = entry + (height_at(entry) - plane) * glm::dvec2(way.span) / way.span.z;
     return is_on_surface(place) ? Found{place, 0} : Found{};
 }
 
-double TypicalSearch::clearance(const Way& way, double part) const {
+double TypicalSearch::clearance(const RaySpan& way, double part) const {
     const glm::dvec3 point = way.at(part);
-    return point.z - share_at(glm::dvec2(point));
+    return point.z - height_at(glm::dvec2(point));
 }
 
-std::optional<TypicalSearch::Crossing> TypicalSearch::first_crossing(const Way& way,
+std::optional<TypicalSearch::Crossing> TypicalSearch::first_crossing(const RaySpan& way,
                                                                      int steps) const {
     Crossing crossing{.part = 0.0, .over = clearance(way, 0.0)};
     for (crossing.step = 1; crossing.step <= steps; ++crossing.step) {
@@ -160,7 +162,8 @@ std::optional<TypicalSearch::Crossing> TypicalSearch::first_crossing(const Way& 
     return std::nullopt;
 }
 
-TypicalSearch::Found TypicalSearch::find_by(const scene::Interval& interval, const Way& way) const {
+TypicalSearch::Found TypicalSearch::find_by(const scene::Interval& interval,
+                                            const RaySpan& way) const {
     auto at = first_crossing(way, interval.linear_steps);
     if (!at) {
         return {std::nullopt, interval.linear_steps};
@@ -177,7 +180,7 @@ TypicalSearch::Found TypicalSearch::find_by(const scene::Interval& interval, con
     return {glm::dvec2(way.at(secant())), at->step + interval.secant_steps - 1};
 }
 
-TypicalSearch::Found TypicalSearch::find_by(const scene::Relief& relief, const Way& way) const {
+TypicalSearch::Found TypicalSearch::find_by(const scene::Relief& relief, const RaySpan& way) const {
     auto at = first_crossing(way, relief.linear_steps);
     if (!at) {
         return {std::nullopt, relief.linear_steps};
@@ -191,9 +194,9 @@ TypicalSearch::Found TypicalSearch::find_by(const scene::Relief& relief, const W
 
 bool TypicalSearch::is_within(const ProbeRay& probe, glm::dvec2 place, double bound) const {
     const glm::dvec3 point =
-        surface_.placement().world_from_sample({place, lowest_ + range_ * share_at(place)});
-    const scene::Projected shown = scene::project(list_.camera, list_.size, point + offset_);
-    if (shown.depth <= 0.0 || glm::distance(shown.pixel, probe.pixel) > bound) {
+        surface_.placement().world_from_sample({place, lowest_ + range_ * height_at(place)});
+    const scene::Projected shown = scene::project(view_.camera, view_.size, point + view_.offset);
+    if (!(shown.depth > 0.0) || !(glm::distance(shown.pixel, probe.pixel) <= bound)) {
         return false;
     }
     const auto is_near = [&](glm::dvec3 hit) {
@@ -206,9 +209,9 @@ bool TypicalSearch::is_within(const ProbeRay& probe, glm::dvec2 place, double bo
     return !hit || is_near(hit->sample);
 }
 
-std::optional<SearchTrial> TypicalSearch::tried(const scene::Technique& technique,
-                                                const std::vector<ProbeRay>& probes,
-                                                const Demand& demand) const {
+std::optional<SearchTrial> TypicalSearch::try_along(const scene::Technique& technique,
+                                                    const std::vector<ProbeRay>& probes,
+                                                    const Demand& demand) const {
     const auto count = static_cast<double>(probes.size());
     SearchTrial trial;
     for (const ProbeRay& probe : probes) {
@@ -216,14 +219,15 @@ std::optional<SearchTrial> TypicalSearch::tried(const scene::Technique& techniqu
         trial.steps += found.steps / count;
         if (found.place || probe.hit) {
             const bool both = found.place && probe.hit;
-            ++trial.terrain;
+            ++trial.terrain_probes;
             trial.within += both && is_within(probe, *found.place, demand.bound) ? 1 : 0;
         }
-        if (trial.terrain - trial.within > (1.0 - demand.share) * count) {
+        if (trial.terrain_probes - trial.within > (1.0 - demand.share) * count) {
             return std::nullopt;
         }
     }
-    return trial.share() >= demand.share ? std::optional(trial) : std::nullopt;
+    const bool is_enough = trial.terrain_probes >= demand.probes && trial.share() >= demand.share;
+    return is_enough ? std::optional(trial) : std::nullopt;
 }
 
 } // namespace reljef::view

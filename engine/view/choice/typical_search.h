@@ -7,9 +7,9 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/scene/graph/camera.h"
 #include "engine/scene/streaming/terrain_surface.h"
 #include "engine/scene/technique/technique.h"
-#include "engine/view/draw_list.h"
 
 namespace reljef::view {
 
@@ -22,13 +22,13 @@ struct ProbeRay {
 
 /// What a search found along probes.
 struct SearchTrial {
-    int terrain = 0;    ///< probes that show terrain, truly or by the search
-    int within = 0;     ///< of these, as near to their true places as the bound asks
-    double steps = 0.0; ///< of each probe through the box around the terrain, mean
+    int terrain_probes = 0; ///< that show terrain, truly or by the search
+    int within = 0;         ///< of these, as near to their true places as the bound asks
+    double steps = 0.0;     ///< of each probe through the box around the terrain, mean
 
-    /// Of the probes that show terrain, 0 to 1; 1 if none does.
+    /// Of the probes that show terrain, 0 to 1; 0 if none does.
     [[nodiscard]] double share() const {
-        return terrain > 0 ? static_cast<double>(within) / terrain : 1.0;
+        return terrain_probes > 0 ? static_cast<double>(within) / terrain_probes : 0.0;
     }
 };
 
@@ -41,8 +41,13 @@ std::vector<scene::Technique> typical_searches();
 /// hit: at most as far as the beams of OpenGL reach, but for ground that only a neighbour meets.
 class TypicalSearch {
 public:
-    /// `list`: the camera and the size of the picture. `offset`: of the terrain, metres.
-    TypicalSearch(const DrawList& list, const scene::TerrainSurface& surface, glm::dvec3 offset);
+    struct View {
+        scene::Camera camera;
+        glm::ivec2 size{0};     ///< of the picture, pixels
+        glm::dvec3 offset{0.0}; ///< of the terrain, metres
+    };
+    /// Borrows the surface.
+    TypicalSearch(const View& view, const scene::TerrainSurface& surface);
 
     /// The place (col, row) that a probe shows, and the steps that it takes.
     struct Found {
@@ -59,21 +64,22 @@ public:
     struct Demand {
         double bound = 1.0; ///< pixels
         double share = 0.9; ///< of the probes that show terrain, within the bound
+        int probes = 30;    ///< that show terrain: of fewer, a share says little
     };
     /// Empty if fewer are. Precondition: all probes meet the box around the terrain.
-    [[nodiscard]] std::optional<SearchTrial> tried(const scene::Technique& technique,
-                                                   const std::vector<ProbeRay>& probes,
-                                                   const Demand& demand) const;
+    [[nodiscard]] std::optional<SearchTrial> try_along(const scene::Technique& technique,
+                                                       const std::vector<ProbeRay>& probes,
+                                                       const Demand& demand) const;
 
 private:
-    struct Way; // of a ray through the box around the terrain
-    [[nodiscard]] std::optional<Way> way_of(const Ray& ray) const;
-    [[nodiscard]] Way after_beam(const Way& way, const ProbeRay& probe) const;
-    [[nodiscard]] double share_at(glm::dvec2 place) const;
+    struct RaySpan; // of a ray through the box around the terrain
+    [[nodiscard]] std::optional<RaySpan> way_of(const Ray& ray) const;
+    [[nodiscard]] RaySpan after_beam(const RaySpan& way, const ProbeRay& probe) const;
+    [[nodiscard]] double height_at(glm::dvec2 place) const;
     [[nodiscard]] bool is_on_surface(glm::dvec2 place) const;
-    [[nodiscard]] Found find_by(const scene::Parallax& parallax, const Way& way) const;
-    [[nodiscard]] Found find_by(const scene::Interval& interval, const Way& way) const;
-    [[nodiscard]] Found find_by(const scene::Relief& relief, const Way& way) const;
+    [[nodiscard]] Found find_by(const scene::Parallax& parallax, const RaySpan& way) const;
+    [[nodiscard]] Found find_by(const scene::Interval& interval, const RaySpan& way) const;
+    [[nodiscard]] Found find_by(const scene::Relief& relief, const RaySpan& way) const;
     // Between `part` at clearance `over` (>= 0) and `low_part` at `under` (< 0).
     struct Crossing {
         double part = 0.0;
@@ -82,11 +88,10 @@ private:
         double under = 0.0;
         int step = 0;
     };
-    [[nodiscard]] double clearance(const Way& way, double part) const;
-    [[nodiscard]] std::optional<Crossing> first_crossing(const Way& way, int steps) const;
-    const DrawList& list_;
+    [[nodiscard]] double clearance(const RaySpan& way, double part) const;
+    [[nodiscard]] std::optional<Crossing> first_crossing(const RaySpan& way, int steps) const;
+    View view_;
     const scene::TerrainSurface& surface_;
-    glm::dvec3 offset_;
     terrain::SurfaceCaster caster_;
     double lowest_ = 0.0; // metres
     double range_ = 1.0;  // metres

@@ -68,15 +68,19 @@ TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
     }
 }
 
-TEST_F(TablesSuite, views_that_move_say_so_and_upload_the_camera_of_each_frame) {
+TEST_F(TablesSuite, views_that_move_say_so_and_cut_triangles_anew) {
     TablesOptions options = small_options();
-    options.suite.moving = true;
     options.techniques = {scene::parse_technique("polygons:error=1").value()};
-    const Results results = run_tables(options, {});
-    ASSERT_FALSE(results.stopped);
-    for (const Row& row : results.rows) {
-        EXPECT_EQ(row.test, "moving");
-        EXPECT_GT(row.timing.stats.uploads, 0);
+    for (const bool moving : {false, true}) {
+        options.suite.moving = moving;
+        const Results results = run_tables(options, {});
+        ASSERT_FALSE(results.stopped);
+        for (const Row& row : results.rows) {
+            EXPECT_EQ(row.test, moving ? "moving" : "");
+            if (row.setting.technique == "polygons") {
+                EXPECT_EQ(row.timing.stats.tiles_cut > 0, moving);
+            }
+        }
     }
 }
 

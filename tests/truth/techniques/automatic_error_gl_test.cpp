@@ -158,7 +158,7 @@ Searched searched_over(terrain::Heightfield heightfield, const scene::Technique&
         view::DrawList list;
         list.camera = scene.camera();
         list.size = picture;
-        const view::TypicalSearch search(list, surface, glm::dvec3(0.0));
+        const view::TypicalSearch search({list.camera, list.size}, surface);
         const HitBuffer hits = test::must(driver.draw_hits(scene));
         for (int pixel = 0; pixel < picture.x * picture.y; pixel += 7) {
             const glm::ivec2 at(pixel % picture.x, pixel / picture.x);

@@ -23,7 +23,7 @@ struct SearchStage {
         list.camera = test::camera_at({0.0, -400.0, 150.0}, {0.0, 0.0, 0.0});
         list.size = {320, 240};
     }
-    [[nodiscard]] TypicalSearch search() const { return {list, *surface, glm::dvec3(0.0)}; }
+    [[nodiscard]] TypicalSearch search() const { return {{list.camera, list.size}, *surface}; }
     [[nodiscard]] std::vector<ProbeRay> probes(int count) const {
         test::Chance chance(7);
         std::vector<ProbeRay> probes;
@@ -57,10 +57,10 @@ Grid<float> slope(double metres_a_column) {
 TEST(TypicalSearchTest, FindsASlopeExactly) {
     const SearchStage stage(slope(0.3));
     const auto probes = stage.probes(2000);
-    const auto trial = stage.search().tried(interval(4), probes, {.bound = 1e-3, .share = 1.0});
+    const auto trial = stage.search().try_along(interval(4), probes, {.bound = 1e-3, .share = 1.0});
     ASSERT_TRUE(trial.has_value());
-    EXPECT_GT(trial->terrain, 1000);
-    EXPECT_EQ(trial->within, trial->terrain);
+    EXPECT_GT(trial->terrain_probes, 1000);
+    EXPECT_EQ(trial->within, trial->terrain_probes);
 }
 
 TEST(TypicalSearchTest, CountsTheStepsOfMissedAndOfFoundRays) {
@@ -108,17 +108,38 @@ TEST(TypicalSearchTest, AThinWallThatStepsSkipIsNotWithinTheBound) {
     const TypicalSearch search = stage.search();
     double last = 0.0;
     for (const int steps : {4, 28, 400}) {
-        const auto trial = search.tried(relief(steps), probes, {.bound = 1.0, .share = 0.0});
+        const auto trial = search.try_along(relief(steps), probes, {.bound = 1.0, .share = 0.0});
         EXPECT_GT(trial->share(), last) << steps;
         last = trial->share();
     }
-    EXPECT_FALSE(search.tried(relief(4), probes, {.bound = 1.0, .share = 0.5}));
+    EXPECT_FALSE(search.try_along(relief(4), probes, {.bound = 1.0, .share = 0.5}));
     EXPECT_GT(last, 0.9);
 }
 
-TEST(TypicalSearchTest, ViewsOfSkyAloneHaveNothingWrong) {
+// A share of a few probes says little, and one of none nothing.
+TEST(TypicalSearchTest, FewProbesProveNothing) {
     const SearchStage stage(slope(0.3));
-    EXPECT_EQ(stage.search().tried(interval(4), {}, {})->share(), 1.0);
+    EXPECT_FALSE(stage.search().try_along(interval(4), {}, {}));
+    std::vector<ProbeRay> probes = stage.probes(200);
+    std::erase_if(probes, [](const ProbeRay& probe) { return !probe.hit; });
+    probes.resize(29);
+    EXPECT_FALSE(stage.search().try_along(interval(4), probes, {}));
+    probes.push_back(probes.front());
+    EXPECT_TRUE(stage.search().try_along(interval(4), probes, {}));
+}
+
+TEST(TypicalSearchTest, MovesWithTheTerrain) {
+    const SearchStage stage(slope(0.3));
+    const glm::dvec3 offset(1000.0, -3000.0, 50.0);
+    scene::Camera camera = stage.list.camera;
+    camera.eye += offset;
+    camera.target += offset;
+    const TypicalSearch moved({camera, stage.list.size, offset}, *stage.surface);
+    const auto probes = stage.probes(300);
+    const auto here = stage.search().try_along(interval(8), probes, {.bound = 0.5});
+    const auto there = moved.try_along(interval(8), probes, {.bound = 0.5});
+    ASSERT_TRUE(here && there);
+    EXPECT_EQ(here->within, there->within);
 }
 
 } // namespace
