@@ -105,10 +105,16 @@ function noiseOf(row) {
   return isNumber(row.noise_floor) ? 'The noise floor is ' + percent(row.noise_floor) + ' %.' : 'Too few frames: ' + row.frames + '.';
 }
 
+function unprovenOf(row) {
+  const search = row.choice && row.choice.typical;
+  return search && 'Drawn by ' + search.technique + ', which shows ' + percent(search.share) + ' % of the probes within the bound.';
+}
+
 function tagsOf(row) {
   return [
     row.null_row ? tag('A/A', 'again', 'The same technique once more: the noise floor.') : null,
     row.noisy ? tag('noisy', 'noisy', noiseOf(row)) : null,
+    unprovenOf(row) ? tag('unproven', 'noisy', unprovenOf(row)) : null,
   ];
 }
 

@@ -121,8 +121,16 @@ std::vector<std::string> error_cells(const Row& row) {
             fmt::format("{:.1f} %", row.error->wrong_percent)};
 }
 
+// The label; with the search that `auto` drew without a proof.
+std::string technique_cell(const Row& row) {
+    const auto& choice = row.timing.stats.choice;
+    return choice && choice->typical
+               ? fmt::format("{} (unproven: {})", row.setting.label, choice->typical->technique)
+               : row.setting.label;
+}
+
 std::vector<std::string> cells_of(const Row& row, bool with_sources, bool with_levels) {
-    std::vector<std::string> cells{row.setting.label};
+    std::vector<std::string> cells{technique_cell(row)};
     const auto append = [&](const std::vector<std::string>& more) {
         cells.insert(cells.end(), more.begin(), more.end());
     };

@@ -25,7 +25,7 @@ constexpr std::uint64_t signature_of_boxes = 0x6A502020; // "jP  "
 constexpr std::uint64_t codestream_box = 0x6A703263;     // "jp2c"
 constexpr std::uint64_t letter_case = 0x20200020;        // GDAL takes "JP2C", too
 
-struct ByteRange {
+struct CodestreamRange {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;
 
@@ -43,14 +43,14 @@ public:
         const bool is_there = file_ != nullptr && VSIStatL(name.c_str(), &status) == 0;
         whole_.end = is_there ? static_cast<std::uint64_t>(status.st_size) : 0;
     }
-    [[nodiscard]] const ByteRange& whole() const { return whole_; }
+    [[nodiscard]] const CodestreamRange& whole() const { return whole_; }
 
     [[nodiscard]] std::optional<std::uint64_t> number(std::uint64_t at, std::size_t bytes) const {
         return number_in(whole_, at, bytes);
     }
     /// Also absent if it is not within the range.
-    [[nodiscard]] std::optional<std::uint64_t> number_in(const ByteRange& range, std::uint64_t at,
-                                                         std::size_t bytes) const {
+    [[nodiscard]] std::optional<std::uint64_t>
+    number_in(const CodestreamRange& range, std::uint64_t at, std::size_t bytes) const {
         std::array<unsigned char, sizeof(std::uint64_t)> read{};
         if (!range.holds(at, bytes) || VSIFSeekL(file_.get(), at, SEEK_SET) != 0 ||
             VSIFReadL(read.data(), 1, bytes, file_.get()) != bytes) {
@@ -65,11 +65,11 @@ public:
 
 private:
     std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file_;
-    ByteRange whole_;
+    CodestreamRange whole_;
 };
 
 /// The content of the first box with a codestream; absent if a box does not fit.
-std::optional<ByteRange> boxed_codestream(const Jpeg2000File& file) {
+std::optional<CodestreamRange> boxed_codestream(const Jpeg2000File& file) {
     for (std::uint64_t at = 0; !ReadScope::stop_requested();) {
         auto length = file.number(at, 4);
         const auto type = file.number(at + 4, 4);
@@ -83,7 +83,7 @@ std::optional<ByteRange> boxed_codestream(const Jpeg2000File& file) {
             return std::nullopt;
         }
         if ((*type | letter_case) == codestream_box) {
-            return ByteRange{at + head, at + *length};
+            return CodestreamRange{at + head, at + *length};
         }
         at += *length;
     }
@@ -92,7 +92,7 @@ std::optional<ByteRange> boxed_codestream(const Jpeg2000File& file) {
 
 /// Passes segments up to a marker; absent if one of them does not fit.
 std::optional<std::uint64_t> find_marker(const Jpeg2000File& file, std::uint64_t at,
-                                         const ByteRange& range, std::uint64_t marker) {
+                                         const CodestreamRange& range, std::uint64_t marker) {
     auto found = file.number_in(range, at, 2);
     while (found && *found != marker) {
         const auto length = file.number_in(range, at + 2, 2);
@@ -107,19 +107,19 @@ std::optional<std::uint64_t> find_marker(const Jpeg2000File& file, std::uint64_t
 
 /// Behind a part of a tile; absent if it or its header does not fit.
 std::optional<std::uint64_t> end_of_tile_part(const Jpeg2000File& file, std::uint64_t at,
-                                              const ByteRange& codestream) {
+                                              const CodestreamRange& codestream) {
     constexpr std::uint64_t head = 12;
     const auto length = file.number_in(codestream, at + 6, 4);
     if (!length || !codestream.holds(at, std::max(head, *length))) {
         return std::nullopt;
     }
-    const ByteRange part{at, *length == 0 ? codestream.end : at + *length};
+    const CodestreamRange part{at, *length == 0 ? codestream.end : at + *length};
     return find_marker(file, at + head, part, start_of_data) ? std::optional(part.end)
                                                              : std::nullopt;
 }
 
 /// A header, then parts of tiles up to the end or its marker.
-bool is_whole(const Jpeg2000File& file, const ByteRange& codestream) {
+bool is_whole(const Jpeg2000File& file, const CodestreamRange& codestream) {
     if (file.number_in(codestream, codestream.begin, 2) != start_of_codestream) {
         return false;
     }

@@ -68,5 +68,16 @@ TEST(ScaleBar, HasARoundLengthNextToTheLongest) {
     }
 }
 
+TEST(PanelText, ChoicesOfAutoNameWhatDrawsAndWhatIsUnproven) {
+    view::Choice choice{.tiles_as_triangles = 4};
+    EXPECT_EQ(choice_summary(choice), "triangles");
+    choice = {.tiles_as_triangles = 4, .tiles_by_rays = 5, .ray_pixels = 0.25};
+    EXPECT_EQ(choice_summary(choice), "4 tiles, rays for 25 %");
+    choice = {.tiles_by_rays = 9, .ray_pixels = 0.9};
+    EXPECT_EQ(choice_summary(choice), "rays");
+    choice.typical = view::TypicalChoice{"interval:n=4,k=2", 0.93};
+    EXPECT_EQ(choice_summary(choice), "unproven interval:n=4,k=2, right for 93 % of the probes");
+}
+
 } // namespace
 } // namespace reljef::app

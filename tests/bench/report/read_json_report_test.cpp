@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/report/report_json.h"
+#include "bench/report/report_text.h"
 #include "tests/bench/report/made_results.h"
 #include "tests/support/temporary_folder.h"
 
@@ -79,6 +80,19 @@ TEST_F(ReadJsonReport, every_figure_comes_back_to_the_bit) {
         ASSERT_EQ(back->rows[0].error->reprojection_px->distribution.rms,
                   results.rows[0].error->reprojection_px->distribution.rms);
     }
+}
+
+TEST_F(ReadJsonReport, unproven_search_of_auto_comes_back_and_stands_in_the_table) {
+    Results results = test::made_results();
+    results.rows[0].timing.stats.choice =
+        view::Choice{.tiles_by_rays = 3, .typical = view::TypicalChoice{"interval:n=4,k=2", 0.93}};
+    const std::string text = json_report(results);
+    const auto again = read(text);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(json_report(*again), text);
+    EXPECT_EQ(again->rows[0].timing.stats.choice, results.rows[0].timing.stats.choice);
+    EXPECT_NE(markdown_report(results).find("(unproven: interval:n=4,k=2)"), std::string::npos);
+    EXPECT_EQ(markdown_report(test::made_results()).find("unproven"), std::string::npos);
 }
 
 TEST_F(ReadJsonReport, run_that_ended_early_still_says_so) {

@@ -32,6 +32,18 @@ TEST(ChoicePictureTest, TintsTrianglesAndRaysAndKeepsTheSky) {
     EXPECT_GT(picture(0, 0).b, picture(0, 0).r) << "rays on the CPU draw listed tiles";
 }
 
+TEST(ChoicePictureTest, TintsUnprovenSearchesInAColourOfTheirOwn) {
+    DrawList list;
+    list.stats.choice = Choice{.tiles_by_rays = 1, .typical = TypicalChoice{"interval:n=4", 0.95}};
+    HitBuffer hits(1, 1);
+    hits(0, 0) = hit_at({1.0, 1.0}, 0.0, 1.0);
+    Image picture(1, 1, Rgba8{120, 120, 120});
+    tint_choice(picture, hits, list);
+    EXPECT_GT(picture(0, 0).r, picture(0, 0).b);
+    EXPECT_NE(color_of_typical(), color_of_triangles());
+    EXPECT_NE(color_of_typical(), color_of_rays(0));
+}
+
 TEST(ChoicePictureTest, BrighterPixelsStayBrighter) {
     const DrawList nothing;
     HitBuffer hits(2, 1);
