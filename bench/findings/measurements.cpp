@@ -32,8 +32,7 @@ std::vector<ResultsSource> results_sources() {
          false},
         {"objects", "The same city as heights and as meshes, by distance, angle and size.",
          "reljef-bench objects --rounds 5 --context osmesa --json bench/results/objects.json "
-         "--markdown bench/results/objects.md",
-         false},
+         "--markdown bench/results/objects.md"},
         {"guesses", "Heights guessed from colours, against the true ones, by exact rays.",
          "reljef-bench tables --guesses --terrain urban --terrain natural "
          "--terrain bench/scenes/crater-lake.toml --json bench/results/guesses.json "
