@@ -39,10 +39,12 @@ struct FrameStats {
     std::size_t triangles = 0;
     int tiles_missing = 0; ///< streamed tiles that are not loaded; coarser ones are drawn
     int tiles_cut = 0;     ///< tiles with new triangles
-    /// Drawn tiles whose error is an estimate. Their pixels, and those of walls beside them, may be
-    /// farther off than `kept_error`. Coarse tiles with voids count.
+    /// Drawn tiles whose error is an estimate, and those that an unproven search shows. Their
+    /// pixels, and those of walls beside them, may be farther off than `kept_error`. Coarse tiles
+    /// with voids count.
     int tiles_unproven = 0;
-    /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound.
+    /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound, or no
+    /// other tile.
     std::optional<double> kept_error;
     /// Whether triangles had larger errors than the bound leaves them, to fit their number, or rays
     /// that miss the bound were drawn instead.

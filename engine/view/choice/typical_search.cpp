@@ -14,12 +14,11 @@
 namespace reljef::view {
 namespace {
 
-// Secant steps meet smooth ground in fewer steps than bisection_steps_of_relief; on walls these are
-// nearer.
+// Secant steps meet smooth ground in fewer steps than bisection, which is nearer on walls.
 constexpr std::array interval_steps{4, 8, 16, 32};
 constexpr std::array relief_steps{8, 16, 32};
 constexpr int secant_steps = 2;
-constexpr int bisection_steps_of_relief = 8;
+constexpr int bisection_steps = 8;
 
 } // namespace
 
@@ -37,8 +36,7 @@ std::vector<scene::Technique> typical_searches() {
         found.push_back({scene::Interval{.linear_steps = steps, .secant_steps = secant_steps}});
     }
     for (const int steps : relief_steps) {
-        found.push_back(
-            {scene::Relief{.linear_steps = steps, .bisection_steps = bisection_steps_of_relief}});
+        found.push_back({scene::Relief{.linear_steps = steps, .bisection_steps = bisection_steps}});
     }
     return found;
 }
@@ -65,7 +63,7 @@ bool TypicalSearch::is_on_surface(glm::dvec2 place) const {
            place.y <= heights.rows() - 1.0;
 }
 
-std::optional<TypicalSearch::RaySpan> TypicalSearch::way_of(const Ray& ray) const {
+std::optional<TypicalSearch::RaySpan> TypicalSearch::span_in_box(const Ray& ray) const {
     const auto samples = terrain::sample_ray_on_plane(surface_.placement(), ray);
     const Grid<float>& heights = surface_.heightfield().heights;
     const double margin = relief_margin * range_;
@@ -75,11 +73,11 @@ std::optional<TypicalSearch::RaySpan> TypicalSearch::way_of(const Ray& ray) cons
     if (!part) {
         return std::nullopt;
     }
-    const auto share = [&](glm::dvec3 sample) {
+    const auto unit = [&](glm::dvec3 sample) {
         return glm::dvec3(sample.x, sample.y, (sample.z - lowest_) / range_);
     };
-    const glm::dvec3 start = share(samples->at(part->begin));
-    return RaySpan{start, share(samples->at(part->end)) - start};
+    const glm::dvec3 start = unit(samples->at(part->begin));
+    return RaySpan{start, unit(samples->at(part->end)) - start};
 }
 
 // Down to the highest ground near the hit that rays through the pixels around may meet.
@@ -114,7 +112,7 @@ TypicalSearch::RaySpan TypicalSearch::after_beam(const RaySpan& way, const Probe
 
 TypicalSearch::Found TypicalSearch::find(const scene::Technique& technique,
                                          const ProbeRay& probe) const {
-    const auto way = way_of(probe.ray);
+    const auto way = span_in_box(probe.ray);
     if (!way) {
         return {};
     }

@@ -37,8 +37,8 @@ struct SearchTrial {
 std::vector<scene::Technique> typical_searches();
 
 /// These searches along rays over a terrain in memory on a plane, as OpenGL draws them, but in
-/// doubles. `interval` begins where a block of pixels around the probe may meet ground near its
-/// hit: at most as far as the beams of OpenGL reach, but for ground that only a neighbour meets.
+/// doubles. `interval` begins where a block of pixels around the probe may meet the ground near its
+/// hit, which is about where the beams of OpenGL end. They may end earlier, at other ground.
 class TypicalSearch {
 public:
     struct View {
@@ -73,7 +73,7 @@ public:
 
 private:
     struct RaySpan; // of a ray through the box around the terrain
-    [[nodiscard]] std::optional<RaySpan> way_of(const Ray& ray) const;
+    [[nodiscard]] std::optional<RaySpan> span_in_box(const Ray& ray) const;
     [[nodiscard]] RaySpan after_beam(const RaySpan& way, const ProbeRay& probe) const;
     [[nodiscard]] double height_at(glm::dvec2 place) const;
     [[nodiscard]] bool is_on_surface(glm::dvec2 place) const;
@@ -90,6 +90,7 @@ private:
     };
     [[nodiscard]] double clearance(const RaySpan& way, double part) const;
     [[nodiscard]] std::optional<Crossing> first_crossing(const RaySpan& way, int steps) const;
+
     View view_;
     const scene::TerrainSurface& surface_;
     terrain::SurfaceCaster caster_;
