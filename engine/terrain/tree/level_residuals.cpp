@@ -1,10 +1,11 @@
 #include "engine/terrain/tree/level_residuals.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
+#include <vector>
 
 #include "engine/terrain/tree/level_step.h"
+#include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::terrain {
 namespace {
@@ -15,16 +16,59 @@ float between(float a, float b, float share) {
 }
 
 /// A row of coarser vertices at all base vertices.
+template <int step>
 void spread(const float* coarser, const CoarserAxis& axis, std::vector<float>& row) {
     const float* const shares = axis.shares.data();
     const LoopOutput into = row.data();
-    for (int cell = 0; cell < axis.cells; ++cell) {
-        const int last = axis.last(cell);
-        for (int i = axis.first(cell); i < last; ++i) {
-            into[i] = between(coarser[cell], coarser[cell + 1], shares[i]);
+    const int whole = (axis.vertices() - 1) / step; // cells; all but the first have shares of both
+    for (int cell = 0; cell < whole; ++cell) {
+        const int first = cell * step;
+        into[first] = coarser[cell];
+        for (int i = first + 1; i < first + step; ++i) {
+            into[i] = (1.0F - shares[i]) * coarser[cell] + shares[i] * coarser[cell + 1];
         }
     }
+    for (int i = whole * step; i < axis.vertices() - 1; ++i) {
+        into[i] = between(coarser[whole], coarser[whole + 1], shares[i]);
+    }
     into[axis.vertices() - 1] = coarser[axis.cells];
+}
+
+void spread(const float* coarser, const CoarserAxis& axis, std::vector<float>& row) {
+    static_assert(levels_per_chunk == 3); // so there are no other steps
+    if (axis.step == 2) {
+        spread<2>(coarser, axis, row);
+    } else if (axis.step == 4) {
+        spread<4>(coarser, axis, row);
+    } else {
+        spread<8>(coarser, axis, row);
+    }
+}
+
+/// The coarser surface at a row of base vertices, between two of its own rows.
+struct SurfaceRow {
+    const float* above;
+    const float* below;
+    float share; // of the row below, which may be a void if it has none
+};
+
+// Calls `use` with the index and the difference of each vertex: its height minus the surface.
+template <class Use>
+void for_differences(const float* heights, const SurfaceRow& surface, std::size_t count,
+                     const Use& use) {
+    const float* const a = surface.share == 1.0F ? surface.below : surface.above;
+    const float* const b = surface.below;
+    const float of_b = surface.share;
+    const float of_a = 1.0F - of_b;
+    if (of_b == 0.0F || of_b == 1.0F) {
+        for (std::size_t i = 0; i < count; ++i) {
+            use(i, heights[i] - a[i]);
+        }
+    } else {
+        for (std::size_t i = 0; i < count; ++i) {
+            use(i, heights[i] - (of_a * a[i] + of_b * b[i]));
+        }
+    }
 }
 
 /// Base heights minus the coarser surface, of a row of vertices. At voids, low > high.
@@ -32,23 +76,15 @@ struct Differences {
     std::vector<float> low;
     std::vector<float> high;
 
-    /// `share`: of the lower row of the surface.
-    void set(const float* heights, const std::vector<float>& above, const std::vector<float>& below,
-             float share) {
+    void set(const float* heights, const SurfaceRow& surface) {
         // Without a constant here, g++ 12 makes no vector code of the extremes.
         const float beyond = infinite;
-        const float* const a = share == 1.0F ? below.data() : above.data();
-        const float* const b = share == 0.0F ? above.data() : below.data();
-        const float of_a = 1.0F - share;
         const LoopOutput into_low = low.data();
         const LoopOutput into_high = high.data();
-        const bool is_between = share > 0.0F && share < 1.0F;
-        for (std::size_t i = 0; i < low.size(); ++i) {
-            const float surface = is_between ? of_a * a[i] + share * b[i] : a[i];
-            const float difference = heights[i] - surface;
+        for_differences(heights, surface, low.size(), [=](std::size_t i, float difference) {
             into_low[i] = lower(beyond, difference);
             into_high[i] = higher(-beyond, difference);
-        }
+        });
     }
 };
 
@@ -61,15 +97,18 @@ struct Ranges {
         std::fill(low.begin(), low.end(), infinite);
         std::fill(high.begin(), high.end(), -infinite);
     }
-    void add_vertices(const Differences& row) {
-        const float* const more_low = row.low.data();
-        const float* const more_high = row.high.data();
+    /// Of a row of vertices alone.
+    void set(const Differences& row) {
+        low = row.low;
+        high = row.high;
+    }
+    void add(const float* heights, const SurfaceRow& surface) {
         const LoopOutput into_low = low.data();
         const LoopOutput into_high = high.data();
-        for (std::size_t i = 0; i < low.size(); ++i) {
-            into_low[i] = lower(into_low[i], more_low[i]);
-            into_high[i] = higher(into_high[i], more_high[i]);
-        }
+        for_differences(heights, surface, low.size(), [=](std::size_t i, float difference) {
+            into_low[i] = lower(into_low[i], difference);
+            into_high[i] = higher(into_high[i], difference);
+        });
     }
     /// The base cells between two rows of vertices, with their own ranges.
     void add_cells(const Differences& above, const Differences& below, const float* own_low,
@@ -87,21 +126,51 @@ struct Ranges {
             into_high[i] = higher(into_high[i], own_high[i] + moved_up);
         }
     }
-    /// Joins those of each coarser cell, which the vertices on its sides belong to.
-    void join(const CoarserAxis& axis, bool are_vertices, std::span<float> cells_low,
-              std::span<float> cells_high) const {
-        for (int cell = 0; cell < axis.cells; ++cell) {
-            const int end = axis.last(cell) + (are_vertices ? 1 : 0);
-            float lowest = infinite;
-            float highest = -infinite;
-            for (int i = axis.first(cell); i < end; ++i) {
-                lowest = lower(lowest, low[static_cast<std::size_t>(i)]);
-                highest = higher(highest, high[static_cast<std::size_t>(i)]);
+};
+
+/// Joins the ranges of each coarser cell.
+class CellJoiner {
+public:
+    explicit CellJoiner(const CoarserAxis& axis)
+        : step_(axis.step),
+          values_(static_cast<std::size_t>(axis.cells) * static_cast<std::size_t>(axis.step)),
+          spare_(values_.size()) {}
+
+    /// `extreme`: lower or higher. `of_vertices`: those on the sides of cells belong to both.
+    template <class Extreme>
+    void join(const std::vector<float>& row, bool of_vertices, Extreme extreme, float* into) {
+        const float* const from = row.data();
+        const LoopOutput to = values_.data();
+        const std::size_t end = row.size() - 1; // base cells; the raster may cut the last one
+        if (of_vertices) {
+            for (std::size_t i = 0; i < end; ++i) {
+                to[i] = extreme(from[i], from[i + 1]);
             }
-            cells_low[static_cast<std::size_t>(cell)] = lowest;
-            cells_high[static_cast<std::size_t>(cell)] = highest;
+        } else {
+            std::copy_n(from, end, to);
         }
+        std::fill(values_.begin() + static_cast<std::ptrdiff_t>(end), values_.end(), from[end - 1]);
+        std::size_t count = values_.size();
+        for (int width = step_; width > 1; width /= 2) {
+            count /= 2;
+            halve(count, extreme);
+        }
+        std::copy_n(values_.data(), count, into);
     }
+
+private:
+    template <class Extreme> void halve(std::size_t count, Extreme extreme) {
+        const float* const from = values_.data();
+        const LoopOutput to = spare_.data();
+        for (std::size_t i = 0; i < count; ++i) {
+            to[i] = extreme(from[2 * i], from[2 * i + 1]);
+        }
+        std::swap(values_, spare_);
+    }
+
+    int step_;
+    std::vector<float> values_;
+    std::vector<float> spare_;
 };
 
 class ResidualPass {
@@ -111,15 +180,26 @@ public:
         : base_(base), coarser_(coarser), cols_(axes[0]), rows_(axes[1]),
           above_(axes[0].shares.size()),
           below_(above_.size()), last_{above_, above_}, now_{above_, above_}, ranges_{above_,
-                                                                                      above_} {}
+                                                                                      above_},
+          joiner_(axes[0]) {}
 
     void run(Residuals& residuals) {
         spread_row(0, above_);
+        last_.set(heights_of(0), surface_at(0.0F));
         for (int cell = 0; cell < rows_.cells; ++cell) {
             spread_row(cell + 1, below_);
-            add_row(cell);
-            ranges_.join(cols_, base_.residuals == nullptr, residuals.low.row(cell),
-                         residuals.high.row(cell));
+            if (base_.residuals == nullptr) {
+                add_vertices(cell);
+            } else {
+                add_cells(cell);
+            }
+            const bool of_vertices = base_.residuals == nullptr;
+            joiner_.join(
+                ranges_.low, of_vertices, [](float a, float b) { return lower(a, b); },
+                residuals.low.row(cell).data());
+            joiner_.join(
+                ranges_.high, of_vertices, [](float a, float b) { return higher(a, b); },
+                residuals.high.row(cell).data());
             std::swap(above_, below_);
         }
     }
@@ -128,21 +208,33 @@ private:
     void spread_row(int row, std::vector<float>& into) const {
         spread(coarser_.heights.row(row + coarser_.border).data() + coarser_.border, cols_, into);
     }
+    [[nodiscard]] const float* heights_of(int row) const {
+        return base_.heights.row(row + base_.border).data() + base_.border;
+    }
+    [[nodiscard]] SurfaceRow surface_at(float share) const {
+        return {above_.data(), below_.data(), share};
+    }
+    [[nodiscard]] float share_of(int row) const {
+        return rows_.shares[static_cast<std::size_t>(row)];
+    }
 
-    void add_row(int cell) {
-        ranges_.clear();
-        const int first = rows_.first(cell);
+    // `last_` is the row above the cells, and becomes that below them.
+    void add_vertices(int cell) {
+        ranges_.set(last_);
         const int last = rows_.last(cell);
-        for (int row = first; row <= last; ++row) {
-            const float share = row == last ? 1.0F : rows_.shares[static_cast<std::size_t>(row)];
-            now_.set(base_.heights.row(row + base_.border).data() + base_.border, above_, below_,
-                     share);
-            if (base_.residuals == nullptr) {
-                ranges_.add_vertices(now_);
-            } else if (row > first) {
-                ranges_.add_cells(last_, now_, base_.residuals->low.row(row - 1).data(),
-                                  base_.residuals->high.row(row - 1).data());
-            }
+        for (int row = rows_.first(cell) + 1; row < last; ++row) {
+            ranges_.add(heights_of(row), surface_at(share_of(row)));
+        }
+        ranges_.add(heights_of(last), surface_at(1.0F));
+        last_.set(heights_of(last), surface_at(1.0F));
+    }
+    void add_cells(int cell) {
+        ranges_.clear();
+        const int last = rows_.last(cell);
+        for (int row = rows_.first(cell) + 1; row <= last; ++row) {
+            now_.set(heights_of(row), surface_at(row == last ? 1.0F : share_of(row)));
+            ranges_.add_cells(last_, now_, base_.residuals->low.row(row - 1).data(),
+                              base_.residuals->high.row(row - 1).data());
             std::swap(last_, now_);
         }
     }
@@ -156,6 +248,7 @@ private:
     Differences last_;
     Differences now_;
     Ranges ranges_;
+    CellJoiner joiner_;
 };
 
 } // namespace
