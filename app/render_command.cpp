@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/choice/calibration.h"
+#include "app/choice/calibration_option.h"
 #include "app/choice/show_option.h"
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/choice/calibration.h"
+#include "app/choice/calibration_option.h"
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
 #include "app/cli/standard_input.h"

@@ -9,14 +9,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/choice/calibration.h"
-#include "app/choice/measure_costs.h"
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
 #include "app/cli/output_files.h"
 #include "app/cli/parsed_option.h"
+#include "app/cli/program.h"
 #include "app/cli/progress_line.h"
 #include "engine/core/atomic_file.h"
+#include "engine/session/calibration/calibration.h"
+#include "engine/session/calibration/measure_costs.h"
 
 namespace reljef::app {
 namespace {
@@ -79,12 +80,14 @@ Result<void> calibrate(const CalibrateChoice& choice, const cli::Interrupt& inte
     }
     cli::ProgressLine line("measuring", choice.quiet);
     const auto frames =
-        measure_frames(*scene, device->renderer(), interrupt.token(), line.callback());
+        session::measure_frames(*scene, device->renderer(), interrupt.token(), line.callback());
     if (!frames) {
         return frames.error();
     }
-    const Calibration made{place_of(device->info()), costs_from(*frames)};
-    if (made.costs.triangle_ns == 0.0 || made.costs.ray_pixel_ns == 0.0) {
+    const session::Calibration made{session::place_of(device->info(), cli::version_text()),
+                                    session::costs_from(*frames)};
+    const double many_triangles = made.costs.triangle_ns + made.costs.touched_pixel_ns;
+    if (many_triangles == 0.0 || made.costs.ray_pixel_ns == 0.0) {
         return Error{"calibrate: frames with more triangles or rays took no longer than those with "
                      "fewer, longer ones were expected: try again while no other program runs"};
     }

@@ -33,6 +33,11 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
         "beside it (auto)",
         "KIND");
     command
+        .add_option("--calibration", options.calibration,
+                    "file of 'reljef calibrate': what triangles and rays cost on this machine, for "
+                    "the technique auto (built-in costs)")
+        ->type_name("FILE");
+    command
         .add_option("--simd", options.simd,
                     "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
                     "fastest of the machine)")

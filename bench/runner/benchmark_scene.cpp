@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "app/cli/console_log.h"
+#include "app/cli/program.h"
 #include "bench/runner/gallery_tiles.h"
 #include "engine/io/formats/scene_file.h"
+#include "engine/session/calibration/calibration.h"
 #include "engine/truth/image_error.h"
 
 namespace reljef::bench {
@@ -69,12 +71,22 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
 
 Result<session::Device> make_device(const SuiteOptions& options) {
     const bool is_beside_rays = options.context == session::BackendKind::cpu;
-    return session::Device::create(
+    auto device = session::Device::create(
         {.context = is_beside_rays ? std::optional<session::BackendKind>() : options.context,
          .size = options.size,
          .shader_dir = options.shader_dir,
          .threads = options.threads,
          .selects_always = true});
+    if (!device || options.calibration.empty()) {
+        return device;
+    }
+    const auto costs = session::read_costs(options.calibration,
+                                           session::place_of(device->info(), cli::version_text()));
+    if (!costs) {
+        return costs.error();
+    }
+    device->renderer().set_costs(*costs);
+    return device;
 }
 
 Result<session::Device> make_rays_device(const SuiteOptions& options) {

@@ -24,7 +24,8 @@ struct Choice {
     int tiles_by_rays = 0;   ///< in the view, not counted among the drawn tiles
     double ray_pixels = 0.0; ///< estimated share of the picture, 0 to 1
     double estimated_ms = 0.0;
-    double triangles_ms = 0.0; ///< estimated for triangles alone
+    double triangles_ms = 0.0;   ///< estimated for triangles alone
+    double touched_pixels = 0.0; ///< by their edges, estimated
     std::optional<double> rays_ms =
         {}; ///< estimated for rays alone; absent: no proof of their error
     std::optional<TypicalChoice> typical = {}; ///< of the rays; absent: they are exact

@@ -237,6 +237,7 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     const int last_ring = view.rings.back().ring;
     const ViewPlan triangles = plan_up_to(last_ring, view, options_.costs);
     decision.choice.triangles_ms = triangles.ms;
+    decision.choice.touched_pixels = triangles.touched_pixels;
     // With fewer triangles than they need, they are off by more, about in proportion.
     const double bound = scene::error_bound(draw.terrain->material.technique);
     const double by_triangles =

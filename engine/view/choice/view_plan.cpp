@@ -1,6 +1,7 @@
 #include "engine/view/choice/view_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reljef::view {
 namespace {
@@ -16,7 +17,7 @@ constexpr double tie = 1.05;
 } // namespace
 
 ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs) {
-    double triangles = 0.0;
+    ViewPlan plan{.last_ring = ring};
     double covered = 0.0;
     bool is_all = true;
     for (const RingCost& cost : view.rings) {
@@ -24,14 +25,16 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
             is_all = false;
             continue;
         }
-        triangles += cost.triangles;
+        plan.triangles += cost.triangles;
+        plan.touched_pixels += std::sqrt(cost.triangles * cost.pixels);
         covered += cost.pixels;
     }
-    ViewPlan plan{.last_ring = ring, .triangles = triangles};
     plan.ms = costs.frame_ms +
-              (triangles * costs.triangle_ns + covered * costs.covered_pixel_ns) / ns_a_ms;
+              (plan.triangles * costs.triangle_ns + plan.touched_pixels * costs.touched_pixel_ns +
+               covered * costs.covered_pixel_ns) /
+                  ns_a_ms;
     if (!is_all) {
-        const int samples = triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
+        const int samples = plan.triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
         plan.ray_pixels = std::max(view.box_pixels - covered, 0.0);
         plan.ms += costs.rays_ms + plan.ray_pixels * samples * costs.ray_pixel_ns / ns_a_ms;
     }

@@ -21,6 +21,7 @@ struct ViewPlan {
     /// alone. At least the last ring: triangles alone.
     int last_ring = -1;
     double triangles = 0.0;
+    double touched_pixels = 0.0; ///< see TechniqueCosts::touched_pixel_ns
     double ray_pixels = 0.0;
     double ms = 0.0; ///< estimated
 };

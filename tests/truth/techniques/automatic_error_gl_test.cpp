@@ -18,12 +18,14 @@ class AutomaticErrorGlTest : public test::GlTest {};
 
 constexpr view::TechniqueCosts free_rays{.frame_ms = 0.0,
                                          .triangle_ns = 100.0,
+                                         .touched_pixel_ns = 0.0,
                                          .covered_pixel_ns = 1.0,
                                          .rays_ms = 0.0,
                                          .ray_pixel_ns = 0.0};
 // A triangle for each ten rays: near tiles have fewer.
 constexpr view::TechniqueCosts like_rays{.frame_ms = 0.0,
                                          .triangle_ns = 1000.0,
+                                         .touched_pixel_ns = 0.0,
                                          .covered_pixel_ns = 0.0,
                                          .rays_ms = 0.0,
                                          .ray_pixel_ns = 100.0};

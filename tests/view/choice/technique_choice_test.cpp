@@ -1,6 +1,7 @@
 #include "engine/view/choice/technique_choice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -16,16 +17,19 @@ namespace {
 constexpr glm::ivec2 chosen_size{320, 240};
 constexpr TechniqueCosts triangles_only{.frame_ms = 0.0,
                                         .triangle_ns = 0.0,
+                                        .touched_pixel_ns = 0.0,
                                         .covered_pixel_ns = 0.0,
                                         .rays_ms = 1.0,
                                         .ray_pixel_ns = 1.0};
 constexpr TechniqueCosts rays_only{.frame_ms = 0.0,
                                    .triangle_ns = 1.0,
+                                   .touched_pixel_ns = 0.0,
                                    .covered_pixel_ns = 1.0,
                                    .rays_ms = 0.0,
                                    .ray_pixel_ns = 0.0};
 constexpr TechniqueCosts both{.frame_ms = 0.0,
                               .triangle_ns = 1000.0,
+                              .touched_pixel_ns = 0.0,
                               .covered_pixel_ns = 0.0,
                               .rays_ms = 0.0,
                               .ray_pixel_ns = 100.0};
@@ -67,28 +71,36 @@ Grid<float> plain_before_hills() {
 TEST(ViewPlanTest, IsTheCheapestOfAllRings) {
     const TechniqueCosts costs{.frame_ms = 1.0,
                                .triangle_ns = 100.0,
+                               .touched_pixel_ns = 2.0,
                                .covered_pixel_ns = 10.0,
                                .rays_ms = 2.0,
                                .ray_pixel_ns = 50.0};
     const ViewCosts view{.rings = {{0, 100.0, 40e3}, {1, 10e3, 40e3}, {2, 200e3, 20e3}},
                          .box_pixels = 110e3};
     EXPECT_DOUBLE_EQ(plan_up_to(-1, view, costs).ms, 1.0 + 2.0 + 110e3 * 50e-6);
-    EXPECT_DOUBLE_EQ(plan_up_to(2, view, costs).ms, 1.0 + 210.1e3 * 1e-4 + 100e3 * 1e-5);
+    const double touched = std::sqrt(100.0 * 40e3) + std::sqrt(10e3 * 40e3);
+    EXPECT_DOUBLE_EQ(plan_up_to(2, view, costs).ms, 1.0 + 210.1e3 * 1e-4 +
+                                                        (touched + std::sqrt(200e3 * 20e3)) * 2e-6 +
+                                                        100e3 * 1e-5);
     const ViewPlan best = cheapest_plan(view, costs);
     EXPECT_EQ(best.last_ring, 1);
     EXPECT_DOUBLE_EQ(best.ray_pixels, 30e3);
-    EXPECT_DOUBLE_EQ(best.ms, 1.0 + 10.1e3 * 1e-4 + 80e3 * 1e-5 + 2.0 + 30e3 * 50e-6);
+    EXPECT_DOUBLE_EQ(best.touched_pixels, touched);
+    EXPECT_DOUBLE_EQ(best.ms,
+                     1.0 + 10.1e3 * 1e-4 + touched * 2e-6 + 80e3 * 1e-5 + 2.0 + 30e3 * 50e-6);
 }
 
 TEST(ViewPlanTest, MixesOnlyToSaveAQuarter) {
     const TechniqueCosts costs{.frame_ms = 0.0,
                                .triangle_ns = 0.0,
+                               .touched_pixel_ns = 0.0,
                                .covered_pixel_ns = 0.0,
                                .rays_ms = 0.0,
                                .ray_pixel_ns = 1e6};
     ViewCosts view{.rings = {{0, 1.0, 24.0}, {1, 1e12, 76.0}}, .box_pixels = 100.0};
     const TechniqueCosts with_triangles{.frame_ms = 0.0,
                                         .triangle_ns = 1.0,
+                                        .touched_pixel_ns = 0.0,
                                         .covered_pixel_ns = 0.0,
                                         .rays_ms = 0.0,
                                         .ray_pixel_ns = 1e6};
@@ -101,6 +113,7 @@ TEST(ViewPlanTest, MixesOnlyToSaveAQuarter) {
 TEST(ViewPlanTest, CountsTheSamplesOfRays) {
     const TechniqueCosts costs{.frame_ms = 0.0,
                                .triangle_ns = 1.0,
+                               .touched_pixel_ns = 0.0,
                                .covered_pixel_ns = 0.0,
                                .rays_ms = 0.0,
                                .ray_pixel_ns = 1e6};
@@ -224,6 +237,7 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
 TEST(TechniqueChooserTest, DrawsSearchesWithoutAProofOnlyOnRequest) {
     constexpr TechniqueCosts cheap_steps{.frame_ms = 0.0,
                                          .triangle_ns = 1000.0,
+                                         .touched_pixel_ns = 0.0,
                                          .covered_pixel_ns = 0.0,
                                          .rays_ms = 0.0,
                                          .ray_pixel_ns = 100.0,

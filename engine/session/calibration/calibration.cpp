@@ -1,35 +1,35 @@
-#include "app/choice/calibration.h"
+#include "engine/session/calibration/calibration.h"
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/program.h"
 #include "engine/core/atomic_file.h"
 #include "engine/platform/processor.h"
-#include "engine/scene/technique/technique.h"
 
-namespace reljef::app {
+namespace reljef::session {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view schema = "reljef-calibration/2";
+constexpr std::string_view schema = "reljef-calibration/3";
 constexpr double max_cost = 1e9; // a second for a pixel
 
 struct CostField {
     const char* name;
-    double session::Costs::*member;
+    double Costs::*member;
 };
-constexpr std::array cost_fields{CostField{"frame_ms", &session::Costs::frame_ms},
-                                 CostField{"triangle_ns", &session::Costs::triangle_ns},
-                                 CostField{"covered_pixel_ns", &session::Costs::covered_pixel_ns},
-                                 CostField{"rays_ms", &session::Costs::rays_ms},
-                                 CostField{"ray_pixel_ns", &session::Costs::ray_pixel_ns},
-                                 CostField{"search_pixel_ns", &session::Costs::search_pixel_ns},
-                                 CostField{"search_step_ns", &session::Costs::search_step_ns}};
+constexpr std::array cost_fields{CostField{"frame_ms", &Costs::frame_ms},
+                                 CostField{"triangle_ns", &Costs::triangle_ns},
+                                 CostField{"touched_pixel_ns", &Costs::touched_pixel_ns},
+                                 CostField{"covered_pixel_ns", &Costs::covered_pixel_ns},
+                                 CostField{"rays_ms", &Costs::rays_ms},
+                                 CostField{"ray_pixel_ns", &Costs::ray_pixel_ns},
+                                 CostField{"search_pixel_ns", &Costs::search_pixel_ns},
+                                 CostField{"search_step_ns", &Costs::search_step_ns}};
 
 struct PlaceField {
     const char* name;
@@ -56,8 +56,8 @@ constexpr const char* remedy = "'reljef calibrate -o FILE' measures this machine
 
 } // namespace
 
-CalibrationPlace place_of(const platform::RendererInfo& info) {
-    return {platform::processor_name(), cli::version_text(), info.context, info.renderer};
+CalibrationPlace place_of(const platform::RendererInfo& info, std::string version) {
+    return {platform::processor_name(), std::move(version), info.context, info.renderer};
 }
 
 std::string to_text(const Calibration& calibration) {
@@ -103,16 +103,12 @@ Result<Calibration> parse_calibration(const std::string& text, const std::string
     return calibration;
 }
 
-namespace {
-
 Result<Calibration> read_calibration(const std::filesystem::path& file) {
     const auto text = read_text_file(file);
     return text ? parse_calibration(*text, file.string()) : text.error();
 }
 
-} // namespace
-
-Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here) {
+Result<Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here) {
     const auto calibration = read_calibration(file);
     if (!calibration) {
         return calibration.error();
@@ -128,39 +124,4 @@ Result<session::Costs> read_costs(const std::filesystem::path& file, const Calib
     return calibration->costs;
 }
 
-Result<std::optional<session::BackendKind>> context_to_use(const cli::ViewChoice& view) {
-    using Context = std::optional<session::BackendKind>;
-    if (view.context || view.calibration.empty()) {
-        return view.context;
-    }
-    const auto calibration = read_calibration(view.calibration);
-    return calibration ? Result<Context>(session::backend_from_string(calibration->place.context))
-                       : calibration.error();
-}
-
-Result<void> use_calibration(const cli::ViewChoice& view, const platform::RendererInfo& info,
-                             session::SceneRenderer& renderer) {
-    if (view.calibration.empty()) {
-        return {};
-    }
-    const scene::TechniqueId id = session::technique_of(view).id();
-    if (id != scene::TechniqueId::automatic) {
-        return usage_error(fmt::format("--calibration: technique {} found, auto was expected, "
-                                       "which chooses by costs",
-                                       scene::technique_info(id).name));
-    }
-    if (renderer.shows_rays()) {
-        return usage_error(fmt::format(
-            "--calibration: context {} found, where rays on the CPU draw whatever they can and "
-            "nothing is chosen; --context osmesa or egl (in view: glfw) was expected",
-            view.context == session::BackendKind::cpu ? "cpu" : "auto without a GPU"));
-    }
-    const auto costs = read_costs(view.calibration, place_of(info));
-    if (!costs) {
-        return costs.error();
-    }
-    renderer.set_costs(*costs);
-    return {};
-}
-
-} // namespace reljef::app
+} // namespace reljef::session

@@ -1,9 +1,10 @@
-#include "app/choice/measure_costs.h"
+#include "engine/session/calibration/measure_costs.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <variant>
 #include <vector>
 
 #include "engine/core/hit.h"
@@ -11,7 +12,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/technique/technique.h"
 
-namespace reljef::app {
+namespace reljef::session {
 namespace {
 
 constexpr int views = 12; // of each kind
@@ -23,8 +24,7 @@ constexpr double frame_angle = 1.0 / (20.0 * 25.0) / circle;
 constexpr double ns_a_ms = 1e6;
 
 // On a circle around the terrain; heights as shares of its width.
-scene::Camera camera_at(const session::TerrainScene& scene, double angle, double height,
-                        double target) {
+scene::Camera camera_at(const TerrainScene& scene, double angle, double height, double target) {
     const Box& bounds = scene.bounds;
     const double width = bounds.size().x;
     scene::Camera camera = *scene.camera->get<scene::Camera>();
@@ -42,13 +42,14 @@ struct Kind {
     FrameCost MeasuredFrames::*result;
 };
 
-constexpr std::size_t kind_count = 7;
+constexpr std::size_t kind_count = 8;
 
 const std::array<Kind, kind_count>& kinds() {
     static const std::array<Kind, kind_count> all{
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sky},
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::few},
         Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::many},
+        Kind{{scene::Polygons{.error = 0.5}}, 0.03, 0.0, &MeasuredFrames::flat},
         Kind{{scene::Exact{}}, 0.35, 0.0, &MeasuredFrames::rays},
         Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels},
         Kind{{scene::Interval{.linear_steps = 4}}, 0.35, 0.0, &MeasuredFrames::few_steps},
@@ -58,13 +59,11 @@ const std::array<Kind, kind_count>& kinds() {
 
 struct Samples {
     std::vector<double> ms;
-    double triangles = 0.0;
-    double pixels = 0.0;
-    double steps = 0.0;
+    FrameCost mean;
 };
 
 // Pixels that show terrain; `of_box`: those whose rays cross the box around it, and so search.
-double count_pixels(const session::TerrainScene& scene, const HitBuffer& hits, bool of_box) {
+double count_pixels(const TerrainScene& scene, const HitBuffer& hits, bool of_box) {
     const Box bounds = scene.terrain->get<scene::TerrainNode>()->surface->bounds();
     const scene::Camera& camera = scene.scene.camera();
     const glm::ivec2 size(hits.cols(), hits.rows());
@@ -79,8 +78,19 @@ double count_pixels(const session::TerrainScene& scene, const HitBuffer& hits, b
     return pixels;
 }
 
-Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& renderer,
-                       const Kind& kind, int index, Samples& samples) {
+// What `auto` estimates for the last view, were all of it triangles.
+Result<double> estimate_touched(TerrainScene& scene, SceneRenderer& renderer, double error) {
+    scene.terrain->get<scene::TerrainNode>()->material.technique = {
+        scene::Automatic{.error = error}};
+    const auto stats = renderer.draw(scene.scene, true);
+    if (!stats) {
+        return stats.error();
+    }
+    return stats->choice ? stats->choice->touched_pixels : 0.0;
+}
+
+Result<void> draw_view(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind, int index,
+                       Samples& samples) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
     const double first_angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
     for (int frame = 0; frame < frames_a_view; ++frame) {
@@ -92,7 +102,7 @@ Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& ren
         }
         if (frame > 0) {
             samples.ms.push_back(stats->cpu_ms + stats->gpu_ms);
-            samples.triangles +=
+            samples.mean.triangles +=
                 static_cast<double>(stats->triangles) / (views * (frames_a_view - 1.0));
         }
     }
@@ -101,31 +111,58 @@ Result<void> draw_view(session::TerrainScene& scene, session::SceneRenderer& ren
         return hits.error();
     }
     const bool has_rays = scene::searches_surface(kind.technique.id());
-    samples.pixels += count_pixels(scene, *hits, has_rays) / views;
-    if (kind.technique.id() != scene::TechniqueId::interval) {
-        return {};
+    samples.mean.pixels += count_pixels(scene, *hits, has_rays) / views;
+    if (const auto* const polygons = std::get_if<scene::Polygons>(&kind.technique.parameters)) {
+        const auto touched = estimate_touched(scene, renderer, polygons->error);
+        if (!touched) {
+            return touched.error();
+        }
+        samples.mean.touched_pixels += *touched / views;
     }
-    const auto work = renderer.count_work(scene.scene);
-    if (!work) {
-        return work.error();
+    if (kind.technique.id() == scene::TechniqueId::interval) {
+        const auto work = renderer.count_work(scene.scene);
+        if (!work) {
+            return work.error();
+        }
+        samples.mean.steps += static_cast<double>(view::totals_of(*work).steps) / views;
     }
-    samples.steps += static_cast<double>(view::totals_of(*work).steps) / views;
     return {};
+}
+
+double slope(double ms, double count) {
+    return count > 0.0 ? std::max(ms, 0.0) * ns_a_ms / count : 0.0;
+}
+
+// Many triangles from above and many at a flat angle are two equations, without what few triangles
+// of the same pixels cost: the pixels that both cover take about as long.
+Costs costs_of_triangles(const MeasuredFrames& frames) {
+    Costs costs;
+    costs.frame_ms = frames.sky.ms;
+    const auto cost_without_few = [&](const FrameCost& frame) {
+        const double pixels = frames.few.pixels > 0.0 ? frame.pixels / frames.few.pixels : 0.0;
+        return FrameCost{.ms = frame.ms - frames.sky.ms - pixels * (frames.few.ms - frames.sky.ms),
+                         .triangles = frame.triangles - pixels * frames.few.triangles,
+                         .touched_pixels =
+                             frame.touched_pixels - pixels * frames.few.touched_pixels};
+    };
+    const FrameCost many = cost_without_few(frames.many);
+    const FrameCost flat = cost_without_few(frames.flat);
+    const double both = flat.triangles * many.touched_pixels - many.triangles * flat.touched_pixels;
+    costs.triangle_ns = slope(flat.ms * many.touched_pixels - many.ms * flat.touched_pixels, both);
+    costs.touched_pixel_ns =
+        slope(many.ms - many.triangles * costs.triangle_ns / ns_a_ms, many.touched_pixels);
+    costs.covered_pixel_ns = slope(frames.few.ms - frames.sky.ms -
+                                       (frames.few.triangles * costs.triangle_ns +
+                                        frames.few.touched_pixels * costs.touched_pixel_ns) /
+                                           ns_a_ms,
+                                   frames.few.pixels);
+    return costs;
 }
 
 } // namespace
 
-session::Costs costs_from(const MeasuredFrames& frames) {
-    const auto slope = [](double ms, double count) {
-        return count > 0.0 ? std::max(ms, 0.0) * ns_a_ms / count : 0.0;
-    };
-    session::Costs costs;
-    costs.frame_ms = frames.sky.ms;
-    costs.triangle_ns =
-        slope(frames.many.ms - frames.few.ms, frames.many.triangles - frames.few.triangles);
-    costs.covered_pixel_ns =
-        slope(frames.few.ms - frames.sky.ms - frames.few.triangles * costs.triangle_ns / ns_a_ms,
-              frames.few.pixels);
+Costs costs_from(const MeasuredFrames& frames) {
+    Costs costs = costs_of_triangles(frames);
     costs.ray_pixel_ns = slope(frames.rays.ms - frames.fewer_pixels.ms,
                                frames.rays.pixels - frames.fewer_pixels.pixels);
     costs.rays_ms = std::max(
@@ -138,9 +175,8 @@ session::Costs costs_from(const MeasuredFrames& frames) {
     return costs;
 }
 
-Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
-                                      session::SceneRenderer& renderer, const std::stop_token& stop,
-                                      const Progress& progress) {
+Result<MeasuredFrames> measure_frames(TerrainScene& scene, SceneRenderer& renderer,
+                                      const std::stop_token& stop, const Progress& progress) {
     std::array<Samples, kind_count> samples;
     for (int index = -1; index < views; ++index) { // the first warms up
         for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
@@ -161,10 +197,11 @@ Result<MeasuredFrames> measure_frames(session::TerrainScene& scene,
     MeasuredFrames frames;
     for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
         const Samples& measured = samples.at(kind);
-        frames.*kinds().at(kind).result = {median(measured.ms), measured.triangles, measured.pixels,
-                                           measured.steps};
+        FrameCost& result = frames.*kinds().at(kind).result;
+        result = measured.mean;
+        result.ms = median(measured.ms);
     }
     return frames;
 }
 
-} // namespace reljef::app
+} // namespace reljef::session

@@ -1,15 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
-#include "app/cli/options.h"
 #include "engine/core/result.h"
 #include "engine/platform/context.h"
 #include "engine/session/scene_renderer.h"
 
-namespace reljef::app {
+namespace reljef::session {
 
 /// Where costs were measured. They hold for no other place.
 struct CalibrationPlace {
@@ -20,11 +18,11 @@ struct CalibrationPlace {
 
     friend bool operator==(const CalibrationPlace&, const CalibrationPlace&) = default;
 };
-CalibrationPlace place_of(const platform::RendererInfo& info);
+CalibrationPlace place_of(const platform::RendererInfo& info, std::string version);
 
 struct Calibration {
     CalibrationPlace place;
-    session::Costs costs;
+    Costs costs;
 
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
@@ -35,16 +33,9 @@ std::string to_text(const Calibration& calibration);
 /// named in the error.
 Result<Calibration> parse_calibration(const std::string& text, const std::string& file);
 
+/// A calibration in a file. Fails if it cannot be read, and as parse_calibration().
+Result<Calibration> read_calibration(const std::filesystem::path& file);
 /// The costs in a file. Fails if it cannot be read, or was measured in another place.
-Result<session::Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here);
+Result<Costs> read_costs(const std::filesystem::path& file, const CalibrationPlace& here);
 
-/// The context of the options; if none is named, that of --calibration, whose costs hold there.
-/// Fails if its file cannot be read.
-Result<std::optional<session::BackendKind>> context_to_use(const cli::ViewChoice& view);
-
-/// Lets a renderer use the costs of --calibration; does nothing without it. Fails as read_costs();
-/// usage errors: a technique or a renderer that chooses nothing.
-Result<void> use_calibration(const cli::ViewChoice& view, const platform::RendererInfo& info,
-                             session::SceneRenderer& renderer);
-
-} // namespace reljef::app
+} // namespace reljef::session

@@ -1,4 +1,4 @@
-#include "app/choice/calibration.h"
+#include "engine/session/calibration/calibration.h"
 
 #include <cmath>
 #include <string>
@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/choice/measure_costs.h"
 #include "engine/core/atomic_file.h"
+#include "engine/session/calibration/measure_costs.h"
 #include "tests/support/temporary_folder.h"
 
-namespace reljef::app {
+namespace reljef::session {
 namespace {
 
 using testing::HasSubstr;
@@ -21,6 +21,7 @@ Calibration made_calibration() {
     return {here_of_test,
             {.frame_ms = 1.5,
              .triangle_ns = 100.25,
+             .touched_pixel_ns = 8.0,
              .covered_pixel_ns = 7.0,
              .rays_ms = 0.0,
              .ray_pixel_ns = 50.0,
@@ -41,7 +42,7 @@ TEST(Calibration, OtherTextsAreErrorsThatNameTheFileAndARemedy) {
     const std::string good = to_text(made_calibration());
     for (const std::string& bad :
          {std::string(), std::string("[]"), std::string("{}"), std::string("\xff\x00{", 3),
-          replaced(good, "calibration/2", "calibration/1"), replaced(good, "100.25", "-1"),
+          replaced(good, "calibration/3", "calibration/1"), replaced(good, "100.25", "-1"),
           replaced(good, "100.25", "1e999"), replaced(good, "100.25", "\"much\""),
           replaced(good, "\"osmesa\"", "3"), replaced(good, "\"costs\"", "\"prices\""),
           good.substr(0, good.size() / 2)}) {
@@ -59,25 +60,12 @@ TEST(Calibration, ErrorsNameWhatWasFound) {
     };
     EXPECT_THAT(message(replaced(good, "100.25", "-1")), HasSubstr("triangle_ns -1 found"));
     EXPECT_THAT(message(replaced(good, "\"osmesa\"", "3")), HasSubstr("context 3 found"));
-    EXPECT_THAT(message(replaced(good, "calibration/2", "calibration/1")),
+    EXPECT_THAT(message(replaced(good, "calibration/3", "calibration/1")),
                 HasSubstr("schema \"reljef-calibration/1\" found"));
     EXPECT_THAT(message("{}"), HasSubstr("no schema found"));
     EXPECT_THAT(message("[]"), HasSubstr("no JSON object found"));
     EXPECT_THAT(message(replaced(good, "osmesa", std::string(9999, 'x')) + "]"),
                 HasSubstr("no JSON object found"));
-}
-
-// The two examples of the help, one after the other, work on any machine.
-TEST(Calibration, IsUsedInItsContextIfNoneIsNamed) {
-    const test::TemporaryFolder folder;
-    cli::ViewChoice view;
-    EXPECT_EQ(context_to_use(view).value(), std::nullopt);
-    view.calibration = folder.path() / "costs.json";
-    EXPECT_FALSE(context_to_use(view));
-    ASSERT_TRUE(write_text_file(view.calibration, to_text(made_calibration())));
-    EXPECT_EQ(context_to_use(view).value(), session::BackendKind::osmesa);
-    view.context = session::BackendKind::egl;
-    EXPECT_EQ(context_to_use(view).value(), session::BackendKind::egl);
 }
 
 TEST(Calibration, HoldsInItsPlaceOnly) {
@@ -98,17 +86,20 @@ TEST(Calibration, HoldsInItsPlaceOnly) {
 }
 
 TEST(Calibration, CostsFollowFromFrames) {
-    // 2 ms, 100 ns a triangle, 10 ns a pixel; 3 ms and 50 ns a ray; 20 ns a search and 2 ns a step.
+    // 2 ms, 100 ns a triangle, 30 ns a touched and 10 ns a covered pixel; 3 ms and 50 ns a ray; 20
+    // ns a search and 2 ns a step.
     const MeasuredFrames frames{.sky = {2.0, 0.0, 0.0},
-                                .few = {2.0 + 0.1 + 5.0, 1e3, 5e5},
-                                .many = {2.0 + 10.0 + 5.0, 1e5, 5e5},
-                                .rays = {2.0 + 3.0 + 25.0, 12.0, 5e5},
-                                .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 1e5},
-                                .few_steps = {2.0 + 3.0 + 10.0 + 4.0, 12.0, 5e5, 2e6},
-                                .many_steps = {2.0 + 3.0 + 10.0 + 16.0, 12.0, 5e5, 8e6}};
-    const session::Costs costs = costs_from(frames);
+                                .few = {2.0 + 0.1 + 0.6 + 5.0, 1e3, 2e4, 5e5},
+                                .many = {2.0 + 10.0 + 6.0 + 5.0, 1e5, 2e5, 5e5},
+                                .flat = {2.0 + 12.0 + 3.0 + 2.0, 1.2e5, 1e5, 2e5},
+                                .rays = {2.0 + 3.0 + 25.0, 12.0, 0.0, 5e5},
+                                .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 0.0, 1e5},
+                                .few_steps = {2.0 + 3.0 + 10.0 + 4.0, 12.0, 0.0, 5e5, 2e6},
+                                .many_steps = {2.0 + 3.0 + 10.0 + 16.0, 12.0, 0.0, 5e5, 8e6}};
+    const Costs costs = costs_from(frames);
     EXPECT_NEAR(costs.frame_ms, 2.0, 1e-9);
     EXPECT_NEAR(costs.triangle_ns, 100.0, 1e-6);
+    EXPECT_NEAR(costs.touched_pixel_ns, 30.0, 1e-6);
     EXPECT_NEAR(costs.covered_pixel_ns, 10.0, 1e-6);
     EXPECT_NEAR(costs.rays_ms, 3.0, 1e-9);
     EXPECT_NEAR(costs.ray_pixel_ns, 50.0, 1e-6);
@@ -117,16 +108,16 @@ TEST(Calibration, CostsFollowFromFrames) {
 }
 
 TEST(Calibration, CostsAreNeverNegative) {
-    const FrameCost same{1.0, 10.0, 10.0, 10.0};
-    const FrameCost cheaper{0.5, 20.0, 20.0, 20.0};
-    const session::Costs costs = costs_from({same, cheaper, same, cheaper, same, same, cheaper});
+    const FrameCost same{1.0, 10.0, 10.0, 10.0, 10.0};
+    const FrameCost cheaper{0.5, 20.0, 20.0, 20.0, 20.0};
+    const Costs costs = costs_from({same, cheaper, same, same, cheaper, same, same, cheaper});
     for (const double cost :
-         {costs.frame_ms, costs.triangle_ns, costs.covered_pixel_ns, costs.rays_ms,
-          costs.ray_pixel_ns, costs.search_pixel_ns, costs.search_step_ns}) {
+         {costs.frame_ms, costs.triangle_ns, costs.touched_pixel_ns, costs.covered_pixel_ns,
+          costs.rays_ms, costs.ray_pixel_ns, costs.search_pixel_ns, costs.search_step_ns}) {
         EXPECT_TRUE(std::isfinite(cost));
         EXPECT_GE(cost, 0.0);
     }
 }
 
 } // namespace
-} // namespace reljef::app
+} // namespace reljef::session
