@@ -2,12 +2,13 @@
 
 namespace reljef::view {
 
-/// What drawing a terrain costs, while the view moves. Rasterizers draw blocks of pixels; those at a
-/// triangle's edges take longest. A triangle of A pixels has about √A of them, so N triangles that
-/// cover P pixels touch about √(N P). The defaults are those of llvmpipe on two processors of an
-/// Intel Xeon. Those of triangles were fitted to twelve views (bench/results/moving-*.json of commit
-/// 2e9c081daa44), where estimates are 0.78 to 1.23 of what they took. On an AMD EPYC, `reljef
-/// calibrate --context osmesa` found 97 to 116, 166 to 186, 8.1 to 8.7 and, for rays, 82 to 85.
+/// What drawing a terrain costs, while the view moves. Rasterizers draw blocks of pixels; those at
+/// a triangle's edges take longest. A triangle of A pixels has about √A of them, so N triangles
+/// that cover P pixels touch about √(N P). The defaults are those of llvmpipe on two processors of
+/// an Intel Xeon. Those of triangles were fitted to twelve moving views
+/// (docs/techniques/choice.md), where estimates are 0.78 to 1.23 of what they took. On an AMD EPYC,
+/// `reljef calibrate --context osmesa` found 97 to 116, 166 to 186, 8.1 to 8.7 and, for rays, 80
+/// to 85.
 struct TechniqueCosts {
     double frame_ms = 7.2;           ///< of any frame
     double triangle_ns = 110.0;      ///< of each triangle: cut, uploaded, drawn
