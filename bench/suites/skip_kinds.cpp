@@ -30,8 +30,6 @@ constexpr SkipKind beams{"beams", "the way on which no ray of 8 by 8 pixels hits
                          SkipRounding::hits};
 constexpr SkipKind blocks{"blocks", "blocks of the maximum mipmap below the ray",
                           [](Options& options) { options.opengl->skips.blocks = false; }};
-constexpr SkipKind unlit{"unlit", "sun rays from where the sun adds nothing",
-                         [](Options& options) { options.opengl->skips.unlit = false; }};
 
 constexpr SkipKind certain{"certain light",
                            "sun rays from cells that are certainly lit or in shadow",
@@ -105,9 +103,7 @@ std::vector<SkipTest> skip_tests() {
          true,
          day,
          true,
-         {occlusion, free_space, packet_beams, content}},
-        // On streams no light is certain.
-        {"streamed, low sun", shadow, false, Daylight::low_sun, true, {unlit}}};
+         {occlusion, free_space, packet_beams, content}}};
 }
 
 } // namespace reljef::bench

@@ -41,7 +41,6 @@ vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative 
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
-uniform float max_unlit;             // light of the sun that is not worth a ray; < 0: every one is
 #include "relief/relief_light.glsl"
 #ifdef HIT
 uniform vec4 origin_sample;   // xy: col, row of the search space's origin; zw: to be added
@@ -165,10 +164,7 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
     LitPlace at = lit_place(place, level);
     vec3 lit = reflected_at(at);
 #ifdef SHADOW
-    vec3 sun = of_sun_at(at);
-    if (max(max(sun.r, sun.g), sun.b) > max_unlit) {
-        lit += share_of_sun_at(place, relative) * sun;
-    }
+    lit += share_of_sun_at(place, relative) * of_sun_at(at);
 #endif
     return lit;
 }

@@ -55,7 +55,6 @@ TEST_F(SkipsGlTest, ThePictureIsTheSameWithoutEachKind) {
         [](auto& options) { options.opengl->skips.blocks = false; },
         [](auto& options) { options.opengl->skips.uploads = false; },
         [](auto& options) { options.opengl->skips.cuts = false; },
-        [](auto& options) { options.opengl->skips.unlit = false; },
         [](auto& options) { options.opengl->skips.certain = false; },
     };
     World world(3.0);

@@ -283,7 +283,6 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         program.set(uniforms.top_level, 0);
     }
     set_certain_sun(program, frame, draw);
-    program.set(uniforms.max_unlit, frame.skips.unlit ? 0.0F : -1.0F);
     set_origin(program, drawn);
     set_space(program, frame.list.camera, space, draw.world_from_local);
     if (draw.course) {

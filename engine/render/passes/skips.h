@@ -10,7 +10,6 @@ struct Skips {
     bool uploads = true;  ///< content that is in GPU memory already
     bool cuts = true;     ///< new triangles for tiles that keep theirs
     bool features = true; ///< shader code for a sun or air that the scene lacks
-    bool unlit = true;    ///< sun rays from where the sun adds nothing
     bool certain = true;  ///< sun rays from where it is certain whether the sun is seen
 };
 

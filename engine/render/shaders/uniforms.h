@@ -47,7 +47,6 @@ struct Uniforms {
     gl::Uniform<glm::mat3> space_from_relative{"space_from_relative"};
     gl::Uniform<glm::vec3> eye_in_space{"eye_in_space"};
     gl::Uniform<float> texels_per_metre_away{"texels_per_metre_away"};
-    gl::Uniform<float> max_unlit{"max_unlit"};
     gl::Uniform<int> has_certain_sun{"has_certain_sun"};
 
     // Its beams: beams.frag.
