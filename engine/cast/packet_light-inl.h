@@ -85,7 +85,7 @@ HWY_INLINE Rays sun_rays(const BlockJob& job, const SunTile& tile, const BlockJo
 
 // The order of tiles does not matter: a ray that is below one somewhere does not reach the sun.
 template <class Mode>
-HWY_INLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
+HWY_NOINLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
     using SunMode = std::conditional_t<Mode::counts, Counted, AmongTiles>;
     Lanes hidden = no_lanes();
     BlockJob target;

@@ -364,8 +364,8 @@ HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pi
 
 // `start_of(job)`: where the rays may begin.
 template <class Mode, class StartOf>
-HWY_INLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
-                               const PixelOffsets& pixels, const StartOf& start_of) {
+HWY_NOINLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
+                                 const PixelOffsets& pixels, const StartOf& start_of) {
     const Floats never = all(std::numeric_limits<float>::infinity());
     const ViewRays view = view_rays(paint, pixels);
     Look look{all(glm::vec3(0.0F)), never};
