@@ -76,14 +76,22 @@ std::optional<OverviewPlan> overview_plan(const io::TileSet& tiles, io::TileTerr
                 : std::nullopt;
 }
 
-// Makes texels of the finest tiles at most as large as pixels of the finest image.
-int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, double texel) {
+// Sides of the finest image's pixels, samples.
+double finest_pixel_of(const io::ImagerySet& imagery, const io::TileGrid& grid) {
+    const glm::dvec2 pixels =
+        imagery.finest_pixels_in(io::texels_at(grid)).value_or(glm::dvec2(1.0));
+    return 1.0 / std::max(pixels.x, pixels.y);
+}
+
+// Makes texels of the finest tiles at most as large as pixels of the finest image: `texel` and
+// `pixel` in samples.
+int refinement_for(const StreamSource& stream, double texel, double pixel) {
     constexpr int max_refinement = 64;
     const int limit =
         std::min(max_refinement, terrain::max_tree_samples /
                                      std::max(stream.plan.grid.cols, stream.plan.grid.rows));
     int refinement = 1;
-    while (2 * refinement <= limit && texel > 1.001 * refinement * imagery.finest_pixel()) {
+    while (2 * refinement <= limit && texel > 1.001 * refinement * pixel) {
         refinement *= 2;
     }
     return refinement;
@@ -91,37 +99,38 @@ int refinement_for(const io::ImagerySet& imagery, const StreamSource& stream, do
 
 } // namespace
 
-OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
-                         const io::TileTerrainOptions& options) {
-    const bool shown = choice.pictures_streamed || !fits(tiles.plan(options));
+Result<std::shared_ptr<const io::ImagerySet>> open_imagery(const io::TileSet& tiles,
+                                                           const SourceOptions& choice,
+                                                           const io::TileTerrainOptions& options) {
+    const auto plan = tiles.plan(options);
+    const bool shown = choice.pictures_streamed || !fits(plan);
     if (!choice.streamed || options.raster.imagery.empty() || !shown) {
-        return {};
+        return std::shared_ptr<const io::ImagerySet>();
     }
     io::ImagerySetOptions opening;
     opening.reading_memory = options.raster.memory_budget / work_part / readers_within(options);
     opening.stop = options.raster.stop;
-    auto imagery = io::ImagerySet::open(options.raster.imagery, tiles.crs(), opening);
+    const io::TileGrid grid = plan ? plan->grid : tiles.grid();
+    auto imagery = io::ImagerySet::open(
+        options.raster.imagery, {tiles.crs(), io::outer_affine_of(grid), {grid.cols, grid.rows}},
+        opening);
     if (!imagery) {
-        return {nullptr, imagery.error().message};
+        return imagery.error();
     }
-    return {std::make_shared<const io::ImagerySet>(std::move(*imagery)), {}};
+    return std::make_shared<const io::ImagerySet>(std::move(*imagery));
 }
 
 bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
-                        const OpenImagery& imagery) {
+                        const io::ImagerySet* imagery) {
     const auto plan = tiles.plan(options);
-    if (!plan || imagery.set == nullptr) {
-        return false;
-    }
-    const io::TileFile& finest = tiles.files().front();
-    const double side =
-        std::max(plan->grid.cols * finest.spacing.x, plan->grid.rows * finest.spacing.y);
-    return side > io::max_image_side * imagery.set->finest_pixel();
+    return plan && imagery != nullptr &&
+           std::max(plan->grid.cols, plan->grid.rows) >
+               io::max_image_side * finest_pixel_of(*imagery, plan->grid);
 }
 
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
-                                          const OpenImagery& imagery) {
+                                          const io::ImagerySet* imagery) {
     const auto whole = tiles.plan(options);
     if (!choice.streamed || (fits(whole) && !has_finer_pictures(tiles, options, imagery)) ||
         std::max(tiles.grid().cols, tiles.grid().rows) > terrain::max_tree_samples) {
@@ -148,10 +157,11 @@ std::optional<StreamSource> stream_source(const io::TileSet& tiles, const Source
 
 scene::ImageryDetail imagery_detail(const io::ImagerySet& imagery, const StreamSource& stream,
                                     double spacing) {
+    const double pixel = finest_pixel_of(imagery, stream.plan.grid);
     scene::ImageryDetail detail;
     detail.max_texels = scene::TileStream::texels_within(stream.memory_budget);
-    detail.finest_pixel = imagery.finest_pixel();
-    detail.refinement = refinement_for(imagery, stream, spacing / detail.max_texels);
+    detail.finest_pixel = pixel * spacing;
+    detail.refinement = refinement_for(stream, 1.0 / detail.max_texels, pixel);
     return detail;
 }
 

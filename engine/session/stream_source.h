@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 
 #include "engine/io/imagery/imagery_set.h"
 #include "engine/io/tile_set.h"
@@ -11,30 +10,21 @@
 
 namespace reljef::session {
 
-/// The images over a terrain that may be streamed. Opened once, because the white point of 16-bit
-/// images takes seconds.
-struct OpenImagery {
-    std::shared_ptr<const io::ImagerySet> set; ///< null: not needed, or an error
-    std::string error;                         ///< why they cannot be opened
-
-    [[nodiscard]] std::optional<double> white() const {
-        return set != nullptr ? std::optional(set->white()) : std::nullopt;
-    }
-};
-
-/// Opens the images if tiles would show them.
-OpenImagery open_imagery(const io::TileSet& tiles, const SourceOptions& choice,
-                         const io::TileTerrainOptions& options);
+/// The images over a terrain, if tiles would show them; else null. Opened once, because the white
+/// point of 16-bit images takes seconds.
+Result<std::shared_ptr<const io::ImagerySet>> open_imagery(const io::TileSet& tiles,
+                                                           const SourceOptions& choice,
+                                                           const io::TileTerrainOptions& options);
 
 /// Whether images are finer than the largest single picture over the terrain.
 bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
-                        const OpenImagery& imagery);
+                        const io::ImagerySet* imagery);
 
 /// How tiles are read on demand; empty if all fits in memory or streaming is off. Otherwise limits
 /// GDAL's block cache to its share of the memory.
 std::optional<StreamSource> stream_source(const io::TileSet& tiles, const SourceOptions& choice,
                                           io::TileTerrainOptions options,
-                                          const OpenImagery& imagery);
+                                          const io::ImagerySet* imagery);
 
 /// The resolution of tile images. `spacing`: metres between samples of the terrain.
 scene::ImageryDetail imagery_detail(const io::ImagerySet& imagery, const StreamSource& stream,

@@ -131,9 +131,9 @@ private:
     void add_picture(terrain::TreeTile tile, const std::stop_token& stop,
                      scene::TileContent& content) const {
         const glm::ivec2 cells = maker_.tree().cells(tile);
-        io::ImageryWindow window =
-            images_->read(io::picture_grid(ground_.grid, tile, cells, maker_.picture_size(tile)),
-                          maker_.texel(tile.level), stop);
+        const io::TileGrid grid =
+            io::picture_grid(ground_.grid, tile, cells, maker_.picture_size(tile));
+        io::ImageryWindow window = images_->read(io::texels_at(grid), {.stop = stop});
         io::wrap_picture(window.texels, maker_.rows(), maker_.first(tile).y,
                          cells.y * maker_.step(tile));
         content.picture = {std::move(window.texels), window.whole, window.has_more};

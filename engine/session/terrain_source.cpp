@@ -85,14 +85,15 @@ io::TileTerrainOptions tile_options(const SourceOptions& choice,
     return options;
 }
 
+// A terrain whose tiles may be read on demand.
 struct SetToRead {
-    io::TileSet tiles;
-    OpenImagery imagery;
-};
-struct SetOrImagery {
-    std::optional<SetToRead> set;
-    std::optional<double> imagery_white; // if known
-    std::optional<Error> obstacle;       // why the file is not a set, though it should be
+    std::optional<io::TileSet> tiles;              // absent: a file that is read whole
+    std::shared_ptr<const io::ImagerySet> imagery; // null: not opened
+    std::optional<Error> obstacle;                 // why the file is not a set, though it should be
+
+    [[nodiscard]] std::optional<double> imagery_white() const {
+        return imagery != nullptr ? std::optional(imagery->white()) : std::nullopt;
+    }
 };
 
 // For the coarsest views of a streamed terrain, without the libraries.
@@ -125,80 +126,73 @@ void set_heights_of_tiles(const io::TileSet& tiles, const SourceOptions& choice,
     }
 }
 
-void add_imagery(const OpenImagery& imagery, TerrainSource& source) {
-    std::vector<std::string>& notes = source.terrain.notes;
-    if (imagery.set == nullptr) {
-        notes.push_back(fmt::format("finer tiles show the imagery coarsely: {}", imagery.error));
-        return;
-    }
-    if (auto missing = imagery.set->missing_overviews()) {
-        notes.push_back(std::move(*missing));
-    }
-    const glm::dvec2 spacing = source.terrain.heightfield.spacing;
-    source.stream->imagery =
-        imagery_detail(*imagery.set, *source.stream,
-                       std::max(spacing.x, spacing.y) / source.stream->plan.reduction);
-    source.imagery = imagery.set;
-}
-
 Result<TerrainSource> read_tiles(SetToRead set, const SourceOptions& choice,
                                  io::SceneDescription description, Log& log,
                                  const std::stop_token& stop) {
     const auto task = log.start("reading " + description.name);
     io::TileTerrainOptions options = tile_options(choice, description, stop);
     options.raster.progress = task->callback();
-    options.raster.imagery_white = set.imagery.white();
-    std::optional<StreamSource> stream = stream_source(set.tiles, choice, options, set.imagery);
+    options.raster.imagery_white = set.imagery_white();
+    std::optional<StreamSource> stream =
+        stream_source(*set.tiles, choice, options, set.imagery.get());
     if (stream) {
         options.raster.memory_budget = stream->overview_budget;
         options.threads = stream->threads;
     }
-    auto terrain = set.tiles.terrain(options);
+    auto terrain = set.tiles->terrain(options);
     if (!terrain) {
         return terrain.error();
     }
     if (stream) {
-        set_heights_of_tiles(set.tiles, choice, *stream, terrain->notes);
+        set_heights_of_tiles(*set.tiles, choice, *stream, terrain->notes);
     }
     TerrainSource source{
         std::move(*terrain), std::move(description), std::move(set.tiles), stream, {}};
-    if (stream && !options.raster.imagery.empty()) {
-        add_imagery(set.imagery, source);
+    if (stream && set.imagery != nullptr) {
+        if (auto missing = set.imagery->missing_overviews()) {
+            source.terrain.notes.push_back(std::move(*missing));
+        }
+        const glm::dvec2 spacing = source.terrain.heightfield.spacing;
+        source.stream->imagery = imagery_detail(
+            *set.imagery, *stream, std::max(spacing.x, spacing.y) / stream->plan.reduction);
+        source.imagery = std::move(set.imagery);
     }
     return source;
 }
 
 // A single file is streamed as a set if it, or its imagery, does not fit in memory. Otherwise
-// returns the white point of its imagery.
-Result<SetOrImagery> set_to_stream(const SourceOptions& choice,
-                                   const io::SceneDescription& description,
-                                   const std::stop_token& stop) {
+// returns its imagery, if that was opened.
+Result<SetToRead> set_to_stream(const SourceOptions& choice,
+                                const io::SceneDescription& description,
+                                const std::stop_token& stop) {
     if (!choice.streamed || !description.generator.empty() || description.spacing) {
-        return SetOrImagery();
+        return SetToRead();
     }
     const auto info = io::read_raster_info(description.heights);
     if (!info) {
         return info.error();
     }
     if (info->crs_name.empty()) {
-        return SetOrImagery();
+        return SetToRead();
     }
     const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
                       static_cast<double>(choice.memory_megabytes) * (1U << 20U);
     const io::TileTerrainOptions options = tile_options(choice, description, stop);
     if (fits && (options.raster.imagery.empty() || !choice.pictures_streamed)) {
-        return SetOrImagery();
+        return SetToRead();
     }
     auto tiles = open_set(choice, description, stop);
     if (!tiles) {
-        return stop.stop_requested() ? Result<SetOrImagery>(tiles.error())
-                                     : SetOrImagery{{}, {}, tiles.error()};
+        return stop.stop_requested() ? Result<SetToRead>(tiles.error())
+                                     : SetToRead{{}, {}, tiles.error()};
     }
-    OpenImagery imagery = open_imagery(*tiles, choice, options);
-    if (fits && !has_finer_pictures(*tiles, options, imagery)) {
-        return SetOrImagery{{}, imagery.white(), {}};
+    auto imagery = open_imagery(*tiles, choice, options);
+    if (!imagery) {
+        return imagery.error();
     }
-    return SetOrImagery{SetToRead{std::move(*tiles), std::move(imagery)}, {}, {}};
+    const bool is_read_whole = fits && !has_finer_pictures(*tiles, options, imagery->get());
+    return SetToRead{
+        is_read_whole ? std::nullopt : std::optional(std::move(*tiles)), std::move(*imagery), {}};
 }
 
 Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescription& description,
@@ -240,9 +234,12 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         if (!tiles) {
             return tiles.error();
         }
-        OpenImagery imagery = open_imagery(*tiles, choice, tile_options(choice, description, stop));
-        return read_tiles({std::move(*tiles), std::move(imagery)}, choice, std::move(description),
-                          log, stop);
+        auto imagery = open_imagery(*tiles, choice, tile_options(choice, description, stop));
+        if (!imagery) {
+            return imagery.error();
+        }
+        return read_tiles({std::move(*tiles), std::move(*imagery), {}}, choice,
+                          std::move(description), log, stop);
     }
     if (auto fits = check_folder_options(choice, description); !fits) {
         return fits.error();
@@ -251,8 +248,8 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
     if (!found) {
         return found.error();
     }
-    if (found->set) {
-        return read_tiles(std::move(*found->set), choice, std::move(description), log, stop);
+    if (found->tiles) {
+        return read_tiles(std::move(*found), choice, std::move(description), log, stop);
     }
     if (!description.generator.empty()) {
         auto city = generate(choice, description, log, stop);
@@ -263,7 +260,7 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         source.buildings = std::move(city->buildings);
         return source;
     }
-    auto terrain = read(choice, description, found->imagery_white, log, stop);
+    auto terrain = read(choice, description, found->imagery_white(), log, stop);
     if (!terrain) {
         return terrain.error();
     }

@@ -83,7 +83,7 @@ bool DatasetPool::is_changed(const std::filesystem::path& path, const FileState&
 void DatasetPool::give_back(Idle idle) {
     const std::lock_guard lock(mutex_);
     idle_.push_front(std::move(idle));
-    if (idle_.size() > max_idle) {
+    if (idle_.size() > max_idle_) {
         idle_.pop_back();
     }
 }

@@ -31,7 +31,8 @@ public:
 
     using Opener =
         std::function<Result<Dataset>(const std::filesystem::path&, const GdalMessages&)>;
-    explicit DatasetPool(Opener open = open_raster) : open_(std::move(open)) {}
+    explicit DatasetPool(Opener open = open_raster, std::size_t idle = max_idle)
+        : open_(std::move(open)), max_idle_(idle) {}
 
     /// Changes when a local file is replaced; always the same for remote files.
     struct FileState {
@@ -88,6 +89,7 @@ private:
     bool is_changed(const std::filesystem::path& path, const FileState& now);
 
     const Opener open_;
+    const std::size_t max_idle_;
     std::mutex mutex_;
     std::list<Idle> idle_; // newest first
     std::map<std::filesystem::path, FileState> opened_;

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/trigonometric.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
-#include "engine/core/parallel_for.h"
 #include "engine/io/files/dataset_pool.h"
-#include "engine/io/imagery/degree_box.h"
-#include "engine/io/imagery/image_files.h"
+#include "engine/io/files/file_index.h"
+#include "engine/io/imagery/image_place.h"
 #include "engine/io/imagery/rgb_image.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/georeferencing.h"
@@ -21,103 +22,180 @@ namespace reljef::io {
 struct ImageInfo {
     std::filesystem::path path;
     glm::ivec2 size{0};
-    glm::dvec2 pixel{1.0}; ///< metres
-    DegreeBox box{};
-    struct Overview {
-        int index = 0;
-        double factor = 1.0; ///< full-resolution pixels per pixel and side
-    };
-    std::vector<Overview> overviews;
+    double white = 0.0; ///< see white_of
+    bool has_place = false;
+    bool names_crs = false;
+    std::optional<DegreeBox> box;  ///< absent: unknown
+    glm::dmat2 steps{1.0};         ///< see steps_over
+    std::vector<double> overviews; ///< see overviews_of
 };
 
 namespace {
 
-/// Metres per pixel at the middle of 9×9 places over `size` pixels.
-glm::dvec2 pixel_size(std::span<const glm::dvec2> degrees, glm::ivec2 size) {
-    constexpr std::size_t middle = middle_of_places;
-    const double across = metres_between(degrees[middle - 1], degrees[middle + 1]);
-    const double down = metres_between(degrees[middle - 9], degrees[middle + 9]);
-    return 4.0 * glm::dvec2(across, down) / glm::dvec2(size);
-}
-
-std::vector<ImageInfo::Overview> overviews_of(GDALDataset& rgb) {
-    std::vector<ImageInfo::Overview> found;
-    GDALRasterBand& band = *rgb.GetRasterBand(1);
-    found.reserve(static_cast<std::size_t>(std::max(band.GetOverviewCount(), 0)));
-    for (int i = 0; i < band.GetOverviewCount(); ++i) {
-        GDALRasterBand* reduced = band.GetOverview(i);
-        if (reduced != nullptr && reduced->GetXSize() >= 1) {
-            found.push_back({i, static_cast<double>(band.GetXSize()) / reduced->GetXSize()});
+void add_folder(const std::filesystem::path& folder, std::vector<std::filesystem::path>& paths,
+                std::vector<std::string>& errors) {
+    std::vector<std::string> ignored;
+    const auto index = index_files(folder, {}, ignored);
+    if (!index) {
+        errors.push_back(index.error().message);
+        return;
+    }
+    const std::size_t before = paths.size();
+    for (const IndexedFile& file : index->files) {
+        if (file.use == FileKind::error) {
+            errors.push_back(file.error);
+        } else if (file.use == FileKind::picture || file.type == "Byte" || file.type == "UInt16") {
+            paths.push_back(folder / file.path);
         }
     }
-    return found;
-}
-
-/// `crs` is its CRS if it names none.
-Result<Dataset> open_placed(const std::filesystem::path& path, double white, const std::string& crs,
-                            const GdalMessages& messages) {
-    auto rgb = open_rgb(path, white, messages);
-    if (rgb && (*rgb)->GetSpatialRef() == nullptr) {
-        const OGRSpatialReference own = crs_from_text(crs);
-        (*rgb)->SetSpatialRef(&own);
+    if (paths.size() == before) {
+        errors.push_back(
+            fmt::format("{}: holds no image, at least one was expected", folder.string()));
     }
-    return rgb;
 }
 
-std::optional<ImageInfo> image_info(const std::filesystem::path& path, GDALDataset& rgb) {
-    const auto degrees = places_over(rgb);
-    if (degrees.empty()) {
-        return std::nullopt;
+/// Files and addresses of images, newest first. Of folders: their pictures and Byte or UInt16
+/// rasters. Adds an error for each unreadable file of a folder.
+std::vector<std::filesystem::path> image_files(std::span<const std::filesystem::path> names,
+                                               std::vector<std::string>& errors) {
+    std::vector<std::filesystem::path> paths;
+    for (const std::filesystem::path& name : names) {
+        std::error_code ignored;
+        if (std::filesystem::is_directory(name, ignored)) {
+            add_folder(name, paths, errors);
+        } else {
+            paths.push_back(name);
+        }
     }
-    ImageInfo image{path, {rgb.GetRasterXSize(), rgb.GetRasterYSize()}, {}, {}, overviews_of(rgb)};
-    image.box = padded_box(degrees);
-    image.pixel = pixel_size(degrees, image.size);
-    return std::isfinite(image.pixel.x * image.pixel.y) ? std::optional(image) : std::nullopt;
+    std::stable_sort(paths.begin(), paths.end(),
+                     [](const std::filesystem::path& a, const std::filesystem::path& b) {
+                         std::error_code ignored;
+                         return std::filesystem::last_write_time(a, ignored) >
+                                std::filesystem::last_write_time(b, ignored);
+                     });
+    return paths;
 }
 
-double side_of(const ImageInfo& image) {
-    return std::sqrt(image.pixel.x * image.pixel.y);
+/// Full-resolution pixels per pixel and side of each overview; 0: it cannot be opened.
+std::vector<double> overviews_of(GDALDataset& rgb) {
+    GDALRasterBand& band = *rgb.GetRasterBand(1);
+    std::vector<double> factors;
+    for (int i = 0; i < band.GetOverviewCount(); ++i) {
+        GDALRasterBand* reduced = band.GetOverview(i);
+        const bool usable = reduced != nullptr && reduced->GetXSize() >= 1;
+        factors.push_back(usable ? static_cast<double>(band.GetXSize()) / reduced->GetXSize()
+                                 : 0.0);
+    }
+    return factors;
 }
 
-/// The overview to read for a spacing of texels.
+glm::dmat2 steps_of(const geo::PixelAffine& affine) {
+    return {affine.x_col, affine.y_col, affine.x_row, affine.y_row};
+}
+
+glm::dvec2 lengths(const glm::dmat2& steps) {
+    return {glm::length(steps[0]), glm::length(steps[1])};
+}
+
+void set_crs_of_ground(GDALDataset& image, const ImageryGround& ground) {
+    if (image.GetSpatialRef() == nullptr && image.GetGCPSpatialRef() == nullptr) {
+        const OGRSpatialReference crs = crs_from_text(ground.crs);
+        image.SetSpatialRef(&crs);
+    }
+}
+
+Result<ImageInfo> image_info(const std::filesystem::path& path, const ImageryGround& ground,
+                             const ImagerySetOptions& options) {
+    const ReadScope scope(options.stop);
+    const GdalMessages messages;
+    const auto rgb = open_rgb(path, options.white, messages, options.stop);
+    if (!rgb) {
+        return rgb.error();
+    }
+    GDALDataset& image = *rgb->dataset;
+    ImageInfo info;
+    info.path = path;
+    info.size = {image.GetRasterXSize(), image.GetRasterYSize()};
+    info.white = rgb->white;
+    info.has_place = affine_of(image) || image.GetGCPCount() > 0;
+    info.names_crs = image.GetSpatialRef() != nullptr || image.GetGCPSpatialRef() != nullptr;
+    info.overviews = overviews_of(image);
+    if (info.has_place && !ground.crs.empty()) {
+        set_crs_of_ground(image, ground);
+        const auto steps = steps_over(ground, image);
+        if (!steps) {
+            return Error{fmt::format(
+                "{}: its place cannot be read, a georeferenced image was expected", path.string())};
+        }
+        info.steps = *steps;
+        info.box = degree_box(image);
+    }
+    return info;
+}
+
+/// What is unusual about an image's place; empty: nothing.
+std::string place_note(const ImageInfo& image, const ImageryGround& ground, bool any_has_place) {
+    if (ground.crs.empty()) {
+        return image.has_place ? "the terrain names no place, so the image is stretched over it"
+                               : "";
+    }
+    const std::string name = image.path.filename().string();
+    if (!image.has_place) {
+        return name + (any_has_place
+                           ? " names no place on Earth: it is left out beside images that do"
+                           : " names no place, so it is stretched over the terrain");
+    }
+    return image.names_crs ? ""
+                           : name + " names no coordinate system, so that of the terrain is taken";
+}
+
+/// Leaves out images without a place if others have one. Otherwise stretches all; returns whether.
+bool stretch_or_leave_out(std::vector<ImageInfo>& images, const ImageryGround& ground,
+                          std::vector<std::string>& notes) {
+    const auto has_place = [](const ImageInfo& image) { return image.has_place; };
+    const bool any_has_place = std::any_of(images.begin(), images.end(), has_place);
+    const bool stretches = ground.crs.empty() || !any_has_place;
+    for (ImageInfo& image : images) {
+        if (const std::string note = place_note(image, ground, any_has_place); !note.empty()) {
+            notes.push_back("imagery: " + note);
+        }
+        if (stretches) {
+            image.steps = steps_of(stretched_over(ground, image.size));
+        }
+    }
+    if (!stretches) {
+        std::erase_if(images, std::not_fn(has_place));
+    }
+    return stretches;
+}
+
+/// How an image is read.
 struct Choice {
-    int overview = -1;   ///< -1: full resolution
-    double pixels = 0.0; ///< to read
-    double scale = 1.0;  ///< texels per pixel read
+    int overview = -1;     ///< -1: full resolution
+    double pixels = 0.0;   ///< to read
+    glm::dvec2 scale{1.0}; ///< texels per pixel read
 };
 
-Choice choice_for(const ImageInfo& image, double spacing, double texels) {
-    const double desired = spacing / std::max(image.pixel.x, image.pixel.y);
+/// `pixel`: sides of the image's pixels, texels.
+Choice choice_for(const ImageInfo& image, glm::dvec2 pixel, double texels) {
+    const double desired = 1.0 / std::max(pixel.x, pixel.y);
     Choice choice;
     double factor = 1.0;
     constexpr double near = 1.0 + 1e-6; // sizes are rounded
-    for (const ImageInfo::Overview& overview : image.overviews) {
-        if (overview.factor <= desired * near && overview.factor > factor) {
-            choice.overview = overview.index;
-            factor = overview.factor;
+    for (std::size_t i = 0; i < image.overviews.size(); ++i) {
+        if (image.overviews[i] <= desired * near && image.overviews[i] > factor) {
+            choice.overview = static_cast<int>(i);
+            factor = image.overviews[i];
         }
     }
+    choice.scale = pixel * factor;
     const double there = static_cast<double>(image.size.x) * image.size.y / (factor * factor);
-    const double shown =
-        texels * spacing * spacing / (image.pixel.x * image.pixel.y * factor * factor);
-    choice.pixels = std::min(there, shown);
-    choice.scale = side_of(image) * factor / spacing;
+    choice.pixels = std::min(there, texels / (choice.scale.x * choice.scale.y));
     return choice;
 }
 
 bool shows_something(std::span<const Rgba8> texels) {
     return std::any_of(texels.begin(), texels.end(), [](Rgba8 texel) { return texel.a != 0; });
-}
-
-/// Whether an image may lie between the texels.
-bool is_tiny(const ImageInfo& image, double spacing) {
-    const glm::dvec2 sides = image.pixel * glm::dvec2(image.size);
-    return std::min(sides.x, sides.y) < 2.0 * spacing;
-}
-
-double units_in_degree(const std::string& crs) {
-    const OGRSpatialReference reference = crs_from_text(crs);
-    return reference.IsGeographic() != 0 ? 1.0 / glm::degrees(reference.GetAngularUnits()) : 0.0;
 }
 
 void copy_row(Image& picture, int from, int to) {
@@ -127,27 +205,80 @@ void copy_row(Image& picture, int from, int to) {
 } // namespace
 
 struct ImagerySet::State {
-    State(std::string grid_crs, double white_of_all, const ImagerySetOptions& options)
-        : crs(std::move(grid_crs)), turn(units_in_degree(crs)),
+    State(ImageryGround terrain, double white_of_all, const ImagerySetOptions& options)
+        : ground(std::move(terrain)), turn(units_in_degree(ground.crs)),
           reading_memory(options.reading_memory), white(white_of_all),
-          pool([this](const std::filesystem::path& path, const GdalMessages& messages) {
-              return open_placed(path, white, crs, messages);
-          }),
+          pool([this](const std::filesystem::path& path,
+                      const GdalMessages& messages) { return open_placed(path, messages); },
+               options.keeps_open ? DatasetPool::max_idle : 0),
           failing(options.first_pause) {}
 
-    std::string crs;               ///< WKT of the grids
+    ImageryGround ground;
     double turn;                   ///< units of x per degree; 0: not in degrees
     std::size_t reading_memory;    ///< bytes per thread
     double white;                  ///< see white_of
     std::vector<ImageInfo> images; ///< finest first
+    bool stretches = false;        ///< the images have no place
     bool complete = true;          ///< all images could be opened
+    std::vector<std::string> notes;
+    std::vector<std::string> errors;
     mutable DatasetPool pool;
     mutable FailingFiles failing;
     mutable NewNotes new_notes;
 
-    /// Draws an image into an empty picture.
-    Result<void> draw(const ImageInfo& image, const Choice& choice, const TileGrid& grid,
-                      Image& texels, const std::stop_token& stop) const {
+    Result<Dataset> open_placed(const std::filesystem::path& path,
+                                const GdalMessages& messages) const {
+        auto rgb = open_rgb(path, white, messages);
+        if (!rgb) {
+            return rgb.error();
+        }
+        GDALDataset& image = *rgb->dataset;
+        if (stretches) {
+            const glm::ivec2 size(image.GetRasterXSize(), image.GetRasterYSize());
+            place_over(ground, stretched_over(ground, size), image);
+        } else {
+            set_crs_of_ground(image, ground);
+        }
+        return std::move(rgb->dataset);
+    }
+
+    /// A raster over texels, moved by `degrees`; null if GDAL fails.
+    [[nodiscard]] Dataset raster_at(const TexelGrid& grid, double degrees, Image& texels) const {
+        Dataset raster = raster_over(texels);
+        auto outer = affine_of_samples(grid.affine, {glm::dvec2(-0.5), glm::dvec2(1.0)});
+        outer.x0 += degrees * turn;
+        return raster != nullptr && place_over(ground, outer, *raster) ? std::move(raster)
+                                                                       : nullptr;
+    }
+
+    /// Absent if unknown.
+    [[nodiscard]] std::optional<DegreeBox> box_of(const TexelGrid& grid) const {
+        const glm::dvec2 count(grid.cols, grid.rows);
+        const TexelGrid whole{affine_of_samples(grid.affine, {0.5 * (count - 1.0), count}), 1, 1};
+        Image texel(1, 1);
+        const Dataset raster = stretches ? nullptr : raster_at(whole, 0.0, texel);
+        return raster != nullptr ? degree_box(*raster) : std::nullopt;
+    }
+
+    /// The multiples of 360 degrees that move an image onto a box; empty if it lies elsewhere.
+    [[nodiscard]] std::vector<double> turns_of(const ImageInfo& image,
+                                               const std::optional<DegreeBox>& box) const {
+        if (!box || !image.box) {
+            return {0.0};
+        }
+        std::vector<double> turns = turns_to_meet(*box, *image.box);
+        return turns.empty() || turn != 0.0 ? turns : std::vector{0.0}; // 0: the same place
+    }
+
+    struct Job {
+        const TexelGrid& grid;
+        const ImageryReading& reading;
+        ImageryWindow window;
+    };
+
+    /// The picture of an image that is moved by `degrees`.
+    Result<Image> drawn(const ImageInfo& image, const Choice& choice, double degrees,
+                        const Job& job) const {
         const GdalMessages messages;
         auto rgb = pool.borrow(image.path, messages);
         if (!rgb) {
@@ -156,52 +287,43 @@ struct ImagerySet::State {
         if (rgb->found_change()) {
             new_notes.add(image.path, changed_note);
         }
-        const Dataset raster = raster_over(texels);
+        Image texels(job.grid.cols, job.grid.rows, Rgba8{0, 0, 0, 0});
+        const Dataset raster = raster_at(job.grid, degrees, texels);
         const WarpOptions options{.overview = choice.overview,
                                   .scale = choice.scale,
                                   .memory = reading_memory,
-                                  .progress = {},
-                                  .stop = stop};
-        const OGRSpatialReference reference = crs_from_text(crs); // not thread-safe
-        if (raster == nullptr || !place_raster(*raster, outer_affine_of(grid), &reference) ||
-            !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
-            if (!stop.stop_requested()) {
+                                  .progress = job.reading.progress,
+                                  .stop = job.reading.stop};
+        if (raster == nullptr || !warp(**rgb, *raster, options) || messages.has_lost_blocks()) {
+            if (!job.reading.stop.stop_requested()) {
                 rgb->discard();
             }
-            return Error{fmt::format("{}: cannot be read{}, a whole image was expected",
-                                     image.path.string(), messages.reason())};
+            return unreadable_image(image.path, messages);
         }
-        return {};
+        return texels;
     }
 
-    /// Draws an image beneath the others; `turns`: see turns_to_meet. Returns whether it
-    /// contributes or may contribute.
-    bool add(const ImageInfo& image, const Choice& choice, const TileGrid& grid,
-             std::span<const double> turns, ImageryWindow& window,
-             const std::stop_token& stop) const {
-        if (choice.pixels > ImagerySet::max_pixels_read || failing.skip_reason(image.path)) {
-            window.whole = false;
+    /// Draws an image beneath the others; `turns`: see turns_of. Returns whether it contributes or
+    /// may contribute.
+    bool add(const ImageInfo& image, const Choice& choice, std::span<const double> turns,
+             Job& job) const {
+        if (choice.pixels > job.reading.max_pixels || failing.skip_reason(image.path)) {
+            job.window.whole = false;
             return true;
         }
         bool shows = false;
         for (const double degrees : turns) {
-            TileGrid moved = grid;
-            moved.first.x += degrees * turn;
-            Image drawn(grid.cols, grid.rows, Rgba8{0, 0, 0, 0});
-            const auto done = draw(image, choice, moved, drawn, stop);
-            if (!done) {
-                window.whole = false;
-                if (!stop.stop_requested()) {
-                    failing.note(image.path, done.error().message);
-                    window.errors.push_back({image.path, done.error().message});
+            const auto texels = drawn(image, choice, degrees, job);
+            if (!texels) {
+                job.window.whole = false;
+                if (!job.reading.stop.stop_requested()) {
+                    failing.note(image.path, texels.error().message);
+                    job.window.errors.push_back({image.path, texels.error().message});
                 }
                 return true;
             }
-            shows = shows || shows_something(drawn.samples());
-            composite_under(window.texels, drawn);
-            if (turn == 0.0) {
-                break; // all turns are the same place
-            }
+            shows = shows || shows_something(texels->samples());
+            composite_under(job.window.texels, *texels);
         }
         failing.forget(image.path);
         return shows;
@@ -209,38 +331,47 @@ struct ImagerySet::State {
 };
 
 Result<ImagerySet> ImagerySet::open(std::span<const std::filesystem::path> names,
-                                    const std::string& crs, const ImagerySetOptions& options) {
+                                    const ImageryGround& ground, const ImagerySetOptions& options) {
+    register_drivers();
     const ReadScope scope(options.stop);
     std::vector<std::string> errors;
-    const ImageFiles files = image_files(names, errors, options.stop);
-    auto state = std::make_shared<State>(crs, files.white, options);
-    std::vector<std::optional<ImageInfo>> found(files.paths.size());
-    const auto inspect = [&](int i) {
+    const std::vector<std::filesystem::path> paths = image_files(names, errors);
+    std::vector<std::optional<Result<ImageInfo>>> found(paths.size());
+    const auto open_one = [&](int i) {
         const auto index = static_cast<std::size_t>(i);
-        const ReadScope thread_scope(options.stop);
-        const GdalMessages messages;
-        const auto rgb = open_placed(files.paths[index], files.white, crs, messages);
-        found[index] = rgb ? image_info(files.paths[index], **rgb) : std::nullopt;
+        found[index] = image_info(paths[index], ground, options);
     };
-    parallel_for(static_cast<int>(found.size()), inspect,
+    parallel_for(static_cast<int>(found.size()), open_one,
                  {.threads = 0, .stop = options.stop, .progress = {}});
     if (options.stop.stop_requested()) {
         return Error{"the images: reading was stopped"};
     }
-    for (std::optional<ImageInfo>& image : found) {
-        if (image) {
-            state->images.push_back(std::move(*image));
+    std::vector<ImageInfo> images;
+    double white = 0.0;
+    for (auto& image : found) {
+        if (*image) {
+            white = std::max(white, (*image)->white);
+            images.push_back(std::move(**image));
+        } else {
+            errors.push_back(image->error().message);
         }
     }
-    if (state->images.empty()) {
-        return Error{errors.empty() ? "the images name no place on Earth, at least one was "
-                                      "expected to"
-                                    : errors.front()};
+    if (images.empty()) {
+        check(!errors.empty(), "a list of images without images");
+        return Error{errors.front()};
     }
-    state->complete = state->images.size() == found.size();
+    auto state = std::make_shared<State>(ground, white, options);
+    state->stretches = stretch_or_leave_out(images, ground, state->notes);
+    state->complete = images.size() == found.size();
+    state->errors = std::move(errors);
+    state->images = std::move(images);
+    const double sample = std::abs(glm::determinant(steps_of(ground.affine)));
+    const auto resolution_of = [&](const ImageInfo& image) {
+        return resolution({std::abs(glm::determinant(image.steps)) / sample, 1.0});
+    };
     std::stable_sort(state->images.begin(), state->images.end(),
-                     [](const ImageInfo& a, const ImageInfo& b) {
-                         return resolution(a.pixel) < resolution(b.pixel);
+                     [&](const ImageInfo& a, const ImageInfo& b) {
+                         return resolution_of(a) < resolution_of(b);
                      });
     return ImagerySet(std::move(state));
 }
@@ -249,43 +380,61 @@ std::size_t ImagerySet::size() const {
     return state_->images.size();
 }
 
+std::span<const std::string> ImagerySet::notes() const {
+    return state_->notes;
+}
+
+std::span<const std::string> ImagerySet::errors() const {
+    return state_->errors;
+}
+
 double ImagerySet::white() const {
     return state_->white;
 }
 
-double ImagerySet::finest_pixel() const {
-    return side_of(state_->images.front());
+std::optional<glm::dvec2> ImagerySet::finest_pixels_in(const TexelGrid& grid) const {
+    const auto box = state_->box_of(grid);
+    const auto finest =
+        std::find_if(state_->images.begin(), state_->images.end(),
+                     [&](const ImageInfo& image) { return !state_->turns_of(image, box).empty(); });
+    return finest != state_->images.end()
+               ? std::optional(lengths(glm::inverse(finest->steps) * steps_of(grid.affine)))
+               : std::nullopt;
 }
 
-ImageryWindow ImagerySet::read(const TileGrid& grid, double spacing,
-                               const std::stop_token& stop) const {
-    const ReadScope scope(stop);
+ImageryWindow ImagerySet::read(const TexelGrid& grid, const ImageryReading& reading) const {
+    const ReadScope scope(reading.stop);
     check(grid.cols >= 1 && grid.rows >= 1, "ImagerySet::read of an empty grid");
-    ImageryWindow window{
-        Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}};
     const GdalMessages ignored_messages; // projections are undefined at some places
-    const glm::dvec2 last(grid.cols - 1, grid.rows - 1);
-    const auto degrees = places_over(
-        [&](glm::dvec2 part) { return grid.first + grid.step * (part * last); }, state_->crs);
-    if (degrees.empty()) {
-        return window;
-    }
-    const DegreeBox box = padded_box(degrees);
+    const auto box = state_->box_of(grid);
+    const glm::dmat2 texels_from_ground = glm::inverse(steps_of(grid.affine));
     const double texels = static_cast<double>(grid.cols) * grid.rows;
-    for (const ImageInfo& image : state_->images) {
-        if (is_opaque(window.texels) || stop.stop_requested()) {
-            break;
-        }
-        const std::vector<double> turns = turns_to_meet(box, image.box);
+    const std::size_t count = size();
+    std::size_t done = 0;
+    ImageryReading part = reading;
+    if (reading.progress) {
+        part.progress = [&](double fraction) {
+            reading.progress((static_cast<double>(done) + fraction) / static_cast<double>(count));
+        };
+    }
+    State::Job job{
+        grid, part, {Image(grid.cols, grid.rows, Rgba8{0, 0, 0, 0}), state_->complete, false, {}}};
+    for (; done < count && !is_opaque(job.window.texels) && !reading.stop.stop_requested();
+         ++done) {
+        const ImageInfo& image = state_->images[done];
+        const std::vector<double> turns = state_->turns_of(image, box);
         if (turns.empty()) {
             continue;
         }
-        const Choice choice = choice_for(image, spacing, texels);
-        const bool shows = state_->add(image, choice, grid, turns, window, stop);
-        window.has_more = window.has_more ||
-                          (side_of(image) < 0.999 * spacing && (shows || is_tiny(image, spacing)));
+        const glm::dvec2 pixel = lengths(texels_from_ground * image.steps);
+        const Choice choice = choice_for(image, pixel, texels);
+        const bool shows = state_->add(image, choice, turns, job);
+        const glm::dvec2 sides = pixel * glm::dvec2(image.size);
+        const bool is_tiny = std::min(sides.x, sides.y) < 2.0; // may lie between the texels
+        job.window.has_more =
+            job.window.has_more || (std::min(pixel.x, pixel.y) < 0.999 && (shows || is_tiny));
     }
-    return window;
+    return std::move(job.window);
 }
 
 std::uint64_t ImagerySet::changes() const {
@@ -298,8 +447,10 @@ std::vector<std::string> ImagerySet::take_new_notes() const {
 
 std::optional<std::string> ImagerySet::missing_overviews() const {
     for (const ImageInfo& image : state_->images) {
+        const bool has_overviews = std::any_of(image.overviews.begin(), image.overviews.end(),
+                                               [](double factor) { return factor > 1.0; });
         const double pixels = static_cast<double>(image.size.x) * image.size.y;
-        if (image.overviews.empty() && pixels > max_pixels_read) {
+        if (!has_overviews && pixels > ImageryReading().max_pixels) {
             return fmt::format("{0}: {1}×{2} pixels without overviews, so that views from afar "
                                "show it as coarse as it was read at the start; 'gdaladdo -r "
                                "average {0} 2 4 8 16 32 64' adds them",

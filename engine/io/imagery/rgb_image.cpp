@@ -12,6 +12,9 @@
 #include <gdal_utils.h>
 #include <glm/common.hpp>
 
+#include "engine/io/raster/georeferencing.h"
+#include "engine/io/raster/sample_decoder.h"
+
 namespace reljef::io {
 namespace {
 
@@ -43,6 +46,19 @@ ColorBands color_bands(GDALDataset& image) {
         bands.color = {1, 2, 3};
     }
     return bands;
+}
+
+/// Fails for a single band of a type other than Byte and UInt16: it holds heights.
+Result<void> check_is_image(const std::filesystem::path& path, GDALDataset& dataset) {
+    const GDALDataType type = dataset.GetRasterBand(1)->GetRasterDataType();
+    if (dataset.GetRasterCount() >= 3 || kind_of_values(dataset) != ValueKind::plain ||
+        type == GDT_Byte || type == GDT_UInt16) {
+        return {};
+    }
+    return Error{
+        fmt::format("{}: holds {}, as heights are stored, an image (grey of Byte or UInt16, "
+                    "palette or RGB(A)) was expected",
+                    path.string(), GDALGetDataTypeName(type))};
 }
 
 double opaque_of(GDALDataType type) {
@@ -134,26 +150,12 @@ Dataset translated(GDALDataset& image, CPLStringList arguments) {
         GDALTranslate("", GDALDataset::ToHandle(&image), options.get(), nullptr)));
 }
 
-// The VRT holds its own reference to the source dataset.
-Dataset keeping_open(Dataset made, Dataset source) {
-    if (made != nullptr) {
-        source.release()->ReleaseRef();
-    }
-    return made;
-}
-
 int progress_step(double fraction, const char* /*message*/, void* options) {
     const auto* warping = static_cast<const WarpOptions*>(options);
     if (warping->progress) {
         warping->progress(fraction);
     }
     return warping->stop.stop_requested() ? FALSE : TRUE;
-}
-
-std::string overview_word(int overview) {
-    return overview == automatic_overview ? "AUTO"
-           : overview < 0                 ? "NONE"
-                                          : std::to_string(overview);
 }
 
 std::uint8_t mixed(double top, double beneath, double share) {
@@ -213,37 +215,27 @@ double white_of(GDALDataset& image, const std::stop_token& stop) {
     return white > 0.0 ? white : 1.0;
 }
 
-Dataset as_rgb(Dataset image, double white) {
-    if (!has_last_block(*image)) {
-        return nullptr;
-    }
-    Dataset made = translated(*image, rgb_arguments(*image, white));
-    return keeping_open(std::move(made), std::move(image));
-}
-
-Result<Dataset> open_rgb(const std::filesystem::path& path, double white,
-                         const GdalMessages& messages) {
+Result<RgbImage> open_rgb(const std::filesystem::path& path, std::optional<double> white,
+                          const GdalMessages& messages, const std::stop_token& stop) {
     auto image = open_raster(path, messages);
     if (!image) {
         return image.error();
     }
-    Dataset rgb = as_rgb(std::move(*image), white);
-    return rgb != nullptr ? Result<Dataset>(std::move(rgb)) : unreadable_image(path, messages);
-}
-
-int subsampling_of(GDALDataset& image) {
-    constexpr double max_pixels_read = 1U << 29U;
-    const double pixels = static_cast<double>(image.GetRasterXSize()) * image.GetRasterYSize();
-    return static_cast<int>(std::ceil(std::sqrt(pixels / max_pixels_read)));
-}
-
-Dataset subsampled(Dataset rgb, int subsampling) {
-    CPLStringList arguments;
-    add_options(arguments,
-                {"-of", "VRT", "-outsize", std::to_string(rgb->GetRasterXSize() / subsampling),
-                 std::to_string(rgb->GetRasterYSize() / subsampling)});
-    Dataset made = translated(*rgb, std::move(arguments));
-    return keeping_open(std::move(made), std::move(rgb));
+    if (auto good = check_is_image(path, **image); !good) {
+        return good.error();
+    }
+    if (auto good = check_affine(**image, path.string()); !good) {
+        return good.error();
+    }
+    RgbImage rgb{nullptr, white ? *white : white_of(**image, stop)};
+    if (has_last_block(**image)) {
+        rgb.dataset = translated(**image, rgb_arguments(**image, rgb.white));
+    }
+    if (rgb.dataset == nullptr) {
+        return unreadable_image(path, messages);
+    }
+    image->release()->ReleaseRef(); // the VRT holds its own reference
+    return rgb;
 }
 
 Dataset raster_over(Image& image) {
@@ -273,11 +265,9 @@ Dataset raster_over(Image& image) {
 bool warp(GDALDataset& rgb, GDALDataset& target, const WarpOptions& options) {
     CPLStringList arguments;
     add_options(arguments, {"-r", "bilinear", "-et", fmt::format("{}", max_warp_error), "-ovr",
-                            overview_word(options.overview)});
-    if (options.scale > 0.0) {
-        add_options(arguments, {"-wo", fmt::format("XSCALE={}", options.scale), "-wo",
-                                fmt::format("YSCALE={}", options.scale)});
-    }
+                            options.overview < 0 ? "NONE" : std::to_string(options.overview), "-wo",
+                            fmt::format("XSCALE={}", options.scale.x), "-wo",
+                            fmt::format("YSCALE={}", options.scale.y)});
     if (options.memory > 0) {
         constexpr std::size_t min_memory = std::size_t{1}
                                            << 20U; // GDAL takes small numbers as megabytes

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -26,30 +28,26 @@ std::vector<PixelWindow> sampled_windows(glm::ivec2 size, glm::ivec2 block);
 inline constexpr int max_sampled_pixels = 1 << 22;
 inline constexpr int max_window_pixels = 1 << 18;
 
-/// An image of any bands and type as 8-bit RGB(A) on disk, with its overviews. Values of more than
-/// 8 bits are divided by `white`. Keeps `image` open. Null for a truncated or unsuitable image.
-Dataset as_rgb(Dataset image, double white);
-
-/// Opens an image as_rgb(). Fails with its name if it cannot be read as one.
-Result<Dataset> open_rgb(const std::filesystem::path& path, double white,
-                         const GdalMessages& messages);
-
-/// Subsampling per side that keeps the reading time of a huge image short; 1 for others.
-int subsampling_of(GDALDataset& image);
-Dataset subsampled(Dataset rgb, int subsampling);
+/// An image of any bands and type as 8-bit RGB(A) on disk, with its overviews.
+struct RgbImage {
+    Dataset dataset;
+    double white = 0.0; ///< see white_of; values of more than 8 bits are divided by it
+};
+/// Fails with its name for heights, a truncated or unsuitable image, and an absurd geotransform.
+/// `white`: if known.
+Result<RgbImage> open_rgb(const std::filesystem::path& path, std::optional<double> white,
+                          const GdalMessages& messages, const std::stop_token& stop = {});
 
 /// A GDAL raster of four bands over the pixels of `image`, which must outlive it.
 Dataset raster_over(Image& image);
 
 struct WarpOptions {
-    int overview = -1; ///< index; -1: full resolution; automatic_overview: by size
-    /// Target pixels per source pixel, for the same filter in all parts of a picture; 0: automatic.
-    double scale = 0.0;
+    int overview = -1;      ///< index; -1: full resolution
+    glm::dvec2 scale{1.0};  ///< target pixels per source pixel read, along columns and rows
     std::size_t memory = 0; ///< bytes for warping; 0: GDAL's default
     Progress progress;
     std::stop_token stop;
 };
-inline constexpr int automatic_overview = -2;
 
 /// Reprojects an image into `target`, bilinear; alpha is 0 outside the image. Positions err by up
 /// to `max_warp_error`, and not in the first and last column. False if unreadable or stopped.

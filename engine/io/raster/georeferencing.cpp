@@ -127,12 +127,6 @@ glm::dvec2 checked_spacing(glm::dvec2 in_crs, const std::optional<Steps>& ground
     return true_spacing;
 }
 
-geo::PixelAffine affine_of_samples(const geo::PixelAffine& affine, const SampleGrid& grid) {
-    const glm::dvec2 origin = crs_from_sample(affine, grid, glm::dvec2(0.0));
-    const Steps steps = crs_steps(affine, grid);
-    return {origin.x, steps.col.x, steps.row.x, origin.y, steps.col.y, steps.row.y};
-}
-
 std::optional<geo::Georeference> georeference_of(GDALDataset& dataset,
                                                  const OGRSpatialReference& crs,
                                                  const geo::PixelAffine& affine,
@@ -259,6 +253,12 @@ std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset) {
     const bool identity = t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, 1.0} ||
                           t == std::array{0.0, 1.0, 0.0, 0.0, 0.0, -1.0};
     return identity ? std::nullopt : std::optional(affine);
+}
+
+geo::PixelAffine affine_of_samples(const geo::PixelAffine& affine, const SampleGrid& grid) {
+    const glm::dvec2 origin = crs_from_sample(affine, grid, glm::dvec2(0.0));
+    const Steps steps = crs_steps(affine, grid);
+    return {origin.x, steps.col.x, steps.row.x, origin.y, steps.col.y, steps.row.y};
 }
 
 bool place_raster(GDALDataset& dataset, const geo::PixelAffine& affine,

@@ -18,6 +18,9 @@ namespace reljef::io {
 /// check_affine() passed.
 std::optional<geo::PixelAffine> affine_of(GDALDataset& dataset);
 
+/// Maps samples by an affine of their raster's pixels.
+geo::PixelAffine affine_of_samples(const geo::PixelAffine& affine, const SampleGrid& grid);
+
 /// Sets a raster's geotransform and CRS (null: none). False if GDAL fails.
 bool place_raster(GDALDataset& dataset, const geo::PixelAffine& affine,
                   const OGRSpatialReference* crs);

@@ -64,6 +64,16 @@ MadeRaster plain(double west, double north, int side, double step, double value)
     return raster;
 }
 
+ImageryGround ground_in(const std::string& crs) {
+    return crs == utm_31
+               ? ImageryGround{crs, {480000.0, 80.0, 0.0, 5000000.0, 0.0, -80.0}, {99, 99}}
+               : ImageryGround{crs, {2.78, 0.001, 0.0, 45.15, 0.0, -0.001}, {99, 99}};
+}
+
+ImageryWindow read(const ImagerySet& set, const TileGrid& grid) {
+    return set.read(texels_at(grid));
+}
+
 class ImagerySets : public ::testing::Test {
 protected:
     void add(const std::string& name, const MadeRaster& raster) const {
@@ -76,7 +86,7 @@ protected:
         for (const std::string& name : names) {
             paths.push_back(folder_.path() / name);
         }
-        auto set = ImagerySet::open(paths, crs, options);
+        auto set = ImagerySet::open(paths, ground_in(crs), options);
         EXPECT_TRUE(set) << (set ? "" : set.error().message);
         return std::move(*set);
     }
@@ -88,10 +98,13 @@ protected:
 TEST_F(ImagerySets, ShowEachPlaceInItsColourToHalfAPixelAndTheWarpsError) {
     add("a.tif", picture_of_places(480000.0, 5000000.0, 400, 400, 20.0));
     const ImagerySet set = open({"a.tif"});
-    EXPECT_NEAR(set.finest_pixel(), 20.0, 0.02);
     const double step = 20.0 / 111200.0;
     const TileGrid grid{{2.79, 45.15}, {step, -step}, 257, 257};
-    const ImageryWindow window = set.read(grid, 20.0);
+    const auto pixels = set.finest_pixels_in(texels_at(grid));
+    ASSERT_TRUE(pixels);
+    EXPECT_NEAR(pixels->x, std::cos(glm::radians(45.1)), 0.005);
+    EXPECT_NEAR(pixels->y, 1.0, 0.002);
+    const ImageryWindow window = read(set, grid);
     EXPECT_TRUE(window.errors.empty());
     EXPECT_TRUE(window.whole);
     EXPECT_FALSE(window.has_more);
@@ -122,7 +135,7 @@ TEST_F(ImagerySets, WithACommonEdgeHaveNoGapAndNoSeam) {
     EXPECT_EQ(set.size(), 2U);
     const double step = 7.0 / 111200.0;
     const TileGrid grid{{2.78, 45.12}, {step, -step}, 257, 257};
-    const ImageryWindow window = set.read(grid, 7.0);
+    const ImageryWindow window = read(set, grid);
     for (int row = 0; row < grid.rows; ++row) {
         for (int col = 0; col < grid.cols; ++col) {
             const Rgba8 texel = window.texels(col, row);
@@ -143,9 +156,9 @@ TEST_F(ImagerySets, NeighboursShareTheTexelsOfTheirCommonEdge) {
     east.first.x += 64 * step;
     TileGrid south = west;
     south.first.y -= 64 * step;
-    const Image a = set.read(west, 33.0).texels;
-    const Image b = set.read(east, 33.0).texels;
-    const Image c = set.read(south, 33.0).texels;
+    const Image a = read(set, west).texels;
+    const Image b = read(set, east).texels;
+    const Image c = read(set, south).texels;
     for (int i = 0; i < 65; ++i) {
         ASSERT_EQ(a(64, i), b(0, i)) << i;
         ASSERT_EQ(a(i, 64), c(i, 0)) << i;
@@ -163,14 +176,14 @@ TEST_F(ImagerySets, TheFinerCountsAndWhereItIsTransparentTheNext) {
     const ImagerySet set = open({"coarse.tif", "fine.tif"}, utm_31);
     const auto at = [&](double x, double y) {
         const TileGrid grid{{x, y}, {10.0, -10.0}, 2, 2};
-        return set.read(grid, 10.0).texels(0, 0);
+        return read(set, grid).texels(0, 0);
     };
     EXPECT_EQ(at(483000.0, 4996500.0).r, 200);
     EXPECT_EQ(at(483000.0, 4997500.0).r, 50);
     EXPECT_EQ(at(481000.0, 4999000.0).r, 50);
     EXPECT_EQ(at(470000.0, 4999000.0).a, 0);
-    EXPECT_TRUE(set.read({{483000.0, 4996500.0}, {10.0, -10.0}, 2, 2}, 10.0).has_more);
-    EXPECT_FALSE(set.read({{470000.0, 4996500.0}, {10.0, -10.0}, 2, 2}, 10.0).has_more);
+    EXPECT_TRUE(read(set, {{483000.0, 4996500.0}, {10.0, -10.0}, 2, 2}).has_more);
+    EXPECT_FALSE(read(set, {{470000.0, 4996500.0}, {10.0, -10.0}, 2, 2}).has_more);
 }
 
 // Pixels of 20 m are a little more ground the nearer they are to the meridian.
@@ -183,7 +196,7 @@ TEST_F(ImagerySets, OfEquallyFineOnesTheNewerCounts) {
          {std::tuple("a.tif", "b.tif", 50), {"b.tif", "a.tif", 200}}) {
         std::filesystem::last_write_time(folder_.path() / newer, now);
         std::filesystem::last_write_time(folder_.path() / older, now - std::chrono::hours(1));
-        EXPECT_EQ(open({"a.tif", "b.tif"}, utm_31).read(both, 20.0).texels(0, 0).r, expected);
+        EXPECT_EQ(read(open({"a.tif", "b.tif"}, utm_31), both).texels(0, 0).r, expected);
     }
 }
 
@@ -194,7 +207,7 @@ TEST_F(ImagerySets, CoarseViewsReadTheOverviewThatIsJustFiner) {
     add("a.tif", raster);
     const ImagerySet set = open({"a.tif"}, utm_31);
     const std::size_t before = test::bytes_read();
-    const ImageryWindow window = set.read({{480032.0, 4999968.0}, {64.0, -64.0}, 127, 127}, 64.0);
+    const ImageryWindow window = read(set, {{480032.0, 4999968.0}, {64.0, -64.0}, 127, 127});
     const std::size_t bytes = test::bytes_read() - before;
     EXPECT_EQ(window.texels(60, 60), (Rgba8{90, 90, 90, 255}));
     EXPECT_TRUE(window.has_more);
@@ -211,10 +224,10 @@ TEST_F(ImagerySets, WhatWouldTakeTooLongWithoutOverviewsIsLeftOutAndSaid) {
     ASSERT_TRUE(set.missing_overviews());
     EXPECT_THAT(*set.missing_overviews(), HasSubstr("huge.vrt"));
     EXPECT_THAT(*set.missing_overviews(), HasSubstr("gdaladdo -r average "));
-    const ImageryWindow far = set.read({{300000.0, 5600000.0}, {512.0, -512.0}, 129, 129}, 512.0);
+    const ImageryWindow far = read(set, {{300000.0, 5600000.0}, {512.0, -512.0}, 129, 129});
     EXPECT_FALSE(far.whole);
     EXPECT_EQ(far.texels(60, 60).a, 0);
-    const ImageryWindow near = set.read({{310000.0, 5590000.0}, {2.0, -2.0}, 129, 129}, 2.0);
+    const ImageryWindow near = read(set, {{310000.0, 5590000.0}, {2.0, -2.0}, 129, 129});
     EXPECT_TRUE(near.whole);
     EXPECT_EQ(near.texels(60, 60).r, 77);
 }
@@ -224,7 +237,7 @@ TEST_F(ImagerySets, AFileThatIsGoneIsAFaultAndTheNextOneShows) {
     add("fine.tif", plain(480000.0, 5000000.0, 400, 20.0, 200.0));
     const ImagerySet set = open({"coarse.tif", "fine.tif"}, utm_31);
     std::filesystem::remove(folder_.path() / "fine.tif");
-    const ImageryWindow window = set.read({{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9}, 20.0);
+    const ImageryWindow window = read(set, {{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9});
     ASSERT_EQ(window.errors.size(), 1U);
     EXPECT_THAT(window.errors.front().message, HasSubstr("fine.tif: does not exist"));
     EXPECT_FALSE(window.whole);
@@ -240,9 +253,9 @@ TEST_F(ImagerySets, AFileThatFailsAgainAndAgainIsPassedOverWithoutAFault) {
     std::filesystem::remove(folder_.path() / "fine.tif");
     const TileGrid grid{{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
     for (int i = 0; i < BackOff::max_attempts; ++i) {
-        ASSERT_EQ(set.read(grid, 20.0).errors.size(), 1U);
+        ASSERT_EQ(read(set, grid).errors.size(), 1U);
     }
-    const ImageryWindow window = set.read(grid, 20.0);
+    const ImageryWindow window = read(set, grid);
     EXPECT_TRUE(window.errors.empty());
     EXPECT_FALSE(window.whole);
     EXPECT_EQ(window.texels(4, 4).r, 50);
@@ -254,7 +267,8 @@ TEST_F(ImagerySets, AreNotOpenedOnceAStopIsAskedFor) {
     source.request_stop();
     ImagerySetOptions options;
     options.stop = source.get_token();
-    const auto set = ImagerySet::open(std::vector{folder_.path() / "fine.tif"}, utm_31, options);
+    const auto set =
+        ImagerySet::open(std::vector{folder_.path() / "fine.tif"}, ground_in(utm_31), options);
     ASSERT_FALSE(set);
     EXPECT_THAT(set.error().message, HasSubstr("stopped"));
 }
@@ -272,10 +286,10 @@ TEST_F(ImagerySets, HaveMoreOnlyWhereAnImageIsSeen) {
     add("tiny.tif", plain(500010.0, 4999990.0, 3, 2.0, 200.0));
     const ImagerySet set = open({"a.tif", "tiny.tif"}, utm_31);
     // West of it by less than the margin around its box; and where it begins.
-    EXPECT_FALSE(set.read({{479000.0, 4997000.0}, {100.0, -100.0}, 9, 9}, 100.0).has_more);
-    EXPECT_TRUE(set.read({{479500.0, 4997000.0}, {100.0, -100.0}, 9, 9}, 100.0).has_more);
+    EXPECT_FALSE(read(set, {{479000.0, 4997000.0}, {100.0, -100.0}, 9, 9}).has_more);
+    EXPECT_TRUE(read(set, {{479500.0, 4997000.0}, {100.0, -100.0}, 9, 9}).has_more);
     // One between the texels.
-    const ImageryWindow window = set.read({{499000.0, 5000500.0}, {500.0, -500.0}, 5, 5}, 500.0);
+    const ImageryWindow window = read(set, {{499000.0, 5000500.0}, {500.0, -500.0}, 5, 5});
     EXPECT_TRUE(window.has_more);
 }
 
@@ -285,11 +299,13 @@ TEST_F(ImagerySets, WithLittleMemoryShowTheSame) {
     const TileGrid grid{{2.76, 45.14}, {step, -step}, 513, 513};
     const std::array paths{folder_.path() / "a.tif"};
     constexpr std::size_t megabyte = std::size_t{1} << 20U;
-    const auto little = ImagerySet::open(paths, wgs84_degrees, {.reading_memory = megabyte});
-    const auto plenty = ImagerySet::open(paths, wgs84_degrees, {.reading_memory = 256 * megabyte});
+    const auto little =
+        ImagerySet::open(paths, ground_in(wgs84_degrees), {.reading_memory = megabyte});
+    const auto plenty =
+        ImagerySet::open(paths, ground_in(wgs84_degrees), {.reading_memory = 256 * megabyte});
     ASSERT_TRUE(little && plenty);
-    const Image expected = plenty->read(grid, 8.0).texels;
-    const Image found = little->read(grid, 8.0).texels;
+    const Image expected = read(*plenty, grid).texels;
+    const Image found = read(*little, grid).texels;
     int other_alpha = 0; // along the image's border
     for (int row = 0; row < grid.rows; ++row) {
         for (int col = 0; col < grid.cols; ++col) {
@@ -317,7 +333,7 @@ TEST_F(ImagerySets, OverviewsThatCannotBeOpenedAreLeftOut) {
         << "<SourceBand>1</SourceBand></Overview></VRTRasterBand></VRTDataset>";
     vrt.close();
     const ImagerySet set = open({"a.vrt"}, utm_31);
-    const Image texels = set.read({{480500.0, 4999500.0}, {16.0, -16.0}, 9, 9}, 16.0).texels;
+    const Image texels = read(set, {{480500.0, 4999500.0}, {16.0, -16.0}, 9, 9}).texels;
     EXPECT_EQ(texels(4, 4).a, 255);
 }
 
@@ -328,9 +344,50 @@ TEST_F(ImagerySets, OneWithoutAPlaceIsLeftOutAndTheOthersAreNotTheWhole) {
     nowhere.geotransform = {};
     add("nowhere.tif", nowhere);
     const TileGrid grid{{470000.0, 4997000.0}, {20.0, -20.0}, 9, 9};
-    EXPECT_TRUE(open({"a.tif"}, utm_31).read(grid, 20.0).whole);
-    EXPECT_FALSE(open({"a.tif", "nowhere.tif"}, utm_31).read(grid, 20.0).whole);
-    EXPECT_FALSE(ImagerySet::open(std::vector{folder_.path() / "nowhere.tif"}, utm_31));
+    EXPECT_TRUE(read(open({"a.tif"}, utm_31), grid).whole);
+    EXPECT_FALSE(read(open({"a.tif", "nowhere.tif"}, utm_31), grid).whole);
+}
+
+// Texels of 40 m from west to east and 10 m from north to south, over pixels of 10 m.
+TEST_F(ImagerySets, AreFilteredAsWideAsTheTexelsAlongEachSide) {
+    MadeRaster lines = plain(480000.0, 5000000.0, 400, 10.0, 0.0);
+    for (std::size_t i = 0; i < lines.values.size(); ++i) {
+        lines.values[i] = (i / 400) % 2 == 0 ? 40.0 : 200.0; // a line a row
+    }
+    add("lines.tif", lines);
+    const ImagerySet set = open({"lines.tif"}, utm_31);
+    const Image texels = read(set, {{480215.0, 4999795.0}, {40.0, -10.0}, 9, 9}).texels;
+    for (int row = 0; row < 9; ++row) {
+        EXPECT_EQ(texels(4, row).r, row % 2 == 0 ? 40 : 200) << row;
+    }
+}
+
+TEST_F(ImagerySets, WithoutAPlaceAreStretchedOverTheGround) {
+    MadeRaster nowhere = test::made_raster(99, 99, [](int col, int) { return col; });
+    nowhere.type = GDT_Byte;
+    add("nowhere.tif", nowhere);
+    const ImagerySet set = open({"nowhere.tif"}, utm_31);
+    EXPECT_THAT(set.notes(), ::testing::ElementsAre(HasSubstr("nowhere.tif names no place")));
+    const ImageryWindow window = read(set, {{480840.0, 4999160.0}, {80.0, -80.0}, 5, 5});
+    for (int col = 0; col < 5; ++col) {
+        EXPECT_EQ(window.texels(col, 2).r, 10 + col);
+    }
+}
+
+// The middle of the terrain lies on the meridian of 180 degrees.
+TEST_F(ImagerySets, InAProjectionAcrossTheAntimeridianKeepTheirResolution) {
+    MadeRaster image = plain(690000.0, 5000000.0, 100, 1000.0, 90.0);
+    image.crs = "EPSG:32660";
+    add("a.tif", image);
+    const ImageryGround ground{wgs84_degrees, {179.5, 0.01, 0.0, 45.0, 0.0, -0.01}, {100, 100}};
+    const auto set = ImagerySet::open(std::vector{folder_.path() / "a.tif"}, ground);
+    ASSERT_TRUE(set) << set.error().message;
+    const TileGrid grid{{179.8, 44.8}, {0.01, -0.01}, 40, 20};
+    const auto pixels = set->finest_pixels_in(texels_at(grid));
+    ASSERT_TRUE(pixels);
+    EXPECT_NEAR(pixels->x, 0.8, 0.1);
+    EXPECT_NEAR(pixels->y, 1.1, 0.1);
+    EXPECT_EQ(read(*set, grid).texels(30, 10).r, 90);
 }
 
 TEST_F(ImagerySets, GoOnAcrossTheAntimeridian) {
@@ -340,7 +397,7 @@ TEST_F(ImagerySets, GoOnAcrossTheAntimeridian) {
     world.geotransform = {-180.0, 1.0, 0.0, 90.0, 0.0, -1.0};
     add("world.tif", world);
     const ImagerySet set = open({"world.tif"});
-    const ImageryWindow window = set.read({{175.5, 10.5}, {1.0, -1.0}, 10, 5}, 110000.0);
+    const ImageryWindow window = read(set, {{175.5, 10.5}, {1.0, -1.0}, 10, 5});
     for (int col = 0; col < 10; ++col) {
         ASSERT_EQ(window.texels(col, 2).a, 255) << col;
         ASSERT_EQ(window.texels(col, 2).r, ((355 + col) % 360) / 2) << col;
@@ -351,11 +408,10 @@ TEST_F(ImagerySets, AreReadBySeveralThreadsAtATime) {
     add("a.tif", picture_of_places(480000.0, 5000000.0, 100, 100, 80.0));
     const ImagerySet set = open({"a.tif"});
     const TileGrid grid{{2.79, 45.14}, {3e-4, -3e-4}, 65, 65};
-    const Image expected = set.read(grid, 33.0).texels;
+    const Image expected = read(set, grid).texels;
     std::array<Image, 12> found;
-    parallel_for(static_cast<int>(found.size()), [&](int i) {
-        found.at(static_cast<std::size_t>(i)) = set.read(grid, 33.0).texels;
-    });
+    parallel_for(static_cast<int>(found.size()),
+                 [&](int i) { found.at(static_cast<std::size_t>(i)) = read(set, grid).texels; });
     EXPECT_THAT(found, ::testing::Each(expected));
 }
 
@@ -364,7 +420,7 @@ TEST_F(ImagerySets, LeaveNoFileOpen) {
     const std::size_t before = test::open_files();
     {
         const ImagerySet set = open({"a.tif"}, utm_31);
-        EXPECT_EQ(set.read({{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9}, 20.0).texels(4, 4).r, 50);
+        EXPECT_EQ(read(set, {{483000.0, 4997000.0}, {20.0, -20.0}, 9, 9}).texels(4, 4).r, 50);
         EXPECT_GT(test::open_files(), before);
     }
     EXPECT_EQ(test::open_files(), before);

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/grid.h"
-#include "engine/io/imagery/image_files.h"
+#include "engine/io/imagery/imagery_set.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "tests/support/temporary_folder.h"
 
@@ -112,7 +112,7 @@ TEST(SampledWindows, AreAllThatIsReadForTheWhiteOfAHugeImageInDeepColours) {
 }
 
 // 1.8 GB a block, out of a few hundred bytes.
-TEST(ImageFiles, LeaveOutAnImageOfHugeBlocksWithoutReadingThem) {
+TEST(ImagerySet, LeavesOutAnImageOfHugeBlocksWithoutReadingThem) {
     test::TemporaryFolder folder;
     const std::filesystem::path path = folder.path() / "huge.tif";
     register_drivers();
@@ -123,10 +123,9 @@ TEST(ImageFiles, LeaveOutAnImageOfHugeBlocksWithoutReadingThem) {
     Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 30000, 30000, 3,
                                                                      GDT_UInt16, options.List()));
     ASSERT_LT(std::filesystem::file_size(path), 10000U);
-    std::vector<std::string> errors;
-    EXPECT_TRUE(image_files(std::vector{path}, errors).paths.empty());
-    ASSERT_EQ(errors.size(), 1U);
-    EXPECT_THAT(errors.front(), HasSubstr("blocks of 30000×30000"));
+    const auto set = ImagerySet::open(std::vector{path}, {"", {}, {9, 9}});
+    ASSERT_FALSE(set);
+    EXPECT_THAT(set.error().message, HasSubstr("blocks of 30000×30000"));
 }
 
 } // namespace
