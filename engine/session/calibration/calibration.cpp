@@ -29,7 +29,10 @@ constexpr std::array cost_fields{CostField{"frame_ms", &Costs::frame_ms},
                                  CostField{"rays_ms", &Costs::rays_ms},
                                  CostField{"ray_pixel_ns", &Costs::ray_pixel_ns},
                                  CostField{"search_pixel_ns", &Costs::search_pixel_ns},
-                                 CostField{"search_step_ns", &Costs::search_step_ns}};
+                                 CostField{"search_step_ns", &Costs::search_step_ns},
+                                 CostField{"frame_sample_ms", &Costs::frame_sample_ms},
+                                 CostField{"touched_sample_ns", &Costs::touched_sample_ns},
+                                 CostField{"covered_sample_ns", &Costs::covered_sample_ns}};
 
 struct PlaceField {
     const char* name;

@@ -40,9 +40,10 @@ struct Kind {
     double height = 0.35; // of the eye above the highest ground, in widths
     double target = 0.0;  // above the middle of the terrain, in widths
     FrameCost MeasuredFrames::*result;
+    int samples = 1; // of a pixel
 };
 
-constexpr std::size_t kind_count = 8;
+constexpr std::size_t kind_count = 11;
 
 const std::array<Kind, kind_count>& kinds() {
     static const std::array<Kind, kind_count> all{
@@ -53,7 +54,10 @@ const std::array<Kind, kind_count>& kinds() {
         Kind{{scene::Exact{}}, 0.35, 0.0, &MeasuredFrames::rays},
         Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels},
         Kind{{scene::Interval{.linear_steps = 4}}, 0.35, 0.0, &MeasuredFrames::few_steps},
-        Kind{{scene::Interval{.linear_steps = 28}}, 0.35, 0.0, &MeasuredFrames::many_steps}};
+        Kind{{scene::Interval{.linear_steps = 28}}, 0.35, 0.0, &MeasuredFrames::many_steps},
+        Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sampled_sky, 4},
+        Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::sampled_few, 4},
+        Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::sampled_many, 4}};
     return all;
 }
 
@@ -92,6 +96,7 @@ Result<double> estimate_touched(TerrainScene& scene, SceneRenderer& renderer, do
 Result<void> draw_view(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind, int index,
                        Samples& samples) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
+    renderer.set_samples(kind.samples);
     const double first_angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
     for (int frame = 0; frame < frames_a_view; ++frame) {
         *scene.camera->get<scene::Camera>() =
@@ -159,10 +164,25 @@ Costs costs_of_triangles(const MeasuredFrames& frames) {
     return costs;
 }
 
+// What each of the three further samples adds to the same views.
+void add_costs_of_samples(const MeasuredFrames& frames, Costs& costs) {
+    constexpr double further = 3.0;
+    const double sky = (frames.sampled_sky.ms - frames.sky.ms) / further;
+    const double few = (frames.sampled_few.ms - frames.few.ms) / further;
+    const double many = (frames.sampled_many.ms - frames.many.ms) / further;
+    costs.frame_sample_ms = std::max(sky, 0.0);
+    costs.touched_sample_ns =
+        slope(many - few, frames.many.touched_pixels - frames.few.touched_pixels);
+    costs.covered_sample_ns =
+        slope(few - sky - frames.few.touched_pixels * costs.touched_sample_ns / ns_a_ms,
+              frames.few.pixels);
+}
+
 } // namespace
 
 Costs costs_from(const MeasuredFrames& frames) {
     Costs costs = costs_of_triangles(frames);
+    add_costs_of_samples(frames, costs);
     costs.ray_pixel_ns = slope(frames.rays.ms - frames.fewer_pixels.ms,
                                frames.rays.pixels - frames.fewer_pixels.pixels);
     costs.rays_ms = std::max(

@@ -28,6 +28,9 @@ struct MeasuredFrames {
     FrameCost fewer_pixels; ///< rays of views with fewer pixels of terrain
     FrameCost few_steps;    ///< searches with few steps, of the views of `rays`
     FrameCost many_steps;   ///< searches with many, of the same views
+    FrameCost sampled_sky;  ///< as `sky`, `few` and `many`, with four samples a pixel
+    FrameCost sampled_few;
+    FrameCost sampled_many;
 };
 /// None is negative.
 Costs costs_from(const MeasuredFrames& frames);

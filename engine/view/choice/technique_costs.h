@@ -7,8 +7,8 @@ namespace reljef::view {
 /// that cover P pixels touch about √(N P). The defaults are those of llvmpipe on two processors of
 /// an Intel Xeon. Those of triangles were fitted to twelve moving views
 /// (docs/techniques/choice.md), where estimates are 0.78 to 1.23 of what they took. On an AMD EPYC,
-/// `reljef calibrate --context osmesa` found 97 to 116, 166 to 186, 8.1 to 8.7 and, for rays, 80
-/// to 85.
+/// `reljef calibrate --context osmesa` found 92 to 116, 166 to 187, 8.1 to 8.7, for rays 80 to 85,
+/// and for further samples 4.0, 85 and 0.
 struct TechniqueCosts {
     double frame_ms = 7.2;           ///< of any frame
     double triangle_ns = 110.0;      ///< of each triangle: cut, uploaded, drawn
@@ -18,6 +18,10 @@ struct TechniqueCosts {
     double ray_pixel_ns = 94.0;      ///< of each ray through the box around the terrain
     double search_pixel_ns = 36.0;   ///< the same of a search by steps
     double search_step_ns = 3.0;     ///< and of each of its steps
+    /// Of each further sample of pixels, if triangles are drawn.
+    double frame_sample_ms = 4.0;
+    double touched_sample_ns = 75.0;
+    double covered_sample_ns = 0.0;
 
     friend bool operator==(const TechniqueCosts&, const TechniqueCosts&) = default;
 };

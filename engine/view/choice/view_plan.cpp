@@ -29,9 +29,11 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
         plan.touched_pixels += std::sqrt(cost.triangles * cost.pixels);
         covered += cost.pixels;
     }
-    plan.ms = costs.frame_ms +
-              (plan.triangles * costs.triangle_ns + plan.touched_pixels * costs.touched_pixel_ns +
-               covered * costs.covered_pixel_ns) /
+    const int further = plan.triangles > 0.0 ? view.samples_of_both - 1 : 0;
+    plan.ms = costs.frame_ms + further * costs.frame_sample_ms +
+              (plan.triangles * costs.triangle_ns +
+               plan.touched_pixels * (costs.touched_pixel_ns + further * costs.touched_sample_ns) +
+               covered * (costs.covered_pixel_ns + further * costs.covered_sample_ns)) /
                   ns_a_ms;
     if (!is_all) {
         const int samples = plan.triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;

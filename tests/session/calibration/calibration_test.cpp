@@ -26,7 +26,10 @@ Calibration made_calibration() {
              .rays_ms = 0.0,
              .ray_pixel_ns = 50.0,
              .search_pixel_ns = 25.0,
-             .search_step_ns = 4.0}};
+             .search_step_ns = 4.0,
+             .frame_sample_ms = 0.5,
+             .touched_sample_ns = 3.0,
+             .covered_sample_ns = 2.0}};
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -86,8 +89,8 @@ TEST(Calibration, HoldsInItsPlaceOnly) {
 }
 
 TEST(Calibration, CostsFollowFromFrames) {
-    // 2 ms, 100 ns a triangle, 30 ns a touched and 10 ns a covered pixel; 3 ms and 50 ns a ray; 20
-    // ns a search and 2 ns a step.
+    // 2 ms; 100 ns a triangle, 30 a touched and 10 a covered pixel; 3 ms and 50 ns a ray; 20 ns a
+    // search and 2 a step; of a further sample 1 ms, 5 ns a touched and 4 a covered pixel.
     const MeasuredFrames frames{.sky = {2.0, 0.0, 0.0},
                                 .few = {2.0 + 0.1 + 0.6 + 5.0, 1e3, 2e4, 5e5},
                                 .many = {2.0 + 10.0 + 6.0 + 5.0, 1e5, 2e5, 5e5},
@@ -95,7 +98,10 @@ TEST(Calibration, CostsFollowFromFrames) {
                                 .rays = {2.0 + 3.0 + 25.0, 12.0, 0.0, 5e5},
                                 .fewer_pixels = {2.0 + 3.0 + 5.0, 12.0, 0.0, 1e5},
                                 .few_steps = {2.0 + 3.0 + 10.0 + 4.0, 12.0, 0.0, 5e5, 2e6},
-                                .many_steps = {2.0 + 3.0 + 10.0 + 16.0, 12.0, 0.0, 5e5, 8e6}};
+                                .many_steps = {2.0 + 3.0 + 10.0 + 16.0, 12.0, 0.0, 5e5, 8e6},
+                                .sampled_sky = {2.0 + 3.0, 0.0, 0.0},
+                                .sampled_few = {7.7 + 3.0 * (1.0 + 0.1 + 2.0), 1e3, 2e4, 5e5},
+                                .sampled_many = {23.0 + 3.0 * (1.0 + 1.0 + 2.0), 1e5, 2e5, 5e5}};
     const Costs costs = costs_from(frames);
     EXPECT_NEAR(costs.frame_ms, 2.0, 1e-9);
     EXPECT_NEAR(costs.triangle_ns, 100.0, 1e-6);
@@ -105,15 +111,20 @@ TEST(Calibration, CostsFollowFromFrames) {
     EXPECT_NEAR(costs.ray_pixel_ns, 50.0, 1e-6);
     EXPECT_NEAR(costs.search_pixel_ns, 20.0, 1e-6);
     EXPECT_NEAR(costs.search_step_ns, 2.0, 1e-6);
+    EXPECT_NEAR(costs.frame_sample_ms, 1.0, 1e-9);
+    EXPECT_NEAR(costs.touched_sample_ns, 5.0, 1e-6);
+    EXPECT_NEAR(costs.covered_sample_ns, 4.0, 1e-6);
 }
 
 TEST(Calibration, CostsAreNeverNegative) {
     const FrameCost same{1.0, 10.0, 10.0, 10.0, 10.0};
     const FrameCost cheaper{0.5, 20.0, 20.0, 20.0, 20.0};
-    const Costs costs = costs_from({same, cheaper, same, same, cheaper, same, same, cheaper});
+    const Costs costs = costs_from(
+        {same, cheaper, same, same, cheaper, same, same, cheaper, cheaper, cheaper, same});
     for (const double cost :
          {costs.frame_ms, costs.triangle_ns, costs.touched_pixel_ns, costs.covered_pixel_ns,
-          costs.rays_ms, costs.ray_pixel_ns, costs.search_pixel_ns, costs.search_step_ns}) {
+          costs.rays_ms, costs.ray_pixel_ns, costs.search_pixel_ns, costs.search_step_ns,
+          costs.frame_sample_ms, costs.touched_sample_ns, costs.covered_sample_ns}) {
         EXPECT_TRUE(std::isfinite(cost));
         EXPECT_GE(cost, 0.0);
     }

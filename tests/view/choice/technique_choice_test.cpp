@@ -110,20 +110,25 @@ TEST(ViewPlanTest, MixesOnlyToSaveAQuarter) {
     EXPECT_EQ(cheapest_plan(view, costs).last_ring, 1) << "triangles cost nothing";
 }
 
-TEST(ViewPlanTest, CountsTheSamplesOfRays) {
+TEST(ViewPlanTest, CountsSamples) {
     const TechniqueCosts costs{.frame_ms = 0.0,
                                .triangle_ns = 1.0,
                                .touched_pixel_ns = 0.0,
                                .covered_pixel_ns = 0.0,
                                .rays_ms = 0.0,
-                               .ray_pixel_ns = 1e6};
+                               .ray_pixel_ns = 1e6,
+                               .frame_sample_ms = 100.0,
+                               .touched_sample_ns = 1e3,
+                               .covered_sample_ns = 1e6};
     const ViewCosts view{.rings = {{0, 1e6, 10.0}, {3, 1e6, 10.0}},
                          .box_pixels = 30.0,
                          .samples_of_rays = 1,
                          .samples_of_both = 4};
     EXPECT_DOUBLE_EQ(plan_up_to(-1, view, costs).ms, 30.0);
-    EXPECT_DOUBLE_EQ(plan_up_to(0, view, costs).ms, 1.0 + 4.0 * 20.0);
-    EXPECT_DOUBLE_EQ(plan_up_to(3, view, costs).ms, 2.0);
+    const double touched = std::sqrt(1e6 * 10.0) * 1e-3; // ms of a sample
+    EXPECT_DOUBLE_EQ(plan_up_to(0, view, costs).ms,
+                     1.0 + 3.0 * (100.0 + touched + 10.0) + 4.0 * 20.0);
+    EXPECT_DOUBLE_EQ(plan_up_to(3, view, costs).ms, 2.0 + 3.0 * (100.0 + 2.0 * touched + 20.0));
 }
 
 TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
