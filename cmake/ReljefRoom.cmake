@@ -167,6 +167,8 @@ function(reljef_included_by HEADER RESULT)
   if(NOT known)
     set(found)
     if(EXISTS ${PROJECT_SOURCE_DIR}/${HEADER})
+      set_property(GLOBAL PROPERTY RELJEF_INCLUDED_BY_${HEADER} "") # ends a cycle
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${HEADER})
       file(STRINGS ${PROJECT_SOURCE_DIR}/${HEADER} lines REGEX "^#include \"")
       foreach(line IN LISTS lines)
         string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" direct "${line}")

@@ -19,7 +19,8 @@
 namespace reljef::bench {
 
 /// The device of a suite; it selects tiles in every frame. With session::BackendKind::cpu it is
-/// that of OpenGL, which measures beside rays. Fails as session::Device::create.
+/// that of OpenGL, which measures beside rays. Fails as session::Device::create, and as
+/// session::read_costs if a calibration is named.
 Result<session::Device> make_device(const SuiteOptions& options);
 /// The same for rays on the CPU.
 Result<session::Device> make_rays_device(const SuiteOptions& options);

@@ -123,7 +123,7 @@ Result<std::shared_ptr<const io::ImagerySet>> open_imagery(const io::TileSet& ti
 bool has_finer_pictures(const io::TileSet& tiles, const io::TileTerrainOptions& options,
                         const io::ImagerySet* imagery) {
     const auto plan = tiles.plan(options);
-    return plan && imagery != nullptr &&
+    return plan && imagery != nullptr && imagery->finest_pixels_in(io::texels_at(plan->grid)) &&
            std::max(plan->grid.cols, plan->grid.rows) >
                io::max_image_side * finest_pixel_of(*imagery, plan->grid);
 }

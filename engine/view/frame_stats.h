@@ -25,7 +25,7 @@ struct Choice {
     double ray_pixels = 0.0; ///< estimated share of the picture, 0 to 1
     double estimated_ms = 0.0;
     double triangles_ms = 0.0;   ///< estimated for triangles alone
-    double touched_pixels = 0.0; ///< by their edges, estimated
+    double touched_pixels = 0.0; ///< by edges of triangles, were all triangles; estimated
     std::optional<double> rays_ms =
         {}; ///< estimated for rays alone; absent: no proof of their error
     std::optional<TypicalChoice> typical = {}; ///< of the rays; absent: they are exact

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,7 +16,8 @@ namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double min_budget_share = 0.25;
-constexpr std::size_t reading_part = 8; // divides the budget for reading
+constexpr std::size_t reading_part = 8;  // divides the budget for reading
+constexpr double max_pixels = 1U << 31U; // to read of an image: about half a minute
 
 /// Of a raster without coordinates: its pixels, with y upwards. GDAL ignores an identity affine, so
 /// this one has an offset.
@@ -64,6 +64,13 @@ std::string name_of(const std::vector<std::filesystem::path>& images) {
                               : fmt::format("the {} images", images.size());
 }
 
+std::string too_much_text(const std::filesystem::path& image) {
+    return fmt::format(
+        "{}: more than {:.0f} pixels would be read, overviews were expected; the image "
+        "is left out, and 'gdaladdo -r average {} 4 16 64 256' adds them",
+        image.string(), max_pixels, image.filename().string());
+}
+
 template <class Texts> void append(const Texts& texts, std::vector<std::string>& list) {
     list.insert(list.end(), texts.begin(), texts.end());
 }
@@ -90,9 +97,7 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         const glm::dvec2 step = glm::dvec2(grid.cols - 1, grid.rows - 1) / glm::dvec2(*size - 1);
         window = set->read(
             {affine_of_samples(samples.affine, {glm::dvec2(0.0), step}), size->x, size->y},
-            {.max_pixels = std::numeric_limits<double>::infinity(),
-             .progress = options.progress,
-             .stop = options.stop});
+            {.max_pixels = max_pixels, .progress = options.progress, .stop = options.stop});
     }
     if (options.stop.stop_requested()) {
         return Error{name_of(options.imagery) + ": reading was stopped"};
@@ -105,13 +110,18 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
     if (size) {
         wrap_picture(window.texels, {place.wrap, place.grid.rows}, 0.0, grid.rows - 1);
     }
+    if (!window.needs_overviews.empty()) {
+        errors.push_back(too_much_text(window.needs_overviews));
+    }
     const double share = covered_share(window.texels);
     if (!(share > 0.0)) {
-        return Error{!window.errors.empty()
-                         ? window.errors.front().message
-                         : fmt::format("{}: shows nothing of the terrain, an image that overlaps "
-                                       "was expected",
-                                       name_of(options.imagery))};
+        return Error{
+            !window.errors.empty() ? window.errors.front().message
+            : !window.needs_overviews.empty()
+                ? errors.back()
+                : fmt::format("{}: shows nothing of the terrain, an image that overlaps was "
+                              "expected",
+                              name_of(options.imagery))};
     }
     if (share < 0.995) {
         notes.push_back(fmt::format("imagery covers {:.0f} % of the terrain", 100.0 * share));

@@ -307,8 +307,10 @@ struct ImagerySet::State {
     /// may contribute.
     bool add(const ImageInfo& image, const Choice& choice, std::span<const double> turns,
              Job& job) const {
-        if (choice.pixels > job.reading.max_pixels || failing.skip_reason(image.path)) {
+        const bool is_too_much = choice.pixels > job.reading.max_pixels;
+        if (is_too_much || failing.skip_reason(image.path)) {
             job.window.whole = false;
+            job.window.needs_overviews = is_too_much ? image.path : job.window.needs_overviews;
             return true;
         }
         bool shows = false;

@@ -38,10 +38,11 @@ inline TexelGrid texels_at(const TileGrid& grid) {
 
 /// Part of an ImagerySet's picture.
 struct ImageryWindow {
-    Image texels;          ///< alpha 0 outside the images
-    bool whole = true;     ///< false: an image that may contribute was skipped
+    Image texels;      ///< alpha 0 outside the images
+    bool whole = true; ///< false: an image that may contribute, or all without a place, was skipped
     bool has_more = false; ///< an image that contributes, or may, is finer than the texels
     std::vector<FileError> errors;
+    std::filesystem::path needs_overviews = {}; ///< an image that was left out: max_pixels
 };
 
 struct ImagerySetOptions {

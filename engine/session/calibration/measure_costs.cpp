@@ -82,7 +82,7 @@ double count_pixels(const TerrainScene& scene, const HitBuffer& hits, bool of_bo
     return pixels;
 }
 
-// What `auto` estimates for the last view, were all of it triangles.
+// The touched pixels that `auto` estimates if triangles draw all of the last view.
 Result<double> estimate_touched(TerrainScene& scene, SceneRenderer& renderer, double error) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = {
         scene::Automatic{.error = error}};
@@ -138,8 +138,8 @@ double slope(double ms, double count) {
     return count > 0.0 ? std::max(ms, 0.0) * ns_a_ms / count : 0.0;
 }
 
-// Many triangles from above and many at a flat angle are two equations, without what few triangles
-// of the same pixels cost: the pixels that both cover take about as long.
+// Two equations: many triangles from above, and many at a flat angle. What few triangles of the
+// same pixels cost is subtracted from both.
 Costs costs_of_triangles(const MeasuredFrames& frames) {
     Costs costs;
     costs.frame_ms = frames.sky.ms;
@@ -153,7 +153,9 @@ Costs costs_of_triangles(const MeasuredFrames& frames) {
     const FrameCost many = cost_without_few(frames.many);
     const FrameCost flat = cost_without_few(frames.flat);
     const double both = flat.triangles * many.touched_pixels - many.triangles * flat.touched_pixels;
-    costs.triangle_ns = slope(flat.ms * many.touched_pixels - many.ms * flat.touched_pixels, both);
+    costs.triangle_ns =
+        std::min(slope(flat.ms * many.touched_pixels - many.ms * flat.touched_pixels, both),
+                 slope(many.ms, many.triangles));
     costs.touched_pixel_ns =
         slope(many.ms - many.triangles * costs.triangle_ns / ns_a_ms, many.touched_pixels);
     costs.covered_pixel_ns = slope(frames.few.ms - frames.sky.ms -
@@ -173,9 +175,9 @@ void add_costs_of_samples(const MeasuredFrames& frames, Costs& costs) {
     costs.frame_sample_ms = std::max(sky, 0.0);
     costs.touched_sample_ns =
         slope(many - few, frames.many.touched_pixels - frames.few.touched_pixels);
-    costs.covered_sample_ns =
-        slope(few - sky - frames.few.touched_pixels * costs.touched_sample_ns / ns_a_ms,
-              frames.few.pixels);
+    costs.covered_sample_ns = slope(
+        few - costs.frame_sample_ms - frames.few.touched_pixels * costs.touched_sample_ns / ns_a_ms,
+        frames.few.pixels);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ struct FrameCost {
     double steps = 0.0;  ///< of searches
 };
 
-/// Measurements from which costs follow. Each is a median.
+/// Measurements from which costs follow. Times are medians, counts are means.
 struct MeasuredFrames {
     FrameCost sky;          ///< nothing but the sky
     FrameCost few;          ///< few triangles
@@ -35,8 +35,8 @@ struct MeasuredFrames {
 /// None is negative.
 Costs costs_from(const MeasuredFrames& frames);
 
-/// Draws a scene of a terrain over a plane from moving views. Fails as the renderer, or when
-/// stopped.
+/// Draws a scene of a terrain over a plane from moving views, and leaves the renderer with other
+/// samples. Fails as the renderer, or when stopped.
 Result<MeasuredFrames> measure_frames(TerrainScene& scene, SceneRenderer& renderer,
                                       const std::stop_token& stop, const Progress& progress);
 

@@ -29,14 +29,14 @@ ViewPlan plan_up_to(int ring, const ViewCosts& view, const TechniqueCosts& costs
         plan.touched_pixels += std::sqrt(cost.triangles * cost.pixels);
         covered += cost.pixels;
     }
-    const int further = plan.triangles > 0.0 ? view.samples_of_both - 1 : 0;
+    const int samples = plan.triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
+    const int further = samples - 1;
     plan.ms = costs.frame_ms + further * costs.frame_sample_ms +
               (plan.triangles * costs.triangle_ns +
                plan.touched_pixels * (costs.touched_pixel_ns + further * costs.touched_sample_ns) +
                covered * (costs.covered_pixel_ns + further * costs.covered_sample_ns)) /
                   ns_a_ms;
     if (!is_all) {
-        const int samples = plan.triangles > 0.0 ? view.samples_of_both : view.samples_of_rays;
         plan.ray_pixels = std::max(view.box_pixels - covered, 0.0);
         plan.ms += costs.rays_ms + plan.ray_pixels * samples * costs.ray_pixel_ns / ns_a_ms;
     }

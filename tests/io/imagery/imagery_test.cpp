@@ -127,6 +127,22 @@ TEST_F(Imagery, AFinerOneKeepsItsResolution) {
     EXPECT_EQ(terrain->color(100, 60).g, 102); // grey
 }
 
+TEST_F(Imagery, AGiantOneWithoutOverviewsIsNotReadForHours) {
+    MadeRaster heights = flat(33, 33);
+    heights.crs = "EPSG:32631";
+    heights.geotransform = {300000.0, 2000.0, 0.0, 5600000.0, 0.0, -2000.0};
+    ASSERT_TRUE(test::write(heights, folder_.path() / "heights.tif"));
+    ASSERT_TRUE(test::write(picture(256, 256), folder_.path() / "part.tif"));
+    folder_.write("huge.vrt", test::stretched_vrt("part.tif", {.step = 1.0, .type = "Byte"}));
+    RasterOptions options;
+    options.imagery = {folder_.path() / "huge.vrt"};
+    const auto terrain = read_terrain(folder_.path() / "heights.tif", options);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message,
+                HasSubstr("huge.vrt: more than 2147483648 pixels would be read"));
+    EXPECT_THAT(terrain.error().message, HasSubstr("'gdaladdo -r average huge.vrt 4 16 64 256'"));
+}
+
 TEST_F(Imagery, InAnotherCrsItIsWarpedIntoPlace) {
     MadeRaster heights = flat(101, 101);
     heights.crs = "EPSG:4326";
