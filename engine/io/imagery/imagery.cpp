@@ -56,8 +56,7 @@ double covered_share(const Image& image) {
     const auto pixels = image.samples();
     const auto covered =
         std::count_if(pixels.begin(), pixels.end(), [](Rgba8 pixel) { return pixel.a != 0; });
-    return pixels.empty() ? 0.0
-                          : static_cast<double>(covered) / static_cast<double>(pixels.size());
+    return pixels.empty() ? 0.0 : static_cast<double>(covered) / static_cast<double>(pixels.size());
 }
 
 std::string name_of(const std::vector<std::filesystem::path>& images) {
