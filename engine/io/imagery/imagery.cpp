@@ -16,8 +16,8 @@ namespace {
 
 constexpr double bytes_per_pixel = 16.0 / 3.0; // with mipmaps
 constexpr double min_budget_share = 0.25;
-constexpr std::size_t reading_part = 8;  // divides the budget for reading
-constexpr double max_pixels = 1U << 31U; // to read of an image: about half a minute
+constexpr std::size_t reading_part = 8;       // divides the budget for reading
+constexpr double max_pixels_read = 1U << 31U; // to read of an image: about half a minute
 
 /// Of a raster without coordinates: its pixels, with y upwards. GDAL ignores an identity affine, so
 /// this one has an offset.
@@ -68,7 +68,7 @@ std::string too_much_text(const std::filesystem::path& image) {
     return fmt::format(
         "{}: more than {:.0f} pixels would be read, overviews were expected; the image "
         "is left out, and 'gdaladdo -r average {} 4 16 64 256' adds them",
-        image.string(), max_pixels, image.filename().string());
+        image.string(), max_pixels_read, image.filename().string());
 }
 
 template <class Texts> void append(const Texts& texts, std::vector<std::string>& list) {
@@ -97,7 +97,7 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         const glm::dvec2 step = glm::dvec2(grid.cols - 1, grid.rows - 1) / glm::dvec2(*size - 1);
         window = set->read(
             {affine_of_samples(samples.affine, {glm::dvec2(0.0), step}), size->x, size->y},
-            {.max_pixels = max_pixels, .progress = options.progress, .stop = options.stop});
+            {.max_pixels = max_pixels_read, .progress = options.progress, .stop = options.stop});
     }
     if (options.stop.stop_requested()) {
         return Error{name_of(options.imagery) + ": reading was stopped"};
