@@ -102,8 +102,8 @@ function(reljef_umbrella)
 endfunction()
 
 # Compiles each header of the library's rooms as if by itself (target `headers`). A header may follow
-# those that it includes anyway: they change nothing for it. So a program begins with a header, and
-# goes on with ever larger ones that include all before; half as many programs, and half the time.
+# those that it includes anyway: they change nothing for it. So each program starts with a small
+# header, and each further one includes all before it. This halves the programs and their time.
 function(reljef_check_headers)
   get_property(rooms GLOBAL PROPERTY RELJEF_CHECKED_ROOMS)
   set(sized)

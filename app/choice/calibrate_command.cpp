@@ -86,8 +86,8 @@ Result<void> calibrate(const CalibrateChoice& choice, const cli::Interrupt& inte
     }
     const session::Calibration made{session::place_of(device->info(), cli::version_text()),
                                     session::costs_from(*frames)};
-    const double many_triangles = made.costs.triangle_ns + made.costs.touched_pixel_ns;
-    if (many_triangles == 0.0 || made.costs.ray_pixel_ns == 0.0) {
+    const double triangles_ns = made.costs.triangle_ns + made.costs.touched_pixel_ns;
+    if (triangles_ns == 0.0 || made.costs.ray_pixel_ns == 0.0) {
         return Error{"calibrate: frames with more triangles or rays took no longer than those with "
                      "fewer, longer ones were expected: try again while no other program runs"};
     }

@@ -10,8 +10,8 @@
 
 namespace reljef::session {
 
-/// The images over a terrain, if tiles would show them; else null. Opened once, because the white
-/// point of 16-bit images takes seconds.
+/// The images over a terrain, if tiles would show them; else null. The overview takes their white
+/// point, because searching that of 16-bit images takes seconds.
 Result<std::shared_ptr<const io::ImagerySet>> open_imagery(const io::TileSet& tiles,
                                                            const SourceOptions& choice,
                                                            const io::TileTerrainOptions& options);

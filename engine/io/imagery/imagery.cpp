@@ -66,9 +66,10 @@ std::string name_of(const std::vector<std::filesystem::path>& images) {
 
 std::string too_much_text(const std::filesystem::path& image) {
     return fmt::format(
-        "{}: more than {:.0f} pixels would be read, overviews were expected; the image "
-        "is left out, and 'gdaladdo -r average {} 4 16 64 256' adds them",
-        image.string(), max_pixels_read, image.filename().string());
+        "{0}: more than {1:.0f} pixels would be read, overviews were expected; the image is left "
+        "out where the terrain is seen whole, and 'gdaladdo -r average {0} 2 4 8 16 32 64' adds "
+        "them",
+        image.string(), max_pixels_read);
 }
 
 template <class Texts> void append(const Texts& texts, std::vector<std::string>& list) {
@@ -114,14 +115,15 @@ Result<Image> read_imagery(GDALDataset& heights, const Place& place, const Raste
         errors.push_back(too_much_text(window.needs_overviews));
     }
     const double share = covered_share(window.texels);
-    if (!(share > 0.0)) {
-        return Error{
-            !window.errors.empty() ? window.errors.front().message
-            : !window.needs_overviews.empty()
-                ? errors.back()
-                : fmt::format("{}: shows nothing of the terrain, an image that overlaps was "
-                              "expected",
-                              name_of(options.imagery))};
+    if (share == 0.0 && !window.needs_overviews.empty()) {
+        return Image();
+    }
+    if (share == 0.0) {
+        return Error{!window.errors.empty()
+                         ? window.errors.front().message
+                         : fmt::format("{}: shows nothing of the terrain, an image that overlaps "
+                                       "was expected",
+                                       name_of(options.imagery))};
     }
     if (share < 0.995) {
         notes.push_back(fmt::format("imagery covers {:.0f} % of the terrain", 100.0 * share));

@@ -14,6 +14,7 @@ namespace reljef::io {
 
 /// Drapes RasterOptions::imagery over the closed samples at `place` of the raster `heights`, edge
 /// sample to edge sample. Adds an error for each unreadable image; fails if all are unreadable.
+/// Empty if all need overviews: more than 2^31 of their pixels would be read.
 Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
                            std::vector<std::string>& notes, std::vector<std::string>& errors);
 

@@ -13,7 +13,7 @@ namespace reljef::session {
 struct FrameCost {
     double ms = 0.0;
     double triangles = 0.0;
-    double touched_pixels = 0.0; ///< by their edges, as `auto` estimates them
+    double touched_pixels = 0.0; ///< by edges of triangles, as `auto` estimates them
     double pixels = 0.0; ///< that show terrain; of rays, those that search, as `auto` counts them
     double steps = 0.0;  ///< of searches
 };
