@@ -1,3 +1,5 @@
+#include "frame/pixel_ray.glsl"
+
 // The 8th power of the cosine of the angle to the sun: forward scattering.
 // 0 without a sun.
 float toward_sun(vec3 direction) {
@@ -25,9 +27,7 @@ vec3 through_air(vec3 color, vec3 direction, float metres) {
 // The fragment's light after absorption and scattering by the air.
 vec3 seen_through_air(vec3 color, float metres) {
 #ifdef FOG
-    vec2 place = gl_FragCoord.xy * pixel_share.xy;
-    vec3 direction = normalize(ray_corner.xyz + place.x * ray_right.xyz + place.y * ray_up.xyz);
-    return through_air(color, direction, metres);
+    return through_air(color, normalize(pixel_ray()), metres);
 #else
     return color;
 #endif

@@ -13,11 +13,20 @@ in vec4 vertex_tangent;
 in vec2 vertex_coordinate;
 in vec2 vertex_tiles_per_metre;
 
-vec3 relative = INSIDE(vertex_relative); // from the eye, metres
-vec3 local_normal = INSIDE(vertex_normal);
-vec4 local_tangent = INSIDE(vertex_tangent); // w: handedness
-vec2 tile_coordinate = INSIDE(vertex_coordinate);
-vec2 tiles_per_metre = INSIDE(vertex_tiles_per_metre); // along x and y
+vec3 relative = vec3(0.0); // from the eye, metres
+vec3 local_normal = vec3(0.0);
+vec4 local_tangent = vec4(0.0); // w: handedness
+vec2 tile_coordinate = vec2(0.0);
+vec2 tiles_per_metre = vec2(0.0); // along x and y
+
+// NVIDIA's compiler knows no interpolateAtCentroid outside of functions.
+void set_from_vertices() {
+    relative = INSIDE(vertex_relative);
+    local_normal = INSIDE(vertex_normal);
+    local_tangent = INSIDE(vertex_tangent);
+    tile_coordinate = INSIDE(vertex_coordinate);
+    tiles_per_metre = INSIDE(vertex_tiles_per_metre);
+}
 #endif
 
 uniform mat3 local_from_relative; // directions

@@ -21,6 +21,7 @@
 #include "frame/output.glsl"
 
 void main() {
+    set_from_vertices();
     mat3 space = tangent_space();
     vec3 way = way_to_eye();
     metres_per_unit = vec3(1.0 / max(tiles_per_metre * tile_samples(), vec2(1e-30)), lift);

@@ -17,6 +17,7 @@ uniform vec4 warp_from_tile; // texture coordinate = tile coordinate · xy + zw
 #include "frame/output.glsl"
 
 void main() {
+    set_from_vertices();
     if (is_off_tile(tile_coordinate)) {
         discard;
     }

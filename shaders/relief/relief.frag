@@ -35,7 +35,14 @@
 
 in vec3 vertex_back;
 
-vec3 back = INSIDE(vertex_back); // where the view ray leaves the box, relative to the eye
+// Where the view ray leaves the box, relative to the eye. Its direction is that of the pixel: graphics processors
+// interpolate with fewer digits than floats have.
+vec3 back_on_ray() {
+    vec3 inside = INSIDE(vertex_back);
+    return mix(inside, pixel_ray() * dot(inside, view_forward.xyz), perspective);
+}
+
+vec3 back = back_on_ray();
 
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;

@@ -14,8 +14,11 @@ namespace {
 
 void GLAD_API_PTR collect(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity,
                           GLsizei /*length*/, const GLchar* text, const void* user) {
-    if (type == GL_DEBUG_TYPE_ERROR || severity == GL_DEBUG_SEVERITY_HIGH ||
-        severity == GL_DEBUG_SEVERITY_MEDIUM) {
+    // Drivers of hardware tell at medium severity when they compile a program once more.
+    const bool is_severe =
+        severity == GL_DEBUG_SEVERITY_HIGH ||
+        (severity == GL_DEBUG_SEVERITY_MEDIUM && type != GL_DEBUG_TYPE_PERFORMANCE);
+    if (type == GL_DEBUG_TYPE_ERROR || is_severe) {
         static_cast<std::vector<std::string>*>(const_cast<void*>(user))->emplace_back(text);
     }
 }
@@ -72,12 +75,14 @@ gl::Framebuffer float_target(glm::ivec2 size) {
     return must(gl::Framebuffer::create({.size = size, .color = gl::Format::rgba32f}));
 }
 
-gl::Program cover_program(const std::string& fragment_body) {
+gl::Program cover_program(const std::string& fragment_body, const std::string& place) {
     const std::string vertex = "#version 450 core\n"
                                "uniform float depth;\n"
                                "void main() {\n"
                                "    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
-                               "    gl_Position = vec4(corner * 4.0 - 1.0, depth, 1.0);\n"
+                               "    gl_Position = vec4(" +
+                               place +
+                               ", depth, 1.0);\n"
                                "}\n";
     const std::string fragment =
         "#version 450 core\nlayout(location = 0) out vec4 color;\n" + fragment_body;

@@ -34,7 +34,7 @@ private:
 };
 
 /// A test with a context of its own (test_context.h); it fails when the driver reports an error or
-/// anything above low severity.
+/// anything above low severity but hints about speed.
 class GlTest : public ::testing::Test {
 protected:
     void SetUp() override;
@@ -63,8 +63,10 @@ Grid<float> read_depth(const gl::Framebuffer& framebuffer);
 gl::Framebuffer float_target(glm::ivec2 size);
 
 /// A vertex stage that covers the target with one triangle at clip depth `uniform float depth`, and
-/// the fragment stage, in which `color` is the float output.
-gl::Program cover_program(const std::string& fragment_body);
+/// the fragment stage, in which `color` is the float output. `place`: of its corners (0, 0), (1, 0)
+/// and (0, 1), as vec2.
+gl::Program cover_program(const std::string& fragment_body,
+                          const std::string& place = "corner * 4.0 - 1.0");
 /// Draws it; the program is ready to use, the target bound.
 void cover(const gl::Program& program);
 
