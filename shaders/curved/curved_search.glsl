@@ -24,7 +24,7 @@ void fade_curve(vec3 span) {
 struct Chords {
     float first; // square root of the part
     float stride;
-    float count;
+    int count;
 };
 
 // `share`: of the number that keeps the error.
@@ -32,11 +32,11 @@ Chords chords_between(vec2 range, float share) {
     float first = sqrt(range.x);
     float way = max(sqrt(range.y) - first, 0.0);
     float count = max(ceil(way * share * curve.chords), 1.0);
-    return Chords(first, way / count, count);
+    return Chords(first, way / count, int(count));
 }
 
-float end_of_chord(Chords chords, float i) {
-    float root = chords.first + i * chords.stride;
+float end_of_chord(Chords chords, int i) {
+    float root = chords.first + float(i) * chords.stride;
     return root * root;
 }
 
@@ -89,7 +89,7 @@ vec2 range_inside(vec2 range) {
     vec2 inner = vec2(2.0, 0.0);
     float before = chords.first * chords.first;
     vec3 start = curve_at(before);
-    for (float i = 1.0; i <= chords.count; ++i) {
+    for (int i = 1; i <= chords.count; ++i) {
         float next = end_of_chord(chords, i);
         vec3 end = curve_at(next);
         vec2 inside = parts_inside(start, end - start);
@@ -109,7 +109,7 @@ bool find_between(vec2 range, bool above, out float part, out vec2 place) {
     Chords chords = chords_between(range, 1.0);
     float before = chords.first * chords.first;
     vec3 start = place_of_end(chords, before);
-    for (float i = 1.0; i <= chords.count; ++i) {
+    for (int i = 1; i <= chords.count; ++i) {
         float next = end_of_chord(chords, i);
         vec3 end = place_of_end(chords, next);
         vec3 span = end - start;
@@ -156,6 +156,7 @@ bool find_between(vec2 range, bool above, out float part, out vec2 place) {
 
 // The part of the way to where the ray leaves the box.
 bool find_on_curve(out float part, out vec2 place) {
+    back = back_on_ray();
     curve = view_curve(back);
     float depth = dot(back, view_forward.xyz);
     float begin = clamp(near_depth / depth, 0.0, 1.0);

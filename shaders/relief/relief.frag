@@ -35,14 +35,7 @@
 
 in vec3 vertex_back;
 
-// Where the view ray leaves the box, relative to the eye. Its direction is that of the pixel: graphics processors
-// interpolate with fewer digits than floats have.
-vec3 back_on_ray() {
-    vec3 inside = INSIDE(vertex_back);
-    return mix(inside, pixel_ray() * dot(inside, view_forward.xyz), perspective);
-}
-
-vec3 back = back_on_ray();
+vec3 back = vec3(0.0); // where the view ray leaves the box, relative to the eye
 
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
@@ -79,6 +72,12 @@ void write_place(vec2 place, float height, float depth) {
 #endif
 
 #ifdef CURVED
+// With the direction of the pixel: graphics processors interpolate with fewer digits than floats have.
+vec3 back_on_ray() {
+    vec3 inside = INSIDE(vertex_back);
+    return mix(inside, pixel_ray() * dot(inside, view_forward.xyz), perspective);
+}
+
 #include "curved/curved_search.glsl"
 #ifdef SHADOW
 #include "curved/curved_light.glsl"
@@ -92,13 +91,29 @@ struct StraightRay {
     vec3 relative_span;
 };
 
-// From its entry into the box, in perspective not before the near plane, to where it leaves.
-StraightRay ray_in_box(vec3 along) {
-    vec3 direction = space_from_relative * along;
-    vec3 leave = space_from_relative * back + eye_in_space;
-    if (gl_PrimitiveID == 2 || gl_PrimitiveID == 9) {
-        leave.z = box_begin.z; // through the bottom: exact, however small the relief is
+// Where the view ray leaves the box, in the search space. On the face exactly, however small the relief is.
+vec3 leave_box() {
+    if (perspective < 0.5) {
+        back = INSIDE(vertex_back);
+        vec3 leave = space_from_relative * back + eye_in_space;
+        bool is_bottom = gl_PrimitiveID == 2 || gl_PrimitiveID == 9;
+        return is_bottom ? vec3(leave.xy, box_begin.z) : leave;
     }
+    vec3 ray = pixel_ray();
+    vec3 direction = space_from_relative * ray;
+    vec3 away = vec3(equal(direction, vec3(0.0)));
+    vec3 ends = mix(box_begin.xyz, box_end.xyz, vec3(greaterThan(direction, vec3(0.0))));
+    vec3 parts = (ends - eye_in_space) / (direction + away) + away * 3e38;
+    float part = max(min(min(parts.x, parts.y), parts.z), 0.0);
+    back = part * ray;
+    return mix(eye_in_space + part * direction, ends, vec3(lessThanEqual(parts, vec3(part))));
+}
+
+// From its entry into the box, in perspective not before the near plane, to where it leaves.
+StraightRay ray_in_box() {
+    vec3 leave = leave_box();
+    vec3 along = mix(view_forward.xyz, back, perspective);
+    vec3 direction = space_from_relative * along;
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
     vec3 first = min((box_begin.xyz - leave) * inverse, (box_end.xyz - leave) * inverse) - away * 3e38;
@@ -207,8 +222,7 @@ void main() {
     }
     vec3 relative = part * back;
 #else
-    vec3 along = mix(view_forward.xyz, back, perspective);
-    StraightRay ray = ray_in_box(along);
+    StraightRay ray = ray_in_box();
     vec3 start = ray.start;
     vec3 span = ray.span;
 #ifdef FADE

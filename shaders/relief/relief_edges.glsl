@@ -47,7 +47,8 @@ float near_miss(vec3 start, vec3 way, out float at, out vec2 place) {
     float nearest_clearance = edge_distance;
     float passed = -1.0;
     bool nearing = true;
-    while (at < 1.0) {
+    int steps = int(ceil((1.0 - at) / stride));
+    for (int i = 0; i < steps; ++i) {
         at += stride;
         float now = clearance(ray_at(start, way, min(at, 1.0)));
         if (nearing && now > before && before <= nearest_clearance) {

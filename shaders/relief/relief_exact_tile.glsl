@@ -4,7 +4,8 @@
 
 // Infinite or NaN without a tangent frame of the mesh.
 bool is_endless(vec3 start, vec3 span) {
-    return !(dot(abs(start) + abs(span), vec3(1.0)) < 1e30);
+    float sum = dot(abs(start) + abs(span), vec3(1.0));
+    return isnan(sum) || sum > 1e30;
 }
 
 ivec2 first_cell(inout vec3 start) {

@@ -2,12 +2,11 @@
 // bracketed secant method (Risser, Shah and Pattanaik 2006).
 #define EQUAL_STEPS
 
-float steps_for(vec3 span) {
+int steps_for(vec3 span) {
 #ifdef VIEW_STEPS
-    float upright = abs(normalize(span * metres_per_unit).z);
-    return ceil(mix(steps_along_ground, steps_from_above, upright));
+    return int(ceil(mix(steps_along_ground, steps_from_above, uprightness(span))));
 #else
-    return linear_steps;
+    return int(linear_steps);
 #endif
 }
 
@@ -48,14 +47,14 @@ float narrowed(vec3 start, vec3 span, float part, float over, float low_part, fl
 
 // The first crossing from above to below on the way from start to start + span.
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
-    float n = steps_for(span);
+    int n = steps_for(span);
     float before = start.z - height_at(start.xy);
     float at = 0.0;
     float under = 0.0;
     bool found = false;
-    for (float i = 1.0; i <= n; ++i) {
+    for (int i = 1; i <= n; ++i) {
         count_step();
-        float next = i / n;
+        float next = float(i) / float(n);
         vec3 p = ray_at(start, span, next);
         float now = p.z - height_at(p.xy);
         if (now < 0.0 && before >= 0.0) {
@@ -66,7 +65,7 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         at = next;
         before = now;
     }
-    part = found ? narrowed(start, span, at, before, at + 1.0 / n, under) : 1.0;
+    part = found ? narrowed(start, span, at, before, at + 1.0 / float(n), under) : 1.0;
     place = ray_at(start, span, part).xy;
     return found;
 }

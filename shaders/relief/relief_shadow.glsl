@@ -12,21 +12,21 @@ vec3 way_out(vec3 point, vec3 direction, vec3 low, vec3 high) {
 }
 
 #ifdef SOFT_SHADOW
-float shadow_steps(vec3 span) {
+int shadow_steps(vec3 span) {
 #ifdef EQUAL_STEPS
     return steps_for(span);
 #else
-    return clamp(ceil(max(abs(span.x), abs(span.y))), 1.0, 4096.0); // one per sample
+    return int(clamp(ceil(max(abs(span.x), abs(span.y))), 1.0, 4096.0)); // one per sample
 #endif
 }
 
 // From the deepest penetration (GPU surface-detail survey 2008 ch. 3.6.6).
 float share_of_sun(vec3 start, vec3 span) {
-    float n = shadow_steps(span);
+    int n = shadow_steps(span);
     float deepest = 0.0;
-    for (float i = 1.0; i <= n && deepest < shadow_depth; ++i) {
+    for (int i = 1; i <= n && deepest < shadow_depth; ++i) {
         count_step();
-        vec3 p = ray_at(start, span, i / n);
+        vec3 p = ray_at(start, span, float(i) / float(n));
         deepest = max(deepest, depth_in_surface(p));
     }
     return clamp(1.0 - deepest / shadow_depth, 0.0, 1.0);

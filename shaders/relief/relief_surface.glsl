@@ -34,6 +34,12 @@ vec3 ray_at(vec3 start, vec3 span, float part) {
 }
 #endif
 
+// Cosine of a ray's angle to the vertical; 0 of a ray without length.
+float uprightness(vec3 span) {
+    vec3 way = span * metres_per_unit;
+    return abs(way.z) / max(length(way), 1e-30);
+}
+
 #ifdef LAYERS
 // Solid between 1 and 2, and between 3 and 4.
 vec4 layers_at(vec2 place) {
