@@ -113,7 +113,10 @@ TEST_P(Golden, IsStillDrawn) {
         ASSERT_TRUE(written) << written.error().message;
         return;
     }
-    const auto checked = test::check_golden(golden.name, *picture, folders);
+    // Graphics processors filter textures in ways of their own.
+    const int largest_difference = test::context_name() == "egl" ? 12 : 4;
+    const auto checked = test::check_golden(golden.name, *picture, folders,
+                                            {.largest_difference = largest_difference});
     EXPECT_TRUE(checked) << checked.error().message;
 }
 
