@@ -5,7 +5,6 @@
 #endif
 #ifdef STREAMED
 uniform vec2 height_texel; // 1 / vertices of a tile
-#include "relief/bilinear.glsl"
 #include "stream/stream_tiles.glsl"
 #include "stream/stream_max.glsl"
 #endif

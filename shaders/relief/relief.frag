@@ -3,6 +3,7 @@
 #include "frame/fragment.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"
+#include "relief/surface_cell.glsl"
 #if defined(EXACT) && defined(STREAMED)
 #include "stream/stream_walk.glsl"
 #elif defined(EXACT)
@@ -245,7 +246,7 @@ void main() {
     gl_FragDepth = clip.z / clip.w;
 #endif
 #ifdef HIT
-    float height = height_span.x + height_span.y * height_at(place);
+    float height = height_span.x + height_span.y * height_in(surface_cell(place));
     write_place(place, height, dot(relative, view_forward.xyz));
 #else
     float metres = length(relative);

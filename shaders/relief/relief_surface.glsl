@@ -68,15 +68,12 @@ float outward() {
     return (hit_layer & 1) == 0 ? 1.0 : -1.0;
 }
 #else
-#include "relief/bilinear.glsl"
 #ifdef STREAMED
 #include "stream/stream_tiles.glsl"
 #else
 float height_at(vec2 place) {
     count_taps(1.0);
-    vec2 cell = floor(place);
-    vec4 corners = textureGather(height_map, (cell + vec2(origin_cell) + 1.0) * height_texel);
-    return bilinear(corners, place - cell);
+    return textureLod(height_map, (place + vec2(origin_cell) + 0.5) * height_texel, 0.0).r;
 }
 #endif
 

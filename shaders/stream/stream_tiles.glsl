@@ -65,7 +65,5 @@ float height_at(vec2 place) {
     StreamedTile tile = tile_of_page(page_of(cell).x);
     vec2 vertex = vertex_at(place, cell, tile.level);
     count_taps(1.0);
-    vec2 corner = floor(vertex);
-    vec4 corners = textureGather(height_tiles, vec3((corner + 1.0) * height_texel, tile.layer));
-    return unit_height(bilinear(corners, vertex - corner));
+    return unit_height(textureLod(height_tiles, vec3((vertex + 0.5) * height_texel, tile.layer), 0.0).r);
 }

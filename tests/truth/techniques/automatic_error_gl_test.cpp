@@ -9,6 +9,7 @@
 #include "engine/view/error_view.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/session/made_session.h"
+#include "tests/support/test_context.h"
 #include "tests/truth/techniques/error_promise.h"
 
 namespace reljef::truth {
@@ -189,8 +190,11 @@ TEST_F(AutomaticErrorGlTest, TypicalSearchesFindWhatIsDrawn) {
             const Searched searched = searched_over(heightfield, technique);
             EXPECT_GT(searched.pixels, 3000);
             if (technique.id() != scene::TechniqueId::interval) {
-                // Floats decide otherwise where a step ends on the surface.
-                EXPECT_LE(searched.share(searched.others), 0.005) << scene::to_string(technique);
+                // Floats decide otherwise where a step ends on the surface. Graphics processors
+                // weigh heights by 8 bits, which moves some places of parallax by over a tenth of a
+                // sample.
+                const double others = test::context_name() == "egl" ? 0.06 : 0.005;
+                EXPECT_LE(searched.share(searched.others), others) << scene::to_string(technique);
                 continue;
             }
             // The picture begins at beams, the probes at what is known of them.
