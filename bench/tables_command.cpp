@@ -38,6 +38,9 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "--moving", choice.options.suite.moving,
         "the view moves sideways between frames, which cuts most triangles anew; errors "
         "are of the view at rest");
+    command.add_flag("--cold", choice.options.suite.cold,
+                     "each frame is drawn as the first one of its view: triangles of an error "
+                     "bound are cut anew");
     command.add_flag(
         "--distances", choice.distances,
         "instead of the tables: errors from 100 m to 10 km, without times, of texture, "
@@ -51,6 +54,9 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
 }
 
 void check_tables_options(const TablesChoice& choice) {
+    if (choice.options.suite.moving && choice.options.suite.cold) {
+        cli::fail_usage("--moving, --cold: both found, one was expected");
+    }
     if (!choice.distances && !choice.guesses) {
         return;
     }
@@ -66,6 +72,7 @@ void check_tables_options(const TablesChoice& choice) {
     forbid(choice.options.pose.has_value(), "--pose");
     forbid(choice.options.suite.rounds > 0, "--rounds");
     forbid(choice.options.suite.moving, "--moving");
+    forbid(choice.options.suite.cold, "--cold");
     forbid(!choice.outputs.csv.empty(), "--csv");
     forbid(!choice.outputs.html.empty(), "--html");
     forbid(choice.guesses && !choice.options.techniques.empty(), "--technique");

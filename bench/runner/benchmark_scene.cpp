@@ -76,7 +76,8 @@ Result<session::Device> make_device(const SuiteOptions& options) {
          .size = options.size,
          .shader_dir = options.shader_dir,
          .threads = options.threads,
-         .selects_always = true});
+         .selects_always = true,
+         .cuts_always = options.cold});
     if (!device || options.calibration.empty()) {
         return device;
     }

@@ -20,6 +20,7 @@ struct SuiteOptions {
     int threads = 0;                   ///< 0: all of the machine
     int rounds = 0;                    ///< of each measurement; 0: as many as fit, at least 5
     bool moving = false;               ///< the view moves from frame to frame, see MovingView
+    bool cold = false;                 ///< each frame is drawn as the first one of its view
     bool quick = false;                ///< ends within a minute, with fewer rounds if necessary
     double quick_seconds = 48.0;       ///< of a quick run; the rest of the minute is a reserve
     bool quiet = false;                ///< no progress and no notes on stderr

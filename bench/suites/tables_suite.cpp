@@ -61,9 +61,10 @@ Results run_tables(const TablesOptions& options, const std::stop_token& stop) {
     Suite suite{.name = "tables",
                 .groups =
                     as_sources ? source_groups(options.suite.quick) : terrain_groups(options)};
-    if (options.suite.moving) {
+    if (options.suite.moving || options.suite.cold) {
+        const std::string_view views = options.suite.moving ? "moving" : "cold";
         for (Group& group : suite.groups) {
-            group.test += group.test.empty() ? "moving" : ", moving";
+            group.test += fmt::format("{}{}", group.test.empty() ? "" : ", ", views);
         }
     }
     suite.keep_scenes = !as_sources;

@@ -261,7 +261,8 @@ render::DriverOptions opengl_options(const DeviceOptions& options, bool is_softw
     return {.size = options.size,
             .shader_dir = options.shader_dir,
             .software = is_software,
-            .samples = options.samples};
+            .samples = options.samples,
+            .skips = {.cuts = !options.cuts_always}};
 }
 
 platform::ContextOptions hidden(const DeviceOptions& options) {

@@ -139,6 +139,7 @@ struct DeviceOptions {
     int threads = 0;                       ///< of a software renderer; 0: its own choice
     std::string simd = {};                 ///< of rays on the CPU (cast/simd_target.h); empty: best
     bool selects_always = false;           ///< see SceneRendererOptions
+    bool cuts_always = false;              ///< OpenGL cuts triangles of an unchanged view again
     view::TechniqueCosts costs = {};       ///< by which `auto` chooses
 };
 

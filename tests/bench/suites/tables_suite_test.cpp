@@ -68,17 +68,18 @@ TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
     }
 }
 
-TEST_F(TablesSuite, views_that_move_say_so_and_cut_triangles_anew) {
+TEST_F(TablesSuite, views_that_move_or_start_cold_say_so_and_cut_triangles_anew) {
     TablesOptions options = small_options();
     options.techniques = {scene::parse_technique("polygons:error=1").value()};
-    for (const bool moving : {false, true}) {
-        options.suite.moving = moving;
+    for (const std::string test : {"", "moving", "cold"}) {
+        options.suite.moving = test == "moving";
+        options.suite.cold = test == "cold";
         const Results results = run_tables(options, {});
         ASSERT_FALSE(results.stopped);
         for (const Row& row : results.rows) {
-            EXPECT_EQ(row.test, moving ? "moving" : "");
+            EXPECT_EQ(row.test, test);
             if (row.setting.technique == "polygons") {
-                EXPECT_EQ(row.timing.stats.tiles_cut > 0, moving);
+                EXPECT_EQ(row.timing.stats.tiles_cut > 0, !test.empty());
             }
         }
     }
