@@ -40,6 +40,13 @@ void expect_refusal(const ProgramResult& result, int exit_code,
     }
 }
 
+std::string small_terrain(const TemporaryFolder& folder, const std::string& name) {
+    return folder
+        .write(name + ".toml",
+               "name = \"" + name + "\"\n[terrain]\ngenerator = \"" + name + "\"\nsize = 129\n")
+        .string();
+}
+
 bool has_display() {
     const char* display = std::getenv("DISPLAY");
     return display != nullptr && *display != '\0';
