@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/commands.h"
-#include "tests/support/forked_program.h"
+#include "tests/support/forks/forked_program.h"
 
 namespace reljef::test {
 namespace {
