@@ -49,7 +49,7 @@ std::vector<GoldenCase> golden_cases() {
     }
     cases.push_back({"gallery", "gallery", false, {}});
     for (const std::string id : {"displacement", "bump", "emboss", "normal", "relief"}) {
-        cases.push_back({"gallery_" + id, "gallery", false, {"--technique", id}});
+        cases.push_back({"gallery_" + id, "gallery", false, {"--technique", id}, true});
     }
     cases.push_back(
         {"urban_options",
@@ -69,7 +69,7 @@ std::vector<GoldenCase> golden_cases() {
          {"--detail", "rock:width=14,scale=0.1", "--detail-technique", "exact:shadow=hard",
           "--max-error", "1", "--eye", "0,-3000,774", "--look", "300,-2400,765"}});
     cases.push_back(
-        {"gallery_silhouettes", "gallery", false, {"--technique", "exact:silhouettes=true"}});
+        {"gallery_silhouettes", "gallery", false, {"--technique", "exact:silhouettes=true"}, true});
     cases.push_back({"urban_detail",
                      "urban",
                      false,
@@ -117,6 +117,50 @@ std::unique_ptr<session::FrameMaker> frame_maker(bool truth, session::Log& log) 
     return std::make_unique<session::DeviceFrames>(session::Device::create(options).value(), log);
 }
 
+// The gallery with its textures, made once, and the technique of each model.
+struct Gallery {
+    session::TerrainScene scene;
+    std::vector<scene::Technique> techniques;
+};
+
+Gallery& gallery() {
+    static Gallery made = [] {
+        session::Log silent;
+        session::SceneOptions view;
+        view.size = picture_size;
+        Gallery result{session::make_scene(generated("gallery"), {}, view, silent).value(), {}};
+        for (const scene::Material* const material : result.scene.materials()) {
+            result.techniques.push_back(material->technique);
+        }
+        return result;
+    }();
+    return made;
+}
+
+Result<void> add_maps(session::TerrainScene& scene, session::Log& log) {
+    const auto maps = session::prepare_maps(session::missing_maps(scene), 0, log, {});
+    if (!maps) {
+        return maps.error();
+    }
+    session::apply_maps(scene, *maps);
+    return {};
+}
+
+// What the program draws of the gallery with a technique, or without one with each model's own.
+Result<Image> drawn_of_gallery(const std::vector<std::string>& options) {
+    session::Log silent;
+    Gallery& shown = gallery();
+    const auto materials = shown.scene.materials();
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        materials[i]->technique =
+            options.empty() ? shown.techniques[i] : scene::parse_technique(options.at(1)).value();
+    }
+    if (auto added = add_maps(shown.scene, silent); !added) {
+        return added.error();
+    }
+    return frame_maker(false, silent)->draw(shown.scene.scene, {});
+}
+
 // What the program draws of a generated terrain with a technique, or by exact rays.
 Result<Image> drawn_as_generated(const std::string& terrain,
                                  const std::vector<std::string>& options) {
@@ -133,11 +177,9 @@ Result<Image> drawn_as_generated(const std::string& terrain,
         return scene.error();
     }
     if (!is_true) {
-        const auto maps = session::prepare_maps(session::missing_maps(*scene), 0, silent, {});
-        if (!maps) {
-            return maps.error();
+        if (auto added = add_maps(*scene, silent); !added) {
+            return added.error();
         }
-        session::apply_maps(*scene, *maps);
     }
     return frame_maker(is_true, silent)->draw(scene->scene, {});
 }
@@ -160,6 +202,14 @@ Result<Image> drawn_by_program(const GoldenCase& golden) {
     return run.exit_code == 0 ? io::read_image(file) : Error{run.err};
 }
 
+Result<Image> drawn(const GoldenCase& golden) {
+    if (!golden.is_made_here) {
+        return drawn_by_program(golden);
+    }
+    return golden.terrain == "gallery" ? drawn_of_gallery(golden.options)
+                                       : drawn_as_generated(golden.terrain, golden.options);
+}
+
 class Golden : public testing::TestWithParam<GoldenCase> {};
 
 TEST_P(Golden, IsStillDrawn) {
@@ -168,8 +218,7 @@ TEST_P(Golden, IsStillDrawn) {
     if (golden.is_data) {
         RELJEF_NEED_DATA(golden.terrain);
     }
-    const auto picture = golden.is_made_here ? drawn_as_generated(golden.terrain, golden.options)
-                                             : drawn_by_program(golden);
+    const auto picture = drawn(golden);
     ASSERT_TRUE(picture) << picture.error().message;
     const test::GoldenFolders folders{RELJEF_GOLDEN_PICTURES, RELJEF_GOLDEN_FAILURES};
     if (std::getenv("RELJEF_WRITE_GOLDENS") != nullptr) { // ./dev goldens
