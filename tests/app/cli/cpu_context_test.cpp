@@ -75,7 +75,7 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
     };
     test::expect_refusal(with({urban_, "--technique", "texture"}), 1,
                          {"technique texture found", "--context osmesa"});
-    test::expect_refusal(with({test::small_terrain(folder_, "gallery")}), 1,
+    test::expect_refusal(with({test::small_terrain(folder_, "gallery"), "--textures", "cobble"}), 1,
                          {"a mesh with technique", "--context osmesa"});
     test::expect_refusal(with({urban_, "--samples", "3"}), 2, {"--samples", "3", "16"});
     test::expect_refusal(with({urban_, "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
