@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "app/commands.h"
-#include "tests/support/forked_program.h"
+#include "tests/support/forks/forked_program.h"
 
 namespace reljef::test {
 namespace {
@@ -38,6 +38,13 @@ void expect_refusal(const ProgramResult& result, int exit_code,
     for (const std::string& part : parts) {
         EXPECT_THAT(result.err, testing::HasSubstr(part));
     }
+}
+
+std::string small_terrain(const TemporaryFolder& folder, const std::string& name) {
+    return folder
+        .write(name + ".toml",
+               "name = \"" + name + "\"\n[terrain]\ngenerator = \"" + name + "\"\nsize = 129\n")
+        .string();
 }
 
 bool has_display() {

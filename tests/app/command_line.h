@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_folder.h"
 #include "tests/support/test_program.h"
 
 namespace reljef::test {
@@ -17,6 +18,10 @@ std::string without_progress(const std::string& err);
 /// and holds each of `parts`.
 void expect_refusal(const ProgramResult& result, int exit_code,
                     const std::vector<std::string>& parts);
+
+/// Writes a scene file into the folder and returns its path: the built-in terrain `name` with a
+/// sixtieth of its samples. It is made and drawn in a fraction of the time.
+std::string small_terrain(const TemporaryFolder& folder, const std::string& name);
 
 /// Whether a window can be opened.
 bool has_display();

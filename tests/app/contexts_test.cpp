@@ -25,8 +25,9 @@ double differing_share(const Image& a, const Image& b) {
 
 Image render_natural(const test::TemporaryFolder& folder, const std::string& context) {
     const auto file = (folder.path() / (context + ".png")).string();
-    const auto result = test::reljef({"render", "natural", "--technique", "polygons:lods=1",
-                                      "--samples", "1", "--context", context, "-o", file});
+    const auto result =
+        test::reljef({"render", test::small_terrain(folder, "natural"), "--technique",
+                      "polygons:lods=1", "--samples", "1", "--context", context, "-o", file});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     auto image = io::read_image(file);
     return image ? std::move(*image) : Image();
@@ -53,8 +54,8 @@ TEST(Contexts, a_picture_of_another_sun_differs) {
     const test::TemporaryFolder folder;
     const Image one = render_natural(folder, "osmesa");
     const auto file = (folder.path() / "east.png").string();
-    ASSERT_EQ(test::reljef({"render", "natural", "--sun", "90,30", "--samples", "1", "--context",
-                            "osmesa", "-o", file})
+    ASSERT_EQ(test::reljef({"render", test::small_terrain(folder, "natural"), "--sun", "90,30",
+                            "--samples", "1", "--context", "osmesa", "-o", file})
                   .exit_code,
               0);
     EXPECT_GT(differing_share(one, *io::read_image(file)), 0.2);

@@ -3,7 +3,7 @@
 set -euo pipefail
 root=$1
 rm -rf "$root/out"
-output=$("$root/dev" fly --size 320x180 2>&1) || { echo "$output"; exit 1; }
+output=$("$root/dev" fly --size 96x54 2>&1) || { echo "$output"; exit 1; }
 for terrain in natural urban; do
     [[ -s $root/out/$terrain.png && -s $root/out/$terrain/0023.png ]] || {
         echo "no frames of $terrain under out/"

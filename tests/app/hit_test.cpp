@@ -120,9 +120,9 @@ TEST_F(HitFile, texture_shows_the_flat_reference_surface) {
     RELJEF_RELEASE_ONLY("hits of real tiles are written by the same lines");
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "hit.exr").string();
-    const auto run = test::reljef({"render", "natural", "--technique", "texture", "--eye",
-                                   "0,-9000,9000", "--look", "0,0,1000", "--size", "640x480",
-                                   "--context", "osmesa", "--hit", file});
+    const auto run = test::reljef({"render", test::small_terrain(folder, "natural"), "--technique",
+                                   "texture", "--eye", "0,-9000,9000", "--look", "0,0,1000",
+                                   "--size", "640x480", "--context", "osmesa", "--hit", file});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto hits = io::read_hits(file);
     ASSERT_TRUE(hits);

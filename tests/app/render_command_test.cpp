@@ -93,10 +93,11 @@ TEST(RenderCommand, sequence_and_contact_sheet) {
 TEST(RenderCommand, the_gallery_shows_its_tiles_by_any_technique) {
     RELJEF_RELEASE_ONLY("each technique has tests of its own");
     const test::TemporaryFolder folder;
+    const std::string gallery = test::small_terrain(folder, "gallery");
     const auto render = [&](const char* name, std::vector<std::string> options) {
         const auto file = (folder.path() / name).string();
-        std::vector<std::string> arguments{"render", "gallery", "--size",    "96x72", "--quiet",
-                                           "-o",     file,      "--context", "osmesa"};
+        std::vector<std::string> arguments{"render", gallery, "--size",    "96x72", "--quiet",
+                                           "-o",     file,    "--context", "osmesa"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const auto result = test::reljef(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -108,21 +109,24 @@ TEST(RenderCommand, the_gallery_shows_its_tiles_by_any_technique) {
 }
 
 TEST(RenderCommand, tiles_are_refused_where_there_are_none_and_where_they_are_unknown) {
+    const test::TemporaryFolder folder;
+    const std::string urban = test::small_terrain(folder, "urban");
+    const std::string gallery = test::small_terrain(folder, "gallery");
     const auto refused = [](std::vector<std::string> arguments, const char* words) {
         arguments.insert(arguments.begin(), "render");
         arguments.insert(arguments.end(), {"-o", "never.png", "--context", "osmesa", "--quiet"});
         test::expect_refusal(test::reljef(arguments), 2, {words});
         EXPECT_FALSE(std::filesystem::exists("never.png"));
     };
-    refused({"urban", "--textures", "rock"}, "only the gallery shows tiles, not urban");
+    refused({urban, "--textures", "rock"}, "only the gallery shows tiles, not urban");
     refused({"gallery", "--textures", "wood"},
             "one of mixed, brick, rock, cobble, fence, rings, copper or a folder");
     refused({"urban", "--imagery", "a.png"}, "--imagery: a.png found, but urban brings its own");
     refused({"gallery", "--max-error", "1"}, "--max-error: gallery found, a terrain was expected");
     refused({"urban", "--area", "1,2,3,4"}, "--area found, but it is no folder of tiles");
-    refused({"urban", "--technique", "emboss"}, "a mesh with a detail texture was expected");
-    refused({"urban", "--technique", "lattice"}, "exact shapes a terrain by its heights");
-    refused({"gallery", "--textures", "brick", "--technique", "prewarp"},
+    refused({urban, "--technique", "emboss"}, "a mesh with a detail texture was expected");
+    refused({urban, "--technique", "lattice"}, "exact shapes a terrain by its heights");
+    refused({gallery, "--textures", "brick", "--technique", "prewarp"},
             "a mesh that is not flat found");
 }
 
@@ -253,8 +257,9 @@ TEST(RenderCommand, a_camera_below_the_ground_is_lifted_and_a_fault_of_a_scene_f
 TEST(RenderCommand, standard_output_takes_the_picture_alone) {
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "a.png").string();
-    const std::vector<std::string> common{"render",    "natural", "--size",  "64x48",
-                                          "--context", "osmesa",  "--quiet", "-o"};
+    const std::string natural = test::small_terrain(folder, "natural");
+    const std::vector<std::string> common{"render",    natural,  "--size",  "64x48",
+                                          "--context", "osmesa", "--quiet", "-o"};
     auto arguments = common;
     arguments.push_back(file);
     ASSERT_EQ(test::reljef(arguments).exit_code, 0);
@@ -272,12 +277,13 @@ TEST(RenderCommand, standard_output_takes_the_picture_alone) {
 
 TEST(RenderCommand, hits_do_not_appear_beside_a_picture_that_cannot_be_written) {
     const test::TemporaryFolder folder;
+    const test::TemporaryFolder scenes;
     const auto hits = (folder.path() / "hits.exr").string();
     const auto result = test::run_program(
         "/bin/sh",
-        {"-c", "'" RELJEF_BINARY
-               "' render natural --size 160x120 --context osmesa --quiet --hit '" +
-                   hits + "' -o - > /dev/full"},
+        {"-c", "'" RELJEF_BINARY "' render '" + test::small_terrain(scenes, "natural") +
+                   "' --size 160x120 --context osmesa --quiet --hit '" + hits +
+                   "' -o - > /dev/full"},
         {});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.err.find("standard output: cannot be written"), std::string::npos)
@@ -288,13 +294,15 @@ TEST(RenderCommand, hits_do_not_appear_beside_a_picture_that_cannot_be_written) 
 // The picture fits the file size that is allowed, the hits do not.
 TEST(RenderCommand, a_picture_does_not_appear_beside_hits_that_cannot_be_written) {
     const test::TemporaryFolder folder;
+    const test::TemporaryFolder scenes;
     const std::string path = folder.path().string();
-    const auto result = test::run_program(
-        "/bin/sh",
-        {"-c", "trap '' XFSZ; ulimit -f 200; '" RELJEF_BINARY
-               "' render natural --size 320x240 --context osmesa --quiet --hit '" +
-                   path + "/hits.exr' -o '" + path + "/a.jpg'"},
-        {});
+    const auto result =
+        test::run_program("/bin/sh",
+                          {"-c", "trap '' XFSZ; ulimit -f 200; '" RELJEF_BINARY "' render '" +
+                                     test::small_terrain(scenes, "natural") +
+                                     "' --size 320x240 --context osmesa --quiet --hit '" + path +
+                                     "/hits.exr' -o '" + path + "/a.jpg'"},
+                          {});
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_NE(result.err.find("hits.exr: cannot be written: File too large"), std::string::npos)
         << result.err;
@@ -317,8 +325,7 @@ TEST(RenderCommand, triangles_have_four_samples_a_pixel_and_rays_one) {
     RELJEF_RELEASE_ONLY("the driver has tests of its own");
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "a.png").string();
-    const auto scene =
-        folder.write("small.toml", "[terrain]\ngenerator = \"natural\"\nsize = 129\n").string();
+    const auto scene = test::small_terrain(folder, "natural");
     const auto drawn = [&](const std::string& technique, const std::vector<std::string>& more) {
         std::vector<std::string> arguments{"render", scene,     "--technique", technique,
                                            "--size", "160x120", "--quiet",     "--context",

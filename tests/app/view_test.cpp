@@ -40,17 +40,20 @@ TEST(ViewCommand, ClosesAfterTheFramesAskedForEvenWhereNothingMoves) {
     if (!test::has_display()) {
         GTEST_SKIP() << "no display";
     }
-    const auto result = test::reljef(
-        {"view", "natural", "--technique", "texture", "--size", "320x240", "--frames", "3"});
+    const test::TemporaryFolder folder;
+    const auto result = test::reljef({"view", test::small_terrain(folder, "natural"), "--technique",
+                                      "texture", "--size", "320x240", "--frames", "3"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("fly along the path"));
 }
 
-// What a script does with a window, in a folder of its own. `steps` may use "$viewer" (the
-// process),
-// "$window", `titled TEXT` (waits until the title has it) and `pressed KEY`.
+// What a script does with a window on the terrain, in a folder of its own. `steps` may use
+// "$viewer" (the process), "$window", `titled TEXT` (waits until the title has it) and `pressed
+// KEY`.
 test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string& steps,
                           const std::string& shown = "--technique texture") {
+    static const test::TemporaryFolder scenes;
+    static const std::string natural = test::small_terrain(scenes, "natural");
     const std::string script =
         "until_true() { for _ in $(seq 300); do \"$@\" && return; sleep 0.1; done; echo \"never: "
         "$*\"; "
@@ -60,8 +63,8 @@ test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string
         "titled() { until_true has_title \"$1\"; }\n"
         "pressed() { xdotool key --window $window $1; }\n"
         "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
-        "env --default-signal=INT '" RELJEF_BINARY "' view natural " +
-        shown +
+        "env --default-signal=INT '" RELJEF_BINARY "' view '" +
+        natural + "' " + shown +
         " --size 320x240 & viewer=$!\n"
         "find_window() { window=$(xdotool search --all --onlyvisible --pid $viewer --name '^reljef "
         "- "

@@ -1,7 +1,7 @@
 #include "tests/bench/bench_program.h"
 
 #include "bench/commands.h"
-#include "tests/support/forked_program.h"
+#include "tests/support/forks/forked_program.h"
 
 namespace reljef::test {
 namespace {

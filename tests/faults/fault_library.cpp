@@ -6,6 +6,9 @@
 //   RELJEF_FAULT_STOP=N     the process ends before its N-th change of a file, counted from 1
 //   RELJEF_FAULT_COUNT=FILE at exit: the number of changes, and of files that were renamed without
 //                           having been synced
+//   RELJEF_FAULT_SERVER=N   at its main function the program serves requests at the socket N
+//                           (fork_server.h): it is linked once, and each fork has variables of its
+//                           own
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -28,6 +31,8 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#include "tests/support/forks/fork_server.h"
 
 namespace {
 
@@ -103,14 +108,20 @@ public:
         ::dl_iterate_phdr(&Faults::add_object, this);
         void* frame = nullptr;
         ::backtrace(&frame, 1); // loads what it needs
+    }
+    Faults(const Faults&) = delete;
+    Faults& operator=(const Faults&) = delete;
+    ~Faults() { end(); }
+
+    /// Calls before main() do not count: they are those of libraries' global objects.
+    void begin() {
         list_ = opened("RELJEF_FAULT_LIST");
         count_ = opened("RELJEF_FAULT_COUNT");
         failing_ = number_in("RELJEF_FAULT", 16);
         stop_ = number_in("RELJEF_FAULT_STOP", 10);
+        is_ready_ = true;
     }
-    Faults(const Faults&) = delete;
-    Faults& operator=(const Faults&) = delete;
-    ~Faults() {
+    void end() {
         is_ready_ = false;
         std::array<char, 80> line{};
         const int length = std::snprintf(line.data(), line.size(), "%llu %llu\n",
@@ -119,12 +130,9 @@ public:
         write_line(count_, {line.data(), static_cast<std::size_t>(length)});
     }
 
-    /// Calls before main() do not count: they are those of libraries' global objects.
-    void begin() { is_ready_ = true; }
-
     bool fails(Kind kind) {
         thread_local bool is_inside = false;
-        if (!is_ready_ || is_inside || (list_ < 0 && (failing_ == 0 || has_failed_))) {
+        if (!is_ready_ || is_inside || (list_ < 0 && (kind_of(failing_) != kind || has_failed_))) {
             return false;
         }
         is_inside = true;
@@ -218,14 +226,15 @@ private:
         ::dladdr(reinterpret_cast<void*>(address), &info);
         return address - reinterpret_cast<std::uintptr_t>(info.dli_fbase);
     }
-    // FNV-1a of the numbers; never 0 or 1.
+    // FNV-1a of the numbers, above the kind; never 0 or 1.
     static std::uint64_t key_of(Kind kind, std::uint64_t site, std::uint64_t caller) {
         std::uint64_t hash = 0xCBF29CE484222325U;
         for (const std::uint64_t number : {static_cast<std::uint64_t>(kind), site, caller}) {
             hash = (hash ^ number) * 0x100000001B3U;
         }
-        return hash | 2U;
+        return hash << 4U | 8U | static_cast<std::uint64_t>(kind);
     }
+    static Kind kind_of(std::uint64_t key) { return static_cast<Kind>(key & 7U); }
 
     bool is_due(Kind kind, std::uint64_t site) {
         if (list_ >= 0 && seen_.add(site)) {
@@ -355,7 +364,19 @@ using Main = int(int, char**, char**);
 namespace {
 Main* main_of_program = nullptr;
 
+int forked_main(int count, char** arguments) {
+    faults.begin();
+    const int exit_code = main_of_program(count, arguments, ::environ);
+    std::fflush(nullptr);
+    faults.end();
+    return exit_code;
+}
+
 int begin_main(int count, char** arguments, char** environment) {
+    if (std::getenv("RELJEF_FAULT_SERVER") != nullptr) {
+        reljef::test::serve_forks(static_cast<int>(number_in("RELJEF_FAULT_SERVER", 10)),
+                                  &forked_main);
+    }
     faults.begin();
     return main_of_program(count, arguments, environment);
 }

@@ -1,9 +1,16 @@
 #include "tests/faults/faulty_run.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "tests/support/forks/fork_server.h"
 
 namespace reljef::test {
 namespace {
@@ -51,6 +58,27 @@ FileContents files_below(const fs::path& folder) {
     return files;
 }
 
+/// What serves forks of `reljef` with the library: it is linked once, which takes longer than a
+/// run. It ends with this process.
+int fault_server() {
+    static const int server = [] {
+        std::array<int, 2> ends{-1, -1};
+        if (!make_fork_sockets(ends)) {
+            return -1;
+        }
+        if (::fork() == 0) {
+            ::fcntl(ends[1], F_SETFD, 0); // stays open
+            ::setenv("LD_PRELOAD", RELJEF_FAULT_LIBRARY, 1);
+            ::setenv("RELJEF_FAULT_SERVER", std::to_string(ends[1]).c_str(), 1);
+            ::execl(RELJEF_BINARY, RELJEF_BINARY, nullptr);
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        return ends[0];
+    }();
+    return server;
+}
+
 } // namespace
 
 FaultyRun::FaultyRun(const std::vector<std::string>& arguments,
@@ -75,10 +103,18 @@ void FaultyRun::run(const std::map<std::string, std::string>& variables) {
     options.folder = folder_.path();
     options.environment = {{"LD_PRELOAD", RELJEF_FAULT_LIBRARY},
                            {"XDG_CACHE_HOME", (folder_.path() / "cache").string()}};
+    bool tells = false;
     for (const auto& [name, value] : variables) {
         options.environment[name] = value == "told" ? told.string() : value;
+        tells = tells || value == "told";
     }
-    result_ = run_program(RELJEF_BINARY, arguments_, options);
+    if (tells) { // also what it does after its main function
+        result_ = run_program(RELJEF_BINARY, arguments_, options);
+    } else {
+        std::vector<std::string> all{RELJEF_BINARY};
+        all.insert(all.end(), arguments_.begin(), arguments_.end());
+        result_ = run_fork(fault_server(), nullptr, std::move(all), options);
+    }
     files_ = files_below(folder_.path());
     told_ = lines_of(told);
     fs::remove(told);

@@ -56,7 +56,10 @@ struct EarthStage {
     void set(const scene::Technique& technique) {
         terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
-    void look(const scene::Camera& at) { *camera->get<scene::Camera>() = at; }
+    void look(const scene::Camera& at) {
+        *camera->get<scene::Camera>() = at;
+        truth_ = {};
+    }
 
     /// From `above` metres over a sample, to a place on the ground.
     void look(glm::dvec2 from, double above, glm::dvec2 to) {
@@ -72,12 +75,22 @@ struct EarthStage {
         look(at);
     }
 
+    /// Of what is looked at. Techniques of the same view share it.
+    [[nodiscard]] const HitBuffer& true_hits(glm::ivec2 size) const {
+        if (glm::ivec2(truth_.cols(), truth_.rows()) != size) {
+            truth_ = must(truth::draw_hits(scene, size));
+        }
+        return truth_;
+    }
     [[nodiscard]] truth::GeometricErrors errors(const HitBuffer& shown) const {
         const truth::SurfaceView view{surface().heightfield().heights.view(), surface().placement(),
                                       terrain->world_from_local(), scene.camera()};
-        return must(truth::geometric_errors(
-            view, shown, must(truth::draw_hits(scene, glm::ivec2(shown.cols(), shown.rows())))));
+        return must(truth::geometric_errors(view, shown,
+                                            true_hits(glm::ivec2(shown.cols(), shown.rows()))));
     }
+
+private:
+    mutable HitBuffer truth_;
 };
 
 } // namespace reljef::test

@@ -23,8 +23,8 @@ protected:
     Image shown() { return io::read_image(file("shown.png")).value(); }
     std::string file(const std::string& name) { return (folder_.path() / name).string(); }
 
-private:
-    test::TemporaryFolder folder_;
+    const test::TemporaryFolder folder_;
+    const std::string urban_ = test::small_terrain(folder_, "urban");
 };
 
 void expect_alike(const Image& a, const Image& b) {
@@ -55,11 +55,11 @@ TEST_F(CpuContext, DrawsWhatOpenGlDrawsAndCountsRays) {
 
 TEST_F(CpuContext, NeedsNoTechnique) {
     RELJEF_RELEASE_ONLY("the room cast has tests of its own");
-    ASSERT_EQ(render({"urban", "--context", "cpu", "--technique", "exact"}).exit_code, 0);
+    ASSERT_EQ(render({urban_, "--context", "cpu", "--technique", "exact"}).exit_code, 0);
     const Image exact = shown();
     for (const std::vector<std::string>& bound :
          {std::vector<std::string>(), {"--max-error", "4"}}) {
-        std::vector<std::string> options{"urban", "--context", "cpu"};
+        std::vector<std::string> options{urban_, "--context", "cpu"};
         options.insert(options.end(), bound.begin(), bound.end());
         const auto result = render(options);
         ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -73,17 +73,19 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
         options.insert(options.end(), cpu.begin(), cpu.end());
         return render(options);
     };
-    test::expect_refusal(with({"urban", "--technique", "texture"}), 1,
+    test::expect_refusal(with({urban_, "--technique", "texture"}), 1,
                          {"technique texture found", "--context osmesa"});
-    test::expect_refusal(with({"gallery"}), 1, {"a mesh with technique", "--context osmesa"});
-    test::expect_refusal(with({"urban", "--samples", "3"}), 2, {"--samples", "3", "16"});
-    test::expect_refusal(with({"urban", "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
+    test::expect_refusal(with({test::small_terrain(folder_, "gallery"), "--textures", "cobble"}), 1,
+                         {"a mesh with technique", "--context osmesa"});
+    test::expect_refusal(with({urban_, "--samples", "3"}), 2, {"--samples", "3", "16"});
+    test::expect_refusal(with({urban_, "--simd", "mmx"}), 2, {"--simd mmx", "scalar"});
 }
 
 TEST_F(CpuContext, DrawsTheGallerysTexturesAsOpenGlDoes) {
     RELJEF_RELEASE_ONLY("the room cast has tests of its own");
     const auto with = [&](const char* context) {
-        return render({"gallery", "--technique", "texture", "--context", context});
+        return render({test::small_terrain(folder_, "gallery"), "--technique", "texture",
+                       "--context", context});
     };
     const auto rays = with("cpu");
     ASSERT_EQ(rays.exit_code, 0) << rays.err;
@@ -101,9 +103,9 @@ TEST_F(CpuContext, DrawsObjects) {
                                              "f 4 1 5\n")
                           .string();
     const auto with = [&](const std::string& technique, bool has_object) {
-        std::vector<std::string> options{"urban", "--context", "cpu", "--technique", technique};
+        std::vector<std::string> options{urban_, "--context", "cpu", "--technique", technique};
         if (has_object) {
-            options.insert(options.end(), {"--object", roof + ":at=0,0,height=150"});
+            options.insert(options.end(), {"--object", roof + ":at=0,0,height=15,scale=0.1"});
         }
         const auto result = render(options);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -118,15 +120,15 @@ TEST_F(CpuContext, DrawsObjects) {
 TEST_F(CpuContext, IsTheDefaultForWhatItDraws) {
     RELJEF_RELEASE_ONLY("the room session has tests of its own");
     const std::string rays = "renderer: exact rays on the CPU";
-    const auto unnamed = render({"urban"});
+    const auto unnamed = render({urban_});
     ASSERT_EQ(unnamed.exit_code, 0) << unnamed.err;
     if (unnamed.out.find(rays) == std::string::npos) {
         GTEST_SKIP() << "a GPU draws";
     }
-    const auto texture = render({"urban", "--technique", "texture"});
+    const auto texture = render({urban_, "--technique", "texture"});
     EXPECT_EQ(texture.exit_code, 0) << texture.err;
     EXPECT_EQ(texture.out.find(rays), std::string::npos) << texture.out;
-    const auto wireframe = render({"urban", "--wireframe"});
+    const auto wireframe = render({urban_, "--wireframe"});
     EXPECT_EQ(wireframe.exit_code, 0) << wireframe.err;
     EXPECT_EQ(wireframe.out.find(rays), std::string::npos) << wireframe.out;
 }

@@ -23,16 +23,18 @@ TEST(CtrlC, HasTheExitStatusThatTheHelpTells) {
 
 TEST(CtrlC, ends_a_long_flight_and_leaves_no_rubbish) {
     const test::TemporaryFolder folder;
+    const test::TemporaryFolder scenes;
     test::ProgramOptions options;
     options.interruption = {SIGINT, [&](int process) { // the video has begun
                                 return !folder.names().empty() &&
                                        test::processor_seconds(process, "llvmpipe") > 0.1;
                             }};
-    const auto result = test::run_program(
-        RELJEF_BINARY,
-        {"render", "natural", "--path", "orbit", "--frames", "100000", "--size", "64x48",
-         "--context", "osmesa", "--quiet", "-o", (folder.path() / "flight.mp4").string()},
-        options);
+    const auto result =
+        test::run_program(RELJEF_BINARY,
+                          {"render", test::small_terrain(scenes, "natural"), "--path", "orbit",
+                           "--frames", "100000", "--size", "64x48", "--context", "osmesa",
+                           "--quiet", "-o", (folder.path() / "flight.mp4").string()},
+                          options);
     if (result.err.find("ffmpeg was not found") != std::string::npos) {
         GTEST_SKIP() << "no ffmpeg here";
     }

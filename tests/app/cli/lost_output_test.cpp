@@ -47,9 +47,8 @@ class FullDisk : public FullDiskVideo, public testing::WithParamInterface<std::s
 
 TEST_P(FullDisk, IsToldAndLeavesNothing) {
     const std::string file = "picture." + GetParam();
-    const auto result =
-        on_a_full_disk({"render", dem_, "--size", "1600x1200", "--context", "osmesa", "--quiet",
-                        GetParam() == "exr" ? "--hit" : "-o", file});
+    const auto result = on_a_full_disk({"render", dem_, "--size", "640x480", "--context", "osmesa",
+                                        "--quiet", GetParam() == "exr" ? "--hit" : "-o", file});
     if (result.exit_code == 77) {
         GTEST_SKIP() << "no disk of one's own here";
     }

@@ -29,9 +29,9 @@ protected:
     }
     [[nodiscard]] std::vector<std::string> flight(const std::string& name,
                                                   const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> arguments{"render",   "natural", "--path",    "flyover",
-                                           "--frames", "7",       "--context", "cpu",
-                                           "--size",   "64x48",   "-o"};
+        std::vector<std::string> arguments{"render",   natural_, "--path",    "flyover",
+                                           "--frames", "7",      "--context", "cpu",
+                                           "--size",   size_,    "-o"};
         arguments.push_back((folder_.path() / name / ("%02d" + extension_)).string());
         arguments.insert(arguments.end(), more.begin(), more.end());
         return arguments;
@@ -73,7 +73,9 @@ protected:
         EXPECT_EQ(fs::last_write_time(parts / file(5)), kept);
     }
     std::string extension_ = ".png";
+    std::string size_ = "64x48";
     test::TemporaryFolder folder_;
+    std::string natural_ = test::small_terrain(folder_, "natural");
 };
 
 TEST_F(Shards, FramesOfAllPartsAreThoseOfOneProcess) {
@@ -97,6 +99,7 @@ TEST_F(Shards, APartDrawsItsFramesOnly) {
 }
 
 TEST_F(Shards, AKilledWorkersPartIsCompletedByASecondRun) {
+    size_ = "640x480"; // the rest takes longer than the kill
     expect_drawn(run(flight("whole")));
     expect_drawn(run(flight("parts", {"--shard", "0/2"})));
     const fs::path first = folder_.path() / "parts" / "01.png";

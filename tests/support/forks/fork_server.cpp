@@ -1,4 +1,4 @@
-#include "tests/support/forked_program.h"
+#include "tests/support/forks/fork_server.h"
 
 #include <array>
 #include <cerrno>
@@ -14,7 +14,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #ifdef __SANITIZE_ADDRESS__
 #include <sanitizer/common_interface_defs.h>
 #include <sanitizer/lsan_interface.h>
@@ -33,7 +32,7 @@ constexpr std::size_t longest_request = 1 << 20; // bytes
 constexpr std::size_t descriptors = 3;           // of a request: stdout, stderr, the answer
 
 struct Request {
-    ProgramMain program = nullptr;
+    ProgramMain program = nullptr; ///< null: the server's own
     std::vector<std::string> arguments;
     std::vector<std::string> environment;
     std::string folder;
@@ -200,10 +199,31 @@ void answer(int file, Answer what) {
     ::_exit(0);
 }
 
-[[noreturn]] void serve(int socket) {
+Answer next_answer(const Pipe& answers) {
+    Answer found = -1;
+    while (::read(answers.ends[0], &found, sizeof found) < 0 && errno == EINTR) {
+    }
+    return found;
+}
+
+} // namespace
+
+bool make_fork_sockets(std::array<int, 2>& ends) {
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
+        return false;
+    }
+    for (const int end : ends) {
+        constexpr int room = 2 * static_cast<int>(longest_request);
+        ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
+    }
+    return true;
+}
+
+void serve_forks(int socket, ProgramMain own) {
     while (auto request = receive_request(socket)) {
         if (::fork() == 0) {
             ::close(socket);
+            request->program = request->program == nullptr ? own : request->program;
             keep(std::move(*request));
         }
         for (const int file : request->files) {
@@ -217,68 +237,19 @@ void answer(int file, Answer what) {
     ::_exit(0);
 }
 
-/// Begins before the first test, while this process has no threads but those of libraries.
-class Server : public testing::Environment {
-public:
-    void SetUp() override {
-        std::fflush(nullptr); // else each fork would write it again
-        std::array<int, 2> ends{-1, -1};
-        ASSERT_EQ(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()), 0);
-        for (const int end : ends) {
-            constexpr int room = 2 * static_cast<int>(longest_request);
-            ::setsockopt(end, SOL_SOCKET, SO_SNDBUF, &room, sizeof room);
-        }
-        process_ = ::fork();
-        if (process_ == 0) {
-            ::close(ends[0]);
-            serve(ends[1]);
-        }
-        ::close(ends[1]);
-        socket_ = ends[0];
-        ASSERT_GT(process_, 0);
-    }
-    void TearDown() override {
-        ::close(socket_);
-        ::waitpid(process_, nullptr, 0);
-    }
-    [[nodiscard]] int socket() const { return socket_; }
-
-private:
-    int socket_ = -1;
-    pid_t process_ = -1;
-};
-
-Server& server() {
-    static auto* const only = new Server; // GoogleTest's
-    return *only;
-}
-
-[[maybe_unused]] testing::Environment* const registered =
-    testing::AddGlobalTestEnvironment(&server());
-
-Answer next_answer(const Pipe& answers) {
-    Answer found = -1;
-    while (::read(answers.ends[0], &found, sizeof found) < 0 && errno == EINTR) {
-    }
-    return found;
-}
-
-} // namespace
-
-ProgramResult run_forked(ProgramMain program, const std::string& name,
-                         const std::vector<std::string>& arguments, const ProgramOptions& options) {
+ProgramResult run_fork(int server, ProgramMain program, std::vector<std::string> arguments,
+                       const ProgramOptions& options) {
     ProgramResult result;
     Pipe out;
     Pipe err;
     Pipe answers;
     Request request{.program = program,
-                    .arguments = {name},
+                    .arguments = std::move(arguments),
                     .environment = environment_with(options.environment),
                     .folder = options.folder.string(),
                     .input = options.input.string(),
                     .files = {out.ends[1], err.ends[1], answers.ends[1]}};
-    request.arguments.insert(request.arguments.end(), arguments.begin(), arguments.end());
-    if (!send_request(server().socket(), request)) {
+    if (!send_request(server, request)) {
         result.exit_code = 127;
         result.err = std::strerror(errno);
         return result;
