@@ -35,4 +35,8 @@ bool ran_out_of_memory() {
     return out_of_memory;
 }
 
+bool is_context_lost() {
+    return glGetGraphicsResetStatus() != GL_NO_ERROR;
+}
+
 } // namespace reljef::gl

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/core/stopwatch.h"
+#include "engine/gl/limits.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
 #include "engine/render/passes/frame_context.h"
@@ -71,6 +72,15 @@ Result<void> Driver::resize(glm::ivec2 size) {
     return {};
 }
 
+namespace {
+
+Error lost_context() {
+    return {"the graphics driver gave up while it drew: a shader ran for too long, or the GPU "
+            "failed; draw a smaller picture, or without the GPU"};
+}
+
+} // namespace
+
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     const Stopwatch whole;
     const view::DrawList& list = frame.list;
@@ -100,7 +110,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
         stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
                                 : drawing.milliseconds();
     }
-    return stats;
+    return gl::is_context_lost() ? Result<view::FrameStats>(lost_context()) : stats;
 }
 
 Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
@@ -126,6 +136,9 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
     HitBuffer hits(channels.cols(), channels.rows());
     const Grid<glm::vec4> low = gl::read_second_color(hit_target_);
+    if (gl::is_context_lost()) {
+        return lost_context();
+    }
     std::ranges::transform(channels.samples(), low.samples(), hits.samples().begin(),
                            [](const glm::vec4& hit, const glm::vec4& rest) {
                                return Hit{hit.x, hit.y, hit.z, hit.w, rest.x, rest.y};

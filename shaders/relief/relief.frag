@@ -3,7 +3,7 @@
 #include "frame/fragment.glsl"
 #include "frame/air.glsl"
 #include "relief/relief_surface.glsl"
-#include "relief/surface_cell.glsl"
+#include "relief/relief_cell.glsl"
 #if defined(EXACT) && defined(STREAMED)
 #include "stream/stream_walk.glsl"
 #elif defined(EXACT)

@@ -1,3 +1,4 @@
+#include "relief/relief_cell.glsl"
 #include "relief/relief_walk.glsl"
 
 // Over an infinite tile: repeated, with cells between the copies, or clamped at its border.

@@ -1,5 +1,3 @@
-#include "relief/relief_cell.glsl"
-
 // The true first hit: traverses a max mipmap (Tevs, Ihrke and Seidel 2008) down to cells, where the bilinear
 // surface along the ray is quadratic. The inner loop only descends or advances, with one texel fetch.
 #ifdef STREAMED

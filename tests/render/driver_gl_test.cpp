@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
+#include <glad/gl.h>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/render/shaders/frame_block.h"
@@ -69,6 +72,25 @@ TEST_F(DriverGlTest, ASunInTheEastLightsTheSlopesThatFaceEast) {
     sun.get<scene::Light>()->azimuth = 270.0;
     picture = draw(scene);
     EXPECT_GT(brightness(picture(120, 120)), brightness(picture(200, 120)) + 100);
+}
+
+// A GPU whose shader ran for too long leaves a black picture.
+TEST_F(DriverGlTest, ALostContextIsAnErrorAndNoBlackPicture) {
+    Scene scene;
+    test::add_terrain(scene, test::plane_heightfield(Grid<float>(9, 9, 0.0F)));
+    scene.add_camera(camera_at({4.0, -3.0, 9.0}, {4.0, 4.0, 0.0}));
+    session::SceneRenderer driver = test::must(test::make_renderer(size));
+    test::must(driver.draw(scene, true));
+    const auto before = std::exchange(
+        glad_glGetGraphicsResetStatus,
+        +[]() GLAD_API_PTR -> GLenum { return GL_GUILTY_CONTEXT_RESET; });
+    const auto picture = driver.draw(scene, true);
+    const auto hits = driver.draw_hits(scene);
+    glad_glGetGraphicsResetStatus = before;
+    ASSERT_FALSE(picture);
+    EXPECT_THAT(picture.error().message, ::testing::HasSubstr("the graphics driver gave up"));
+    ASSERT_FALSE(hits);
+    EXPECT_EQ(hits.error().message, picture.error().message);
 }
 
 TEST_F(DriverGlTest, ATurnedTerrainIsLitByTheSameSun) {
