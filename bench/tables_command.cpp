@@ -40,7 +40,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "are of the view at rest");
     command.add_flag("--cold", choice.options.suite.cold,
                      "each frame is drawn as the first one of its view: triangles of an error "
-                     "bound are cut anew");
+                     "bound are cut anew (OpenGL; rays keep nothing)");
     command.add_flag(
         "--distances", choice.distances,
         "instead of the tables: errors from 100 m to 10 km, without times, of texture, "
@@ -140,6 +140,8 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench tables --json tables.json --html report\n"
         "  reljef-bench tables --terrain N45E006.hgt --rounds 50 --csv alps.csv\n"
         "  reljef-bench tables --moving --technique polygons:error=1 --technique auto --pose low\n"
+        "  reljef-bench tables --cold --technique polygons:error=1 --technique auto --terrain "
+        "natural\n"
         "  reljef-bench tables --distances --json distance.json\n"
         "  reljef-bench tables --guesses --terrain my-scene.toml");
     return {arguments, [arguments, choice, &interrupt] {

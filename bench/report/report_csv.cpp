@@ -10,7 +10,8 @@ constexpr std::string_view csv_names =
     "interval_low_ms,interval_high_ms,p95_ms,p99_ms,fps,fps_1_percent_low,ratio_to_texture,"
     "noise_floor,triangles,reprojection_rms_px,reprojection_median_px,reprojection_p95_px,"
     "reprojection_p99_px,reprojection_max_px,reprojection_unbounded,hit_rms_texels,"
-    "hit_max_texels,wrong_percent,holes,rmse,psnr_db,ssim,flip,source_fps,source_ratio\n";
+    "hit_max_texels,wrong_percent,holes,rmse,psnr_db,ssim,flip,source_fps,source_ratio,"
+    "unproven_search\n";
 
 std::string quoted(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) {
@@ -71,13 +72,19 @@ std::string csv_source(const std::optional<SourceFigure>& source) {
     return source ? fmt::format("{},{}", source->fps, source->ratio) : ",";
 }
 
+// What `auto` drew without a proof.
+std::string csv_unproven(const std::optional<view::Choice>& choice) {
+    return choice && choice->typical ? quoted(choice->typical->technique) : "";
+}
+
 } // namespace
 
 std::string csv_report(const Results& results) {
     std::string text(csv_names);
     for (const Row& row : results.rows) {
-        text += fmt::format("{},{},{},{}\n", csv_description(row), csv_timing(row.timing),
-                            csv_error(row.error), csv_source(row.source));
+        text += fmt::format("{},{},{},{},{}\n", csv_description(row), csv_timing(row.timing),
+                            csv_error(row.error), csv_source(row.source),
+                            csv_unproven(row.timing.stats.choice));
     }
     return text;
 }

@@ -21,8 +21,8 @@ Limits query_limits();
 /// Whether the driver ran out of memory since the last call. Clears all error flags.
 bool ran_out_of_memory();
 
-/// Whether the driver gave up the context: a shader ran for too long, or the GPU failed. What it
-/// drew last is nothing. Only known of contexts that ask for it (EGL on hardware).
+/// Whether the driver gave up the context, because a shader ran for too long or the GPU failed. Its
+/// last picture is undefined then. Drivers tell it once, of contexts made by EGL on hardware.
 bool is_context_lost();
 
 } // namespace reljef::gl

@@ -1,6 +1,6 @@
 #include "engine/platform/egl_context.h"
 
-#include <array>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,27 +13,26 @@ namespace {
 constexpr std::string_view packages =
     "install the packages libegl1, libegl-mesa0 and libgl1-mesa-dri, or the GPU's own driver";
 
+EGLContext create(const Egl& egl, EGLDisplay display, const std::vector<EGLint>& attributes) {
+    return egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
+// If the driver can, it tells when it gives the context up (gl::is_context_lost).
 EGLContext create(const Egl& egl, EGLDisplay display, int major, int minor, bool debug) {
-    std::array<EGLint, 11> attributes{EGL_CONTEXT_MAJOR_VERSION,
-                                      major,
-                                      EGL_CONTEXT_MINOR_VERSION,
-                                      minor,
-                                      EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                      EGL_CONTEXT_OPENGL_DEBUG,
-                                      debug ? EGL_TRUE : EGL_FALSE,
-                                      EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                                      EGL_LOSE_CONTEXT_ON_RESET,
-                                      EGL_NONE};
-    const auto made = [&] {
-        return egl.create_context(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-    };
-    const EGLContext context = made();
-    if (context != EGL_NO_CONTEXT) {
-        return context;
-    }
-    attributes[8] = EGL_NONE; // the driver cannot tell of a reset
-    return made();
+    const std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                         major,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         minor,
+                                         EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                         EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                         EGL_CONTEXT_OPENGL_DEBUG,
+                                         debug ? EGL_TRUE : EGL_FALSE,
+                                         EGL_NONE};
+    std::vector<EGLint> telling = attributes;
+    telling.insert(telling.end() - 1,
+                   {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+    const EGLContext context = create(egl, display, telling);
+    return context != EGL_NO_CONTEXT ? context : create(egl, display, attributes);
 }
 
 /// OpenGL 4.5, else 3.2, so that make_current() can report the version.

@@ -72,14 +72,14 @@ Result<void> Driver::resize(glm::ivec2 size) {
     return {};
 }
 
-namespace {
-
-Error lost_context() {
-    return {"the graphics driver gave up while it drew: a shader ran for too long, or the GPU "
-            "failed; draw a smaller picture, or without the GPU"};
+Result<void> Driver::check_context() {
+    is_lost_ = is_lost_ || gl::is_context_lost();
+    return is_lost_
+               ? Result<void>(Error{
+                     "the graphics driver gave up while it drew: a shader ran for too long, or "
+                     "the GPU failed; draw a smaller picture, or without the GPU"})
+               : Result<void>();
 }
-
-} // namespace
 
 Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     const Stopwatch whole;
@@ -110,7 +110,15 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
         stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
                                 : drawing.milliseconds();
     }
-    return gl::is_context_lost() ? Result<view::FrameStats>(lost_context()) : stats;
+    if (auto good = check_context(); !good) {
+        return good.error();
+    }
+    return stats;
+}
+
+Result<void> Driver::check_drawn() {
+    glFinish();
+    return check_context();
 }
 
 Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
@@ -136,8 +144,8 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     const Grid<glm::vec4> channels = gl::read_float_color(hit_target_);
     HitBuffer hits(channels.cols(), channels.rows());
     const Grid<glm::vec4> low = gl::read_second_color(hit_target_);
-    if (gl::is_context_lost()) {
-        return lost_context();
+    if (auto good = check_context(); !good) {
+        return good.error();
     }
     std::ranges::transform(channels.samples(), low.samples(), hits.samples().begin(),
                            [](const glm::vec4& hit, const glm::vec4& rest) {

@@ -50,6 +50,8 @@ public:
     /// depth test, also where nearer ones replace them.
     Result<view::PictureWork> count_work(const view::FrameView& frame);
 
+    /// Waits for the last frame; fails if the driver lost it, so that read_color() shows nothing.
+    Result<void> check_drawn();
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
     void show_in_window(glm::ivec2 window_size) const;
@@ -70,6 +72,7 @@ public:
 private:
     Driver(const DriverOptions& options, gl::Framebuffer target);
 
+    Result<void> check_context();
     Result<void> prepare(const view::DrawList& list, bool hits, view::FrameStats& stats);
     void write_frame_block(const view::DrawList& list, view::FrameStats& stats);
     Result<void> draw_picture(const view::DrawList& list, view::FrameStats& stats);
@@ -83,6 +86,7 @@ private:
 
     DriverOptions options_;
     gl::Limits limits_;
+    bool is_lost_ = false; // the context
     gl::Framebuffer color_target_;
     gl::Framebuffer hit_target_;  // created on first use
     gl::Framebuffer work_target_; // likewise

@@ -149,6 +149,9 @@ Result<Image> DeviceFrames::draw(const scene::Scene& scene, const ParallelOption
     times_.drawing_ms.push_back(stats->cpu_ms + stats->gpu_ms);
     take_stats(*stats, scene);
     Image picture = device_.renderer().read_color();
+    if (auto good = device_.renderer().check_drawn(); !good) {
+        return good.error();
+    }
     return options_.shows_choice ? tinted(std::move(picture)) : Result<Image>(std::move(picture));
 }
 

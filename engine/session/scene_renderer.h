@@ -77,6 +77,8 @@ public:
     void forget_scene() { selector_.forget(); }
 
     [[nodiscard]] view::FrameSelector& selector() { return selector_; }
+    /// Waits for the last frame; fails if the graphics driver lost it.
+    Result<void> check_drawn() { return shows_rays_ ? Result<void>() : opengl_->check_drawn(); }
     /// The last frame drawn. Waits for it.
     [[nodiscard]] Image read_color() const;
     /// Copies the last frame to the window's back buffer. Precondition: the window's context is

@@ -31,7 +31,8 @@ struct Chords {
 Chords chords_between(vec2 range, float share) {
     float first = sqrt(range.x);
     float way = max(sqrt(range.y) - first, 0.0);
-    float count = max(ceil(way * share * curve.chords), 1.0);
+    const float max_chords = 65536.0;
+    float count = clamp(ceil(way * share * curve.chords), 1.0, max_chords);
     return Chords(first, way / count, int(count));
 }
 

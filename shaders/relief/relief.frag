@@ -73,7 +73,8 @@ void write_place(vec2 place, float height, float depth) {
 #endif
 
 #ifdef CURVED
-// With the direction of the pixel: graphics processors interpolate with fewer digits than floats have.
+// The place has the direction of the pixel, because graphics processors interpolate with fewer digits than floats
+// have.
 vec3 back_on_ray() {
     vec3 inside = INSIDE(vertex_back);
     return mix(inside, pixel_ray() * dot(inside, view_forward.xyz), perspective);
@@ -92,7 +93,8 @@ struct StraightRay {
     vec3 relative_span;
 };
 
-// Where the view ray leaves the box, in the search space. On the face exactly, however small the relief is.
+// Where the view ray leaves the box, in the search space. The place is on the face exactly, however small the
+// relief is.
 vec3 leave_box() {
     if (perspective < 0.5) {
         back = INSIDE(vertex_back);
@@ -103,11 +105,11 @@ vec3 leave_box() {
     vec3 ray = pixel_ray();
     vec3 direction = space_from_relative * ray;
     vec3 away = vec3(equal(direction, vec3(0.0)));
-    vec3 ends = mix(box_begin.xyz, box_end.xyz, vec3(greaterThan(direction, vec3(0.0))));
+    vec3 ends = mix(box_begin.xyz, box_end.xyz, greaterThan(direction, vec3(0.0)));
     vec3 parts = (ends - eye_in_space) / (direction + away) + away * 3e38;
     float part = max(min(min(parts.x, parts.y), parts.z), 0.0);
     back = part * ray;
-    return mix(eye_in_space + part * direction, ends, vec3(lessThanEqual(parts, vec3(part))));
+    return mix(eye_in_space + part * direction, ends, lessThanEqual(parts, vec3(part)));
 }
 
 // From its entry into the box, in perspective not before the near plane, to where it leaves.

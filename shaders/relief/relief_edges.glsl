@@ -47,7 +47,7 @@ float near_miss(vec3 start, vec3 way, out float at, out vec2 place) {
     float nearest_clearance = edge_distance;
     float passed = -1.0;
     bool nearing = true;
-    int steps = int(ceil((1.0 - at) / stride));
+    int steps = int(clamp(ceil((1.0 - at) / stride), 0.0, max_steps));
     for (int i = 0; i < steps; ++i) {
         at += stride;
         float now = clearance(ray_at(start, way, min(at, 1.0)));

@@ -2,7 +2,7 @@
 // (1 - cos a)^power) of them remains, around the reference height. Implemented by stretching the ray in z.
 float share_of_heights(vec3 span) {
     const float flattest = 1.0 / 4096.0; // the margin of the box
-    float share = 1.0 - pow(1.0 - min(uprightness(span), 1.0), fade_power);
+    float share = 1.0 - pow(1.0 - uprightness(span), fade_power);
     return max(mix(fade_low, fade_high, share), flattest);
 }
 

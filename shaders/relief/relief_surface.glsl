@@ -37,7 +37,7 @@ vec3 ray_at(vec3 start, vec3 span, float part) {
 // Cosine of a ray's angle to the vertical; 0 of a ray without length.
 float uprightness(vec3 span) {
     vec3 way = span * metres_per_unit;
-    return abs(way.z) / max(length(way), 1e-30);
+    return min(abs(way.z) / max(length(way), 1e-30), 1.0);
 }
 
 #ifdef LAYERS

@@ -27,7 +27,7 @@ vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_sha
     tiles_per_metre = vec2(1.0 / tile_width);
     vec3 shown = vec3(0.0);
     for (int i = 0; i < 3; ++i, axis = (axis + 1) % 3) {
-        if (shares[axis] > 1e-3) {
+        if (shares[axis] > 0.0) {
             mat2x3 directions = directions_along(axis, normal);
             tile_coordinate = at * directions;
             vec2 right = across * directions / tile_width;

@@ -54,7 +54,7 @@ int example_lines() {
     return count;
 }
 
-// As a shell takes it: words, some of them in quotes.
+// The words as a shell takes them, some of them in quotes.
 std::vector<std::string> shell_words_of(const std::string& line) {
     std::vector<std::string> words;
     std::istringstream rest(line);
@@ -64,7 +64,7 @@ std::vector<std::string> shell_words_of(const std::string& line) {
     return words;
 }
 
-// A shell runs what it alone understands; else the program is a fork, which needs no linker.
+// A shell runs what it alone understands. All else is a fork of this program, which needs no linker.
 test::ProgramResult run_line(const std::string& line, const test::ProgramOptions& options) {
     std::vector<std::string> words = shell_words_of(line);
     if (words.front() != "reljef" || line.find_first_of("|<>$*\"\\") != std::string::npos) {

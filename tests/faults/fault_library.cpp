@@ -3,6 +3,7 @@
 // By environment variables:
 //   RELJEF_FAULT_LIST=FILE  appends each new site as a line "KIND KEY"
 //   RELJEF_FAULT=KEY        the first call from this site fails
+//   RELJEF_FAULT_DONE=FILE  appends the line "failed" when it does
 //   RELJEF_FAULT_STOP=N     the process ends before its N-th change of a file, counted from 1
 //   RELJEF_FAULT_COUNT=FILE at exit: the number of changes, and of files that were renamed without
 //                           having been synced
@@ -117,6 +118,7 @@ public:
     void begin() {
         list_ = opened("RELJEF_FAULT_LIST");
         count_ = opened("RELJEF_FAULT_COUNT");
+        done_ = opened("RELJEF_FAULT_DONE");
         failing_ = number_in("RELJEF_FAULT", 16);
         stop_ = number_in("RELJEF_FAULT_STOP", 10);
         is_ready_ = true;
@@ -244,7 +246,11 @@ private:
                                              static_cast<unsigned long long>(site));
             write_line(list_, {line.data(), static_cast<std::size_t>(length)});
         }
-        return site == failing_ && !has_failed_.exchange(true);
+        const bool fails = site == failing_ && !has_failed_.exchange(true);
+        if (fails) {
+            write_line(done_, "failed\n");
+        }
+        return fails;
     }
 
     Range program_;
@@ -253,6 +259,7 @@ private:
     Range own_;
     int list_ = -1;
     int count_ = -1;
+    int done_ = -1;
     std::uint64_t failing_ = 0;
     std::uint64_t stop_ = 0;
     std::atomic<bool> is_ready_{false};

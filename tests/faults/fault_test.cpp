@@ -107,10 +107,16 @@ void expect_clean_faults(const Arguments& arguments, bool of_memory, std::size_t
     std::erase_if(sites,
                   [&](const Site& site) { return (site.kind == "allocation") != of_memory; });
     ASSERT_GT(sites.size(), of_memory ? 300U : 20U);
-    for (const Site& site : some_of(sites, tried)) {
+    const std::vector<Site> chosen = some_of(sites, tried);
+    std::size_t failed = 0;
+    for (const Site& site : chosen) {
         SCOPED_TRACE(site.kind + " " + site.key);
-        expect_clean(FaultyRun(arguments, {{"RELJEF_FAULT", site.key}}), good.files());
+        const FaultyRun run(arguments, {{"RELJEF_FAULT", site.key}});
+        failed += run.has_failed() ? 1U : 0U;
+        expect_clean(run, good.files());
     }
+    // Threads decide whether some calls are made, and some are made after the main function.
+    EXPECT_GE(failed, 3 * chosen.size() / 4);
 }
 
 TEST(Faults, OfFilesWhileAPictureIsDrawnLoseNothing) {

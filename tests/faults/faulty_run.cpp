@@ -99,9 +99,11 @@ void FaultyRun::repeat() {
 
 void FaultyRun::run(const std::map<std::string, std::string>& variables) {
     const fs::path told = folder_.path() / "cache" / "told";
+    const fs::path done = folder_.path() / "cache" / "done";
     ProgramOptions options;
     options.folder = folder_.path();
     options.environment = {{"LD_PRELOAD", RELJEF_FAULT_LIBRARY},
+                           {"RELJEF_FAULT_DONE", done.string()},
                            {"XDG_CACHE_HOME", (folder_.path() / "cache").string()}};
     bool tells = false;
     for (const auto& [name, value] : variables) {
@@ -117,7 +119,9 @@ void FaultyRun::run(const std::map<std::string, std::string>& variables) {
     }
     files_ = files_below(folder_.path());
     told_ = lines_of(told);
+    has_failed_ = !lines_of(done).empty();
     fs::remove(told);
+    fs::remove(done);
 }
 
 } // namespace reljef::test

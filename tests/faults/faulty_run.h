@@ -25,6 +25,8 @@ public:
     [[nodiscard]] const FileContents& files() const { return files_; }
     /// What the library wrote, lines (RELJEF_FAULT_LIST, RELJEF_FAULT_COUNT).
     [[nodiscard]] const std::vector<std::string>& told() const { return told_; }
+    /// Whether the call failed that RELJEF_FAULT names.
+    [[nodiscard]] bool has_failed() const { return has_failed_; }
     /// Runs it again in the same folder, without a fault.
     void repeat();
 
@@ -36,6 +38,7 @@ private:
     ProgramResult result_;
     FileContents files_;
     std::vector<std::string> told_;
+    bool has_failed_ = false;
 };
 
 } // namespace reljef::test

@@ -43,6 +43,8 @@ protected:
     /// What the driver has complained about so far, and starts anew: for tests that provoke it.
     std::vector<std::string> take_problems();
 
+    [[nodiscard]] bool draws_on_gpu() const { return !context_->is_software(); }
+
 private:
     std::unique_ptr<platform::Context> context_;
     std::optional<DebugLog> log_;

@@ -75,7 +75,8 @@ struct EarthStage {
         look(at);
     }
 
-    /// Of what is looked at. Techniques of the same view share it.
+    /// The exact picture of what is looked at. Techniques of the same view share it, so the terrain
+    /// must not change before the next look().
     [[nodiscard]] const HitBuffer& true_hits(glm::ivec2 size) const {
         if (glm::ivec2(truth_.cols(), truth_.rows()) != size) {
             truth_ = must(truth::draw_hits(scene, size));

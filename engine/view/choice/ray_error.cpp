@@ -9,13 +9,11 @@
 
 #include "engine/terrain/mesh/tile_layout.h"
 
-// The shader computes a hit as start + part * span, all in floats. A ray ends where it leaves the
-// box around the terrain. This end is interpolated between the box's corners, so it is off by a few
-// units of 2^-24 of the box's diagonal, and turns the ray by that over the distance to the end.
-// This is at least the distance of the hit, and that of the nearest face of the box around the eye.
-// A ray starts at the eye, whose place is rounded to 2^-24 of a cell and of the heights: the origin
-// of the search is the sample next to the eye. From outside of the box it starts where it enters,
-// which is computed from its end: off by the diagonal's rounding. The hit's height on the surface
+// The shader computes a hit as start + part * span, all in floats. A ray has the direction of its
+// pixel, computed in a few steps. It starts at the eye, whose place is rounded to 2^-24 of a cell
+// and of the heights: the origin of the search is the sample next to the eye. From outside of the
+// box around the terrain it starts where it enters, which is computed from where it leaves: both
+// are off by the rounding of the box's diagonal. The hit's height on the surface
 // differs from that on the ray by the rounding of the heights, and of the hit's place along the
 // ray, times the steepness of the ground. The place is rounded to 2^-24 of its distance from the
 // start, and from the origin: from outside of the box, the diagonal. What is off by m metres at a
@@ -58,26 +56,19 @@ RayError::RayError(const scene::Camera& camera, glm::ivec2 size,
     const Box& bounds = surface.bounds();
     const double below_eye = std::abs(eye_.z - bounds.low.z);
     const glm::dvec2 spacing = surface.placement().spacing();
-    diagonal_ = glm::length(bounds.size());
-    const glm::dvec3 inside = glm::min(eye_ - bounds.low, bounds.high - eye_);
-    nearest_end_ = std::max(std::min({inside.x, inside.y, inside.z}), 0.0);
-    const bool is_outside = nearest_end_ == 0.0;
+    const bool is_outside = glm::clamp(eye_, bounds.low, bounds.high) != eye_;
     steepness_ = steepness * operations_along / operations * (is_outside ? 2.0 : 1.0);
     lengths_ = (1.0 + steepness_) * 2.0 * std::max(spacing.x, spacing.y) + bounds.size().z +
-               below_eye + (is_outside ? diagonal_ : 0.0);
+               below_eye + (is_outside ? 2.0 * glm::length(bounds.size()) : 0.0);
 }
 
 double RayError::at(double distance) const {
-    return rounding_ *
-           (1.0 + steepness_ + lengths_ / distance + diagonal_ / std::max(distance, nearest_end_));
+    return rounding_ * (1.0 + steepness_ + lengths_ / distance);
 }
 
 bool RayError::keeps(double error) const {
     const double left = error / rounding_ - 1.0 - steepness_;
-    const double left_by_ends = nearest_end_ > 0.0 ? left - diagonal_ / nearest_end_ : 0.0;
-    const double distance =
-        left_by_ends > 0.0 ? lengths_ / left_by_ends : (lengths_ + diagonal_) / left;
-    return left > 0.0 && !is_nearer(distance, surface_.pyramid().last_level(), {0, 0});
+    return left > 0.0 && !is_nearer(lengths_ / left, surface_.pyramid().last_level(), {0, 0});
 }
 
 bool RayError::is_nearer(double distance, int level, glm::ivec2 block) const {

@@ -29,11 +29,9 @@ private:
 
     const scene::TerrainSurface& surface_;
     glm::dvec3 eye_;           // local metres
-    double rounding_ = 0.0;    // of a direction, pixels
-    double steepness_ = 0.0;   // times the share of the operations along the ray
-    double lengths_ = 0.0;     // that are rounded, over the distance of a hit; metres
-    double diagonal_ = 0.0;    // the same, over that to the end of its ray
-    double nearest_end_ = 0.0; // of a ray, at least; metres from the eye
+    double rounding_ = 0.0;  // of a direction, pixels
+    double steepness_ = 0.0; // times the share of the operations along the ray
+    double lengths_ = 0.0;   // that are rounded, over the distance of a hit; metres
 };
 
 } // namespace reljef::view

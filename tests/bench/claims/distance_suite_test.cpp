@@ -67,8 +67,10 @@ TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentence) {
 }
 
 TEST(DistanceSuite, RefusesWhatItDoesNotUse) {
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"--pose", "low"}, {"--rounds", "5"}, {"--csv", "a.csv"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--pose", "low"},
+                                                 {"--rounds", "5"},
+                                                 {"--csv", "a.csv"},
+                                                 {"--cold"}}) {
         std::vector<std::string> arguments{"tables", "--distances"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto run = test::reljef_bench(arguments);

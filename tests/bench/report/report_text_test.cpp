@@ -68,6 +68,15 @@ TEST(CsvReport, figures_stand_below_their_names) {
     EXPECT_EQ(field(lines, 3, "null_row"), "true");
 }
 
+TEST(CsvReport, names_what_was_drawn_without_a_proof) {
+    Results results = test::made_results("natural");
+    results.rows[1].timing.stats.choice =
+        view::Choice{.tiles_by_rays = 3, .typical = view::TypicalChoice{"interval:n=4,k=2", 0.93}};
+    const auto lines = parse_csv(csv_report(results));
+    EXPECT_EQ(field(lines, 0, "unproven_search"), "");
+    EXPECT_EQ(field(lines, 1, "unproven_search"), "interval:n=4,k=2");
+}
+
 TEST(CsvReport, names_with_commas_quotes_and_lines_stay_one_field) {
     const auto text = csv_report(test::made_results("a,\"b\"\nc.tif"));
     EXPECT_THAT(text, HasSubstr("\"a,\"\"b\"\"\nc.tif\""));

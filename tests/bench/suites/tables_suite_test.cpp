@@ -85,6 +85,13 @@ TEST_F(TablesSuite, views_that_move_or_start_cold_say_so_and_cut_triangles_anew)
     }
 }
 
+TEST(TablesCommand, ViewsEitherMoveOrStartCold) {
+    const auto run = test::reljef_bench({"tables", "--moving", "--cold"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.err,
+              "reljef-bench: --moving, --cold: both found, one was expected (see --help)\n");
+}
+
 TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
     const Results results = run_tables(small_options(), {});
     ASSERT_FALSE(results.stopped);

@@ -226,7 +226,7 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
     EXPECT_EQ(kept_by_rays(triangles_only), 0.02);
     const double ground = test::surface_of(*view.node).height_at(3.0, 4.0).value();
     *view.camera->get<scene::Camera>() =
-        test::camera_at({3.0, 4.0, ground + 15.0}, {100.0, 0.0, ground});
+        test::camera_at({3.0, 4.0, ground + 2.0}, {100.0, 0.0, ground});
     const double kept = kept_by_rays(triangles_only);
     EXPECT_GT(kept, 0.02);
     const auto& surface = test::surface_of(*view.node);
