@@ -332,8 +332,7 @@ TEST_F(SamplesGlTest, BeamsHoldTheRaysOfAllSamples) {
             const int off = with_beams.samples()[i].r - without.samples()[i].r;
             others += std::abs(off) > 2 ? 1 : 0;
         }
-        // Rounding turns rays by 1e-4 pixel: one of 10,000 passes a ridge on its other side.
-        EXPECT_LE(others, size.x * size.y / 10000) << samples;
+        EXPECT_LE(others, 2) << samples; // rounding
     }
 }
 
