@@ -64,7 +64,8 @@ std::vector<std::string> shell_words_of(const std::string& line) {
     return words;
 }
 
-// A shell runs what it alone understands. All else is a fork of this program, which needs no linker.
+// A shell runs what it alone understands. All else is a fork of this program, which needs no
+// linker.
 test::ProgramResult run_line(const std::string& line, const test::ProgramOptions& options) {
     std::vector<std::string> words = shell_words_of(line);
     if (words.front() != "reljef" || line.find_first_of("|<>$*\"\\") != std::string::npos) {

@@ -28,7 +28,7 @@ private:
     [[nodiscard]] bool is_nearer(double distance, int level, glm::ivec2 block) const;
 
     const scene::TerrainSurface& surface_;
-    glm::dvec3 eye_;           // local metres
+    glm::dvec3 eye_;         // local metres
     double rounding_ = 0.0;  // of a direction, pixels
     double steepness_ = 0.0; // times the share of the operations along the ray
     double lengths_ = 0.0;   // that are rounded, over the distance of a hit; metres
