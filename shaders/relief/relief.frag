@@ -36,7 +36,9 @@
 
 in vec3 vertex_back;
 
+#ifdef CURVED
 vec3 back = vec3(0.0); // where the view ray leaves the box, relative to the eye
+#endif
 
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
@@ -93,42 +95,32 @@ struct StraightRay {
     vec3 relative_span;
 };
 
-// Where the view ray leaves the box, in the search space. The place is on the face exactly, however small the
-// relief is.
-vec3 leave_box() {
-    if (perspective < 0.5) {
-        back = INSIDE(vertex_back);
-        vec3 leave = space_from_relative * back + eye_in_space;
-        bool is_bottom = gl_PrimitiveID == 2 || gl_PrimitiveID == 9;
-        return is_bottom ? vec3(leave.xy, box_begin.z) : leave;
-    }
-    vec3 ray = pixel_ray();
-    vec3 direction = space_from_relative * ray;
-    vec3 away = vec3(equal(direction, vec3(0.0)));
-    vec3 ends = mix(box_begin.xyz, box_end.xyz, greaterThan(direction, vec3(0.0)));
-    vec3 parts = (ends - eye_in_space) / (direction + away) + away * 3e38;
-    float part = max(min(min(parts.x, parts.y), parts.z), 0.0);
-    back = part * ray;
-    return mix(eye_in_space + part * direction, ends, lessThanEqual(parts, vec3(part)));
-}
-
-// From its entry into the box, in perspective not before the near plane, to where it leaves.
+// From its entry into the box, in perspective not before the near plane, to where it leaves. Parts of a ray in
+// perspective are depths. Graphics processors interpolate with fewer digits than floats have, so only rays of maps do.
 StraightRay ray_in_box() {
-    vec3 leave = leave_box();
-    vec3 along = mix(view_forward.xyz, back, perspective);
+    vec3 origin = mix(INSIDE(vertex_back), vec3(0.0), perspective);
+    vec3 along = mix(view_forward.xyz, pixel_ray(), perspective);
+    vec3 from = space_from_relative * origin + eye_in_space;
     vec3 direction = space_from_relative * along;
     vec3 away = vec3(equal(direction, vec3(0.0)));
     vec3 inverse = (1.0 - away) / (direction + away);
-    vec3 first = min((box_begin.xyz - leave) * inverse, (box_end.xyz - leave) * inverse) - away * 3e38;
-    float nearest = max(max(first.x, first.y), first.z);
-    float begin = min(near_depth / dot(back, view_forward.xyz), 1.0);
-    if (perspective > 0.5 && nearest < begin - 1.0) { // from the eye: near it floats are precise
-        float rest = 1.0 - begin;
-        return StraightRay(eye_in_space + begin * direction, rest * direction, begin * along,
-                           rest * along);
+    vec3 low = (box_begin.xyz - from) * inverse;
+    vec3 high = (box_end.xyz - from) * inverse;
+    vec3 enters = min(low, high) - away * 3e38;
+    vec3 leaves = max(low, high) + away * 3e38;
+    float end = max(min(min(leaves.x, leaves.y), leaves.z), 0.0);
+    float begin = min(near_depth, end);
+    float enter = max(max(enters.x, enters.y), enters.z);
+    if (perspective > 0.5 && enter < begin) { // from the eye: near it floats are precise
+        float way = end - begin;
+        return StraightRay(from + begin * direction, way * direction, begin * along, way * along);
     }
-    float entry = min(nearest, 0.0);
-    return StraightRay(leave + entry * direction, -entry * direction, back + entry * along,
+    // On the face exactly, however small the relief is.
+    vec3 faces = mix(box_begin.xyz, box_end.xyz, greaterThan(direction, vec3(0.0)));
+    vec3 leave = mix(from + end * direction, faces, lessThanEqual(leaves, vec3(end)));
+    vec3 first = min((box_begin.xyz - leave) * inverse, (box_end.xyz - leave) * inverse) - away * 3e38;
+    float entry = min(max(max(first.x, first.y), first.z), 0.0);
+    return StraightRay(leave + entry * direction, -entry * direction, origin + (end + entry) * along,
                        -entry * along);
 }
 #endif
