@@ -95,8 +95,9 @@ struct StraightRay {
     vec3 relative_span;
 };
 
-// From its entry into the box, in perspective not before the near plane, to where it leaves. Parts of a ray in
-// perspective are depths. Graphics processors interpolate with fewer digits than floats have, so only rays of maps do.
+// From its entry into the box, in perspective not before the near plane, to where it leaves. Only orthographic rays are
+// interpolated, because graphics processors do it with fewer digits than floats have. A ray in perspective is computed
+// from its pixel, and its parts are depths.
 StraightRay ray_in_box() {
     vec3 origin = mix(INSIDE(vertex_back), vec3(0.0), perspective);
     vec3 along = mix(view_forward.xyz, pixel_ray(), perspective);
@@ -115,7 +116,7 @@ StraightRay ray_in_box() {
         float way = end - begin;
         return StraightRay(from + begin * direction, way * direction, begin * along, way * along);
     }
-    // On the face exactly, however small the relief is.
+    // The ray leaves on a face exactly, however small the relief is.
     vec3 faces = mix(box_begin.xyz, box_end.xyz, greaterThan(direction, vec3(0.0)));
     vec3 leave = mix(from + end * direction, faces, lessThanEqual(leaves, vec3(end)));
     vec3 first = min((box_begin.xyz - leave) * inverse, (box_end.xyz - leave) * inverse) - away * 3e38;

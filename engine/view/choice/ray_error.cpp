@@ -9,16 +9,16 @@
 
 #include "engine/terrain/mesh/tile_layout.h"
 
-// The shader computes a hit as start + part * span, all in floats. A ray has the direction of its
-// pixel, computed in a few steps. It starts at the eye, whose place is rounded to 2^-24 of a cell
-// and of the heights: the origin of the search is the sample next to the eye. From outside of the
-// box around the terrain it starts where it enters, which is computed from where it leaves: both
-// are off by the rounding of the box's diagonal. The hit's height on the surface
+// The shader computes a hit as start + part * span, all in floats. A ray has the direction of
+// its pixel, computed in a few steps. It starts at the eye, whose place is rounded to 2^-24 of a
+// cell and of the heights: the origin of the search is the sample next to the eye. From outside
+// of the box around the terrain it starts where it enters, which is computed from where it
+// leaves: both are off by the rounding of the box's diagonal. The hit's height on the surface
 // differs from that on the ray by the rounding of the heights, and of the hit's place along the
 // ray, times the steepness of the ground. The place is rounded to 2^-24 of its distance from the
-// start, and from the origin: from outside of the box, the diagonal. What is off by m metres at a
-// distance d is seen under an angle of m / d, which is at most focal / cos^2 of the corner's angle
-// times as many pixels.
+// start, and from the origin: from outside of the box, the diagonal. What is off by m metres at
+// a distance d is seen under an angle of m / d, which is at most focal / cos^2 of the corner's
+// angle times as many pixels.
 
 namespace reljef::view {
 namespace {
