@@ -14,6 +14,7 @@
 #include "bench/baselines/baseline_process.h"
 #include "bench/baselines/baseline_scene.h"
 #include "bench/baselines/irrlicht/protocol.h"
+#include "bench/runner/benchmark_scene.h"
 #include "engine/core/memory_file.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/session/scene_renderer.h"
@@ -199,7 +200,7 @@ private:
             return opened.error();
         }
         device_.emplace(std::move(*opened));
-        results_.environment = environment_of(device_->info(), options_.suite.threads);
+        results_.environment = environment_of(*device_, options_.suite.threads);
         return {};
     }
 

@@ -35,7 +35,7 @@ Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) 
     if (!device) {
         return device.error();
     }
-    results.environment = environment_of(device->info(), options.suite.threads);
+    results.environment = environment_of(*device, options.suite.threads);
     cli::ProgressLine line("measuring distances", options.suite.quiet);
     const auto views = static_cast<double>(options.terrains.size()) *
                        static_cast<double>(options.distances.size());

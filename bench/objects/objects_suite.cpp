@@ -116,7 +116,7 @@ public:
         if (!device) {
             return device.error();
         }
-        results_.environment = environment_of(device->info(), options_.suite.threads);
+        results_.environment = environment_of(*device, options_.suite.threads);
         is_software_ = device->info().is_software;
         const auto cities = cities_of(options_);
         const auto views = views_of(options_);

@@ -32,6 +32,18 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
         "egl or osmesa; cpu: as auto, and tables and pareto measure exact rays without OpenGL "
         "beside it (auto)",
         "KIND");
+    cli::add_parsed(command, "--threads", options.threads,
+                    cli::number_in<int>("--threads", 0, 1024),
+                    "number of threads; 0: one per processor (0)", "N");
+    command
+        .add_option("--shader-dir", options.shader_dir,
+                    "use shader files of this folder instead of the built-in ones")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory);
+    command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
+}
+
+void add_choice_options(CLI::App& command, SuiteOptions& options) {
     command
         .add_option("--calibration", options.calibration,
                     "file of 'reljef calibrate': what triangles and rays cost on this machine, for "
@@ -42,15 +54,6 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
                     "cpu: instruction set of the rays: avx512, avx2, sse4, neon or scalar (the "
                     "fastest of the machine)")
         ->type_name("TARGET");
-    cli::add_parsed(command, "--threads", options.threads,
-                    cli::number_in<int>("--threads", 0, 1024),
-                    "number of threads; 0: one per processor (0)", "N");
-    command
-        .add_option("--shader-dir", options.shader_dir,
-                    "use shader files of this folder instead of the built-in ones")
-        ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory);
-    command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
 }
 
 SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size) {

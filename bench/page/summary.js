@@ -31,9 +31,9 @@ function subtitle(report) {
 }
 
 function environmentList(environment) {
-  const names = {renderer: 'Renderer', gl: 'OpenGL', context: 'Context', cpu: 'Processor', threads: 'Threads', commit: 'Commit'};
+  const names = {renderer: 'Renderer', gl: 'OpenGL', context: 'Context', cpu: 'Processor', threads: 'Threads', commit: 'Commit', costs: 'Costs for auto'};
   return element('dl', {class: 'environment'}, Object.entries(names)
-    .filter(([key]) => environment[key] !== undefined)
+    .filter(([key]) => environment[key])
     .map(([key, name]) => element('div', {}, element('dt', {}, name), element('dd', {}, String(environment[key])))));
 }
 

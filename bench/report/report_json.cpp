@@ -31,6 +31,7 @@ static void describe(Fields& fields, typename Fields::template Of<Environment>& 
     fields.field("threads", environment.threads);
     fields.field("cpu", environment.cpu);
     fields.field("commit", environment.commit);
+    fields.later_field("costs", environment.costs);
 }
 
 template <class Fields>

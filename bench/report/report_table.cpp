@@ -316,7 +316,7 @@ Results printable(Results results) {
     };
     Environment& environment = results.environment;
     for (std::string* text : {&environment.renderer, &environment.gl, &environment.context,
-                              &environment.cpu, &environment.commit}) {
+                              &environment.cpu, &environment.commit, &environment.costs}) {
         clean(*text);
     }
     for (Row& row : results.rows) {
@@ -348,11 +348,15 @@ Results printable(Results results) {
 }
 
 std::vector<std::string> environment_lines(const Environment& environment) {
-    return {fmt::format("renderer: {}", environment.renderer),
-            fmt::format("OpenGL:   {}, context {}", environment.gl, environment.context),
-            fmt::format("machine:  {}, {} thread{}; commit {}", environment.cpu,
-                        environment.threads, environment.threads == 1 ? "" : "s",
-                        environment.commit)};
+    std::vector<std::string> lines{
+        fmt::format("renderer: {}", environment.renderer),
+        fmt::format("OpenGL:   {}, context {}", environment.gl, environment.context),
+        fmt::format("machine:  {}, {} thread{}; commit {}", environment.cpu, environment.threads,
+                    environment.threads == 1 ? "" : "s", environment.commit)};
+    if (!environment.costs.empty()) {
+        lines.push_back(fmt::format("auto:     costs {}", environment.costs));
+    }
+    return lines;
 }
 
 namespace {

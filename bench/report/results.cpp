@@ -27,7 +27,8 @@ Environment environment_of(const platform::RendererInfo& info, int threads) {
             info.context,
             renderer_threads(threads),
             platform::processor_name(),
-            RELJEF_COMMIT};
+            RELJEF_COMMIT,
+            {}};
 }
 
 Setting setting_of(const scene::Technique& technique) {

@@ -28,6 +28,7 @@ struct Environment {
     unsigned threads = 1; ///< of a software renderer
     std::string cpu;      ///< model name, or "unknown"
     std::string commit;   ///< of the configured sources; "unknown" without git
+    std::string costs;    ///< that `auto` chooses by, see session::costs_text; empty: unknown
 };
 
 /// A part of a run, and where it was measured.

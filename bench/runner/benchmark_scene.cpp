@@ -90,6 +90,12 @@ Result<session::Device> make_device(const SuiteOptions& options) {
     return device;
 }
 
+Environment environment_of(const session::Device& device, int threads) {
+    Environment environment = environment_of(device.info(), threads);
+    environment.costs = session::costs_text(device.renderer().costs());
+    return environment;
+}
+
 Result<session::Device> make_rays_device(const SuiteOptions& options) {
     return session::Device::create({.context = session::BackendKind::cpu,
                                     .size = options.size,

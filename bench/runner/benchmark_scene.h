@@ -25,6 +25,9 @@ Result<session::Device> make_device(const SuiteOptions& options);
 /// The same for rays on the CPU.
 Result<session::Device> make_rays_device(const SuiteOptions& options);
 
+/// With the device's costs. `threads`: as of environment_of() for its information.
+Environment environment_of(const session::Device& device, int threads);
+
 enum class Daylight {
     scene,   ///< its own sun and air
     low_sun, ///< its sun, 10 degrees above the horizon

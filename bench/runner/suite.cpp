@@ -204,7 +204,7 @@ public:
             results_.notes.push_back(
                 fmt::format("on cpu: {}, {}", rays_->info().renderer, rays_->info().version));
         }
-        results_.environment = environment_of(device->info(), options_.threads);
+        results_.environment = environment_of(*device, options_.threads);
         is_software_ = device->info().is_software;
         if (auto opened = open_scenes(); !opened) {
             return opened;

@@ -95,7 +95,7 @@ public:
         if (!device) {
             return device.error();
         }
-        results_.environment = environment_of(device->info(), results_.options.suite.threads);
+        results_.environment = environment_of(*device, results_.options.suite.threads);
         own.use(*device);
         run_all(own, [](Where where) { return where == Where::device; });
         return {};

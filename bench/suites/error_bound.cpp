@@ -63,7 +63,7 @@ public:
         if (!device) {
             return device.error();
         }
-        results_.environment = environment_of(device->info(), options_.suite.threads);
+        results_.environment = environment_of(*device, options_.suite.threads);
         for (std::size_t i = 0; i < options_.terrains.size() && !stop_.stop_requested(); ++i) {
             if (auto done = run_terrain(i, device->renderer()); !done) {
                 return done;

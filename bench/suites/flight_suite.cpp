@@ -7,6 +7,7 @@
 #include "app/cli/console_log.h"
 #include "app/cli/message.h"
 #include "app/cli/progress_line.h"
+#include "bench/runner/benchmark_scene.h"
 #include "engine/core/process_memory.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/motion/camera_path.h"
@@ -135,7 +136,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     }
     FlightResults results;
     results.options = options;
-    results.environment = environment_of(frames->info(), options.terrain.threads);
+    results.environment = environment_of(frames->device(), options.terrain.threads);
     if (auto flown = fly(*scene, *path, *frames, log, watch, results, stop); !flown) {
         return flown.error();
     }

@@ -110,7 +110,7 @@ private:
         if (!view) {
             return view.error();
         }
-        results_.environment = environment_of(view->device.info(), options_.suite.threads);
+        results_.environment = environment_of(view->device, options_.suite.threads);
         for (const scene::Pose pose : scaling_poses) {
             if (stop_.stop_requested()) {
                 return {};

@@ -143,7 +143,7 @@ private:
             if (!rays) {
                 return rays.error();
             }
-            results_.environment = environment_of(rays->info(), options_.suite.threads);
+            results_.environment = environment_of(*rays, options_.suite.threads);
             return {};
         }
         auto device = make_device(options_.suite);
@@ -151,7 +151,7 @@ private:
             return device.error();
         }
         device_.emplace(std::move(*device));
-        results_.environment = environment_of(device_->info(), options_.suite.threads);
+        results_.environment = environment_of(*device_, options_.suite.threads);
         is_software_ = device_->info().is_software;
         return {};
     }

@@ -69,7 +69,7 @@ public:
     [[nodiscard]] const FrameTimes& times() const { return times_; }
     /// Of the last frame, or hits; of a picture in parts, those of all parts together.
     [[nodiscard]] const view::FrameStats& frame_stats() const { return stats_; }
-    [[nodiscard]] platform::RendererInfo info() const { return device_.info(); }
+    [[nodiscard]] const Device& device() const { return device_; }
     [[nodiscard]] int selections() { return device_.renderer().selector().count(); }
 
 private:

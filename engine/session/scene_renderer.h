@@ -96,6 +96,7 @@ public:
     void set_samples(int samples);
     /// For later frames. Forgets the last view.
     void set_costs(const Costs& costs);
+    [[nodiscard]] const Costs& costs() const { return chooser_->costs(); }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
 
     /// Whether rays drew the last frame; before the first, whether they draw at all.
@@ -158,6 +159,7 @@ public:
     [[nodiscard]] platform::RendererInfo info() const;
     [[nodiscard]] RayUse rays() const { return ray_use_; }
     [[nodiscard]] SceneRenderer& renderer() { return *renderer_; }
+    [[nodiscard]] const SceneRenderer& renderer() const { return *renderer_; }
 
 private:
     using Context = std::unique_ptr<platform::Context>;

@@ -63,6 +63,18 @@ CalibrationPlace place_of(const platform::RendererInfo& info, std::string versio
     return {platform::processor_name(), std::move(version), info.context, info.renderer};
 }
 
+std::string costs_text(const Costs& costs) {
+    if (costs == Costs{}) {
+        return "built-in";
+    }
+    std::string text;
+    for (const CostField& field : cost_fields) {
+        text +=
+            fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", field.name, costs.*field.member);
+    }
+    return text;
+}
+
 std::string to_text(const Calibration& calibration) {
     Json json{{"schema", schema}};
     for (const PlaceField& field : place_fields) {

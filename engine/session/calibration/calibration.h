@@ -27,6 +27,9 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
+/// "built-in", or else "frame_ms 7.2, triangle_ns 110, …", to four digits.
+std::string costs_text(const Costs& costs);
+
 /// A calibration file: JSON.
 std::string to_text(const Calibration& calibration);
 /// Fails on texts that are no calibration, and on costs that are negative or not finite; `file` is

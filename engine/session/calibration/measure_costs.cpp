@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <variant>
 #include <vector>
@@ -82,25 +83,23 @@ double count_pixels(const TerrainScene& scene, const HitBuffer& hits, bool of_bo
     return pixels;
 }
 
-// The touched pixels that `auto` estimates if triangles draw all of the last view.
-Result<double> estimate_touched(TerrainScene& scene, SceneRenderer& renderer, double error) {
-    scene.terrain->get<scene::TerrainNode>()->material.technique = {
-        scene::Automatic{.error = error}};
-    const auto stats = renderer.draw(scene.scene, true);
-    if (!stats) {
-        return stats.error();
-    }
-    return stats->choice ? stats->choice->touched_pixels : 0.0;
-}
-
-Result<void> draw_view(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind, int index,
-                       Samples& samples) {
+void set_technique(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind) {
     scene.terrain->get<scene::TerrainNode>()->material.technique = kind.technique;
     renderer.set_samples(kind.samples);
-    const double first_angle = 2.0 * std::numbers::pi * (index + 0.5) / (4.0 * views); // a quarter
+}
+
+void place_camera(TerrainScene& scene, const Kind& kind, int view, int frame) {
+    const double first_angle = 2.0 * std::numbers::pi * (view + 0.5) / (4.0 * views); // a quarter
+    *scene.camera->get<scene::Camera>() =
+        camera_at(scene, first_angle + frame * frame_angle, kind.height, kind.target);
+}
+
+// Only draws: a graphics processor that waits for counts slows down.
+Result<void> time_view(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind, int view,
+                       Samples& samples) {
+    set_technique(scene, renderer, kind);
     for (int frame = 0; frame < frames_a_view; ++frame) {
-        *scene.camera->get<scene::Camera>() =
-            camera_at(scene, first_angle + frame * frame_angle, kind.height, kind.target);
+        place_camera(scene, kind, view, frame);
         const auto stats = renderer.draw(scene.scene, true);
         if (!stats) {
             return stats.error();
@@ -111,6 +110,25 @@ Result<void> draw_view(TerrainScene& scene, SceneRenderer& renderer, const Kind&
                 static_cast<double>(stats->triangles) / (views * (frames_a_view - 1.0));
         }
     }
+    return {};
+}
+
+// The touched pixels that `auto` estimates if triangles draw all of the view.
+Result<double> estimate_touched(TerrainScene& scene, SceneRenderer& renderer, double error) {
+    scene.terrain->get<scene::TerrainNode>()->material.technique = {
+        scene::Automatic{.error = error}};
+    const auto stats = renderer.draw(scene.scene, true);
+    if (!stats) {
+        return stats.error();
+    }
+    return stats->choice ? stats->choice->touched_pixels : 0.0;
+}
+
+// In the last frame of the view.
+Result<void> count_view(TerrainScene& scene, SceneRenderer& renderer, const Kind& kind, int view,
+                        Samples& samples) {
+    set_technique(scene, renderer, kind);
+    place_camera(scene, kind, view, frames_a_view - 1);
     const auto hits = renderer.draw_hits(scene.scene);
     if (!hits) {
         return hits.error();
@@ -130,6 +148,25 @@ Result<void> draw_view(TerrainScene& scene, SceneRenderer& renderer, const Kind&
             return work.error();
         }
         samples.mean.steps += static_cast<double>(view::totals_of(*work).steps) / views;
+    }
+    return {};
+}
+
+// Calls `draw` for each view of each kind, beginning with the view `first`. Fails if stopped.
+Result<void> for_views(int first, const std::stop_token& stop, const Progress& progress,
+                       const std::function<Result<void>(int view, std::size_t kind)>& draw) {
+    for (int view = first; view < views; ++view) {
+        for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
+            if (auto drawn = draw(view, kind); !drawn) {
+                return drawn;
+            }
+            if (stop.stop_requested()) {
+                return Error{"interrupted"};
+            }
+        }
+        if (progress) {
+            progress((view - first + 1.0) / (views - first));
+        }
     }
     return {};
 }
@@ -200,21 +237,25 @@ Costs costs_from(const MeasuredFrames& frames) {
 Result<MeasuredFrames> measure_frames(TerrainScene& scene, SceneRenderer& renderer,
                                       const std::stop_token& stop, const Progress& progress) {
     std::array<Samples, kind_count> samples;
-    for (int index = -1; index < views; ++index) { // the first warms up
-        for (std::size_t kind = 0; kind < kinds().size(); ++kind) {
-            Samples warm_up;
-            auto drawn = draw_view(scene, renderer, kinds().at(kind), std::max(index, 0),
-                                   index < 0 ? warm_up : samples.at(kind));
-            if (!drawn) {
-                return drawn.error();
+    const auto half = [&progress](double done) {
+        return [&progress, done](double share) {
+            if (progress) {
+                progress(done + 0.5 * share);
             }
-            if (stop.stop_requested()) {
-                return Error{"interrupted"};
-            }
-        }
-        if (progress) {
-            progress((index + 2.0) / (views + 1.0));
-        }
+        };
+    };
+    auto drawn = for_views(-1, stop, half(0.0), [&](int view, std::size_t kind) {
+        Samples warm_up; // the first view
+        return time_view(scene, renderer, kinds().at(kind), std::max(view, 0),
+                         view < 0 ? warm_up : samples.at(kind));
+    });
+    if (drawn) {
+        drawn = for_views(0, stop, half(0.5), [&](int view, std::size_t kind) {
+            return count_view(scene, renderer, kinds().at(kind), view, samples.at(kind));
+        });
+    }
+    if (!drawn) {
+        return drawn.error();
     }
     MeasuredFrames frames;
     for (std::size_t kind = 0; kind < kinds().size(); ++kind) {

@@ -13,7 +13,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/terrain/field/surface_caster.h"
 #include "engine/terrain/mesh/tile_layout.h"
 #include "engine/view/choice/ray_error.h"
 #include "engine/view/sample_count.h"
@@ -21,7 +20,6 @@
 namespace reljef::view {
 namespace {
 
-constexpr glm::ivec2 probes{20, 15}; // rays of the estimate
 // Estimates of triangles are that near: more may not fit.
 constexpr double certain_share = 0.8;
 constexpr double max_lack = 1e4; // times the triangles that fit
@@ -107,38 +105,6 @@ double triangles_of(const scene::TerrainTile& tile, const TerrainDraw& draw,
     return triangles;
 }
 
-// What a coarse grid of rays hits.
-struct ProbedView {
-    std::map<std::pair<int, int>, int> of_tiles; // by column and row
-    std::vector<ProbeRay> of_box;
-};
-
-ProbedView probe(const DrawList& list, const TerrainDraw& draw) {
-    const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const terrain::SurfaceCaster caster(surface.heightfield().heights.view(), surface.pyramid(),
-                                        surface.placement());
-    const glm::dvec3 offset(draw.world_from_local[3]);
-    ProbedView probed;
-    for (int row = 0; row < probes.y; ++row) {
-        for (int col = 0; col < probes.x; ++col) {
-            const glm::dvec2 pixel =
-                (glm::dvec2(col, row) + 0.5) / glm::dvec2(probes) * glm::dvec2(list.size);
-            Ray ray = scene::view_ray(list.camera, list.size, pixel);
-            ray.origin -= offset;
-            if (!intersect(ray, surface.bounds())) {
-                continue;
-            }
-            ProbeRay& probe = probed.of_box.emplace_back(ProbeRay{ray, pixel, std::nullopt});
-            if (const auto hit = caster.first_hit(ray)) {
-                probe.hit = hit->sample;
-                const glm::ivec2 tile = glm::ivec2(hit->sample) / terrain::tile_cells;
-                ++probed.of_tiles[{tile.x, tile.y}];
-            }
-        }
-    }
-    return probed;
-}
-
 glm::ivec2 tile_below(const DrawList& list, const TerrainDraw& draw) {
     constexpr double farthest = 1e6; // tiles
     const auto sample = draw.terrain->surface->placement().sample_from_world(
@@ -155,16 +121,14 @@ int ring_of(const scene::TerrainTile& tile, glm::ivec2 below) {
 std::vector<RingCost> costs_of_rings(const DrawList& list, const TerrainDraw& draw,
                                      const TriangleCounts& counts, const ProbedView& probed) {
     const glm::ivec2 below = tile_below(list, draw);
-    const double pixels_a_probe =
-        static_cast<double>(list.size.x) * list.size.y / (static_cast<double>(probes.x) * probes.y);
     std::map<int, RingCost> rings;
     for (const TileDraw& tile : list.tiles) {
         const int ring = ring_of(*tile.tile, below);
         RingCost& cost = rings.try_emplace(ring, RingCost{.ring = ring}).first->second;
         cost.triangles += triangles_of(*tile.tile, draw, counts);
         const glm::ivec2 place = tile.tile->first / terrain::tile_cells;
-        const auto hits = probed.of_tiles.find({place.x, place.y});
-        cost.pixels += hits == probed.of_tiles.end() ? 0.0 : hits->second * pixels_a_probe;
+        const auto pixels = probed.tile_pixels.find({place.x, place.y});
+        cost.pixels += pixels == probed.tile_pixels.end() ? 0.0 : pixels->second;
     }
     std::vector<RingCost> costs;
     costs.reserve(rings.size());
@@ -181,7 +145,7 @@ ViewCosts view_costs(const DrawList& list, const TriangleCounts& counts, const P
     const bool is_free = samples == automatic_samples; // the driver chooses
     return {.rings = costs_of_rings(list, draw, counts, probed),
             .box_pixels = pixels * static_cast<double>(probed.of_box.size()) /
-                          (static_cast<double>(probes.x) * probes.y),
+                          (static_cast<double>(view_probes.x) * view_probes.y),
             .samples_of_rays = is_free ? 1 : samples,
             .samples_of_both = is_free ? samples_of_triangles : samples,
             .max_triangles = certain_share * static_cast<double>(draw.terrain->max_triangles)};
@@ -220,6 +184,7 @@ void TechniqueChooser::know(const scene::TerrainNode& terrain) {
                       ? TriangleCounts(*terrain.bisection)
                       : TriangleCounts(terrain::Bisection(terrain.surface->heightfield(),
                                                           terrain.surface->placement()));
+        probed_ = ProbedSurface(*terrain.surface);
         steepness_ = steepest(*terrain.surface);
         surface_ = terrain.surface;
     }
@@ -301,10 +266,11 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
         return {};
     }
     know(*draw.terrain);
-    const ProbedView probed = probe(list, draw);
+    const bool is_typical = allows_typical(*draw.terrain); // its trials begin at exact hits
+    const ProbedView probed = probe_view(list, draw, is_typical ? nullptr : &probed_);
     const ViewCosts view = view_costs(list, counts_, probed, samples_);
     Decision decision = decide_proven(list, view, kinds);
-    if (allows_typical(*draw.terrain)) {
+    if (is_typical) {
         consider_unproven(list, probed.of_box, view, decision);
     }
     return decision;

@@ -11,6 +11,7 @@
 #include "engine/view/choice/triangle_counts.h"
 #include "engine/view/choice/typical_search.h"
 #include "engine/view/choice/view_plan.h"
+#include "engine/view/choice/view_probes.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::view {
@@ -36,6 +37,7 @@ public:
     void set_samples(int samples) { samples_ = samples; }
     [[nodiscard]] int samples() const { return samples_; }
     void set_costs(const TechniqueCosts& costs) { options_.costs = costs; }
+    [[nodiscard]] const TechniqueCosts& costs() const { return options_.costs; }
     /// Of a texture, texels: rays of OpenGL over larger terrains cannot be drawn.
     void set_max_map_side(int texels) { max_map_side_ = texels; }
     void choose(DrawList& list);
@@ -65,6 +67,7 @@ private:
     std::optional<Decision> for_parts_;
     std::weak_ptr<const scene::TerrainSurface> surface_; // the known one
     TriangleCounts counts_;
+    ProbedSurface probed_;
     double steepness_ = 0.0;
 };
 

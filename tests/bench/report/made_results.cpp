@@ -54,7 +54,8 @@ bench::Results made_results(const std::string& scene) {
     again.null_row = true;
     again.timing = made_timing(2.1, 1.05);
     bench::Results results;
-    results.environment = {"a renderer", "4.5 of it", "osmesa", 2, "a processor", "0123456789ab"};
+    results.environment = {"a renderer",  "4.5 of it",    "osmesa",  2,
+                           "a processor", "0123456789ab", "built-in"};
     results.rows = {row, polygons, again};
     return results;
 }

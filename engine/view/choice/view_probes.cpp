@@ -1,0 +1,113 @@
+#include "engine/view/choice/view_probes.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "engine/terrain/field/ray_cast.h"
+#include "engine/terrain/field/surface_caster.h"
+#include "engine/terrain/mesh/tile_layout.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr int stride_of_counts = 4; // samples
+constexpr int probes_a_count = 3;   // of them, one is cast
+
+// scene::view_ray() of all pixels of a picture, which is affine: three of them give the others.
+class ViewRays {
+public:
+    ViewRays(const scene::Camera& camera, glm::ivec2 size)
+        : size_(size), first_(scene::view_ray(camera, size, {0.0, 0.0})),
+          right_(scene::view_ray(camera, size, {size.x, 0.0})),
+          below_(scene::view_ray(camera, size, {0.0, size.y})) {}
+
+    [[nodiscard]] Ray at(glm::dvec2 pixel) const {
+        const glm::dvec2 part = pixel / size_;
+        const auto blend = [part](glm::dvec3 first, glm::dvec3 right, glm::dvec3 below) {
+            return first + part.x * (right - first) + part.y * (below - first);
+        };
+        return {blend(first_.origin, right_.origin, below_.origin),
+                blend(first_.direction, right_.direction, below_.direction)};
+    }
+
+private:
+    glm::dvec2 size_;
+    Ray first_;
+    Ray right_;
+    Ray below_;
+};
+
+} // namespace
+
+ProbedSurface::ProbedSurface(const scene::TerrainSurface& surface) : stride_(stride_of_counts) {
+    const Grid<float>& all = surface.heightfield().heights;
+    const glm::ivec2 samples =
+        glm::max((glm::ivec2(all.cols(), all.rows()) - 1) / stride_ + 1, glm::ivec2(2));
+    heights_ = Grid<float>(samples.x, samples.y);
+    for (int row = 0; row < samples.y; ++row) {
+        for (int col = 0; col < samples.x; ++col) {
+            heights_(col, row) = all.clamped(col * stride_, row * stride_);
+        }
+    }
+    pyramid_ = terrain::MinMaxPyramid(heights_.view());
+}
+
+std::optional<glm::dvec3> ProbedSurface::first_hit(const Ray& sample_ray) const {
+    const glm::dvec3 scale(1.0 / stride_, 1.0 / stride_, 1.0);
+    const auto hit = terrain::first_hit(heights_.view(), pyramid_,
+                                        {sample_ray.origin * scale, sample_ray.direction * scale},
+                                        {0.0, std::numeric_limits<double>::infinity()});
+    return hit ? std::optional(hit->sample / scale) : std::nullopt;
+}
+
+ProbedView probe_view(const DrawList& list, const TerrainDraw& draw, const ProbedSurface* counted) {
+    const scene::TerrainSurface& surface = *draw.terrain->surface;
+    const Grid<float>& heights = surface.heightfield().heights;
+    std::optional<terrain::SurfaceCaster> caster;
+    const glm::ivec2 last_tile =
+        (glm::ivec2(heights.cols(), heights.rows()) - 2) / terrain::tile_cells;
+    const auto hit_by = [&](const Ray& ray) -> std::optional<glm::dvec3> {
+        const auto sample_ray =
+            counted ? terrain::sample_ray_on_plane(surface.placement(), ray) : std::nullopt;
+        if (sample_ray) {
+            return counted->first_hit(*sample_ray);
+        }
+        if (!caster) {
+            caster.emplace(heights.view(), surface.pyramid(), surface.placement());
+        }
+        const auto hit = caster->first_hit(ray);
+        return hit ? std::optional(hit->sample) : std::nullopt;
+    };
+    const glm::dvec3 offset(draw.world_from_local[3]);
+    const ViewRays rays(list.camera, list.size);
+    const int step = counted ? probes_a_count : 1;
+    const double pixels_a_probe = step * static_cast<double>(list.size.x) * list.size.y /
+                                  (static_cast<double>(view_probes.x) * view_probes.y);
+    ProbedView probed;
+    probed.of_box.reserve(static_cast<std::size_t>(view_probes.x) * view_probes.y);
+    for (int row = 0; row < view_probes.y; ++row) {
+        for (int col = 0; col < view_probes.x; ++col) {
+            const glm::dvec2 pixel =
+                (glm::dvec2(col, row) + 0.5) / glm::dvec2(view_probes) * glm::dvec2(list.size);
+            Ray ray = rays.at(pixel);
+            ray.origin -= offset;
+            if (!intersect(ray, surface.bounds())) {
+                continue;
+            }
+            ProbeRay& probe = probed.of_box.emplace_back(ProbeRay{ray, pixel, std::nullopt});
+            if ((col + row) % step == 0) {
+                probe.hit = hit_by(ray);
+            }
+            if (probe.hit) {
+                const glm::ivec2 tile =
+                    glm::min(glm::ivec2(*probe.hit) / terrain::tile_cells, last_tile);
+                probed.tile_pixels[{tile.x, tile.y}] += pixels_a_probe;
+            }
+        }
+    }
+    return probed;
+}
+
+} // namespace reljef::view
