@@ -14,6 +14,8 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "engine/terrain/field/surface_caster.h"
+
 // A ray that begins above the ground and is below it later has passed through it. A stretch is the
 // part of a sector between two radii a < b, with the lowest ground h. A ray of the slope s (height
 // over distance) crosses all of it and is below h at one end at least if s is less than the slope
@@ -104,6 +106,7 @@ SeenBox seen_from(const EyeFrame& frame, const Box& box) {
     Box around;
     SeenBox seen;
     seen.azimuth = std::atan2(center.y, center.x);
+    const glm::dvec2 middle = direction(seen.azimuth);
     double aside = std::numeric_limits<double>::infinity();
     double farthest = 0.0;
     for (const glm::dvec3& corner : corners) {
@@ -111,7 +114,7 @@ SeenBox seen_from(const EyeFrame& frame, const Box& box) {
             std::remainder(std::atan2(corner.y, corner.x) - seen.azimuth, 2.0 * std::numbers::pi);
         seen.before = std::min(seen.before, turn);
         seen.after = std::max(seen.after, turn);
-        aside = std::min(aside, glm::dot(glm::dvec2(corner), direction(seen.azimuth)));
+        aside = std::min(aside, glm::dot(glm::dvec2(corner), middle));
         farthest = std::max(farthest, glm::length(glm::dvec2(corner)));
         around.add(corner);
     }
@@ -171,12 +174,19 @@ double EyeFrame::slope_of(double along, double height) const {
     return above / ((radius_ + height) * std::sin(angle));
 }
 
-std::optional<glm::dvec2> EyeFrame::sample_at(double azimuth, double along) const {
+std::optional<glm::dvec2> EyeFrame::samples_a_metre(glm::dvec2 direction) const {
+    const auto line =
+        is_on_plane() ? sample_ray_on_plane(placement_, {eye_, glm::dvec3(direction, 0.0) * axes_})
+                      : std::nullopt;
+    return line ? std::optional(glm::dvec2(line->direction)) : std::nullopt;
+}
+
+std::optional<glm::dvec2> EyeFrame::sample_at(glm::dvec2 direction, double along) const {
     const double angle = is_on_plane() ? 0.0 : along / radius_;
     const double aside = is_on_plane() ? along : radius_ * std::sin(angle);
     const double half = std::sin(0.5 * angle);
     const double above = -height_ - 2.0 * radius_ * half * half;
-    const glm::dvec3 seen(aside * direction(azimuth), above);
+    const glm::dvec3 seen(aside * direction, above);
     const auto sample = placement_.sample_from_world(eye_ + seen * axes_);
     return sample && glm::all(glm::equal(*sample, *sample)) ? std::optional(glm::dvec2(*sample))
                                                             : std::nullopt;
@@ -196,8 +206,8 @@ double EyeFrame::drift(double along, double height) const {
 std::optional<SampleRectangle> EyeFrame::samples_around(double distance) const {
     Box box;
     for (int i = 0; i < 4; ++i) {
-        const auto sample =
-            sample_at((i + 0.5) * 0.5 * std::numbers::pi, std::numbers::sqrt2 * distance);
+        const auto sample = sample_at(direction((i + 0.5) * 0.5 * std::numbers::pi),
+                                      std::numbers::sqrt2 * distance);
         if (!sample) {
             return std::nullopt;
         }
@@ -259,6 +269,12 @@ Horizon::Horizon(EyeFrame frame, GroundRange ground, const HorizonOptions& reach
     heights_apart_ = std::max({std::abs(frame_.height()), std::abs(reach.heights.low + zero.low),
                                std::abs(reach.heights.high + zero.high)}) +
                      sagitta;
+    outside_ = 1.0 / std::cos(0.5 * sector_angle_);
+    for (int border = 0; border <= reach.sectors; ++border) {
+        const glm::dvec2 along = direction(border * sector_angle_);
+        borders_.push_back({along, frame_.samples_a_metre(along)});
+    }
+    eye_sample_ = frame_.sample_at({1.0, 0.0}, 0.0);
     // The maximum is at 45 degrees.
     rectangle_growth_ =
         std::sqrt(2.0) * std::cos(0.25 * std::numbers::pi - 0.5 * sector_angle_) + 0x1p-10;
@@ -328,22 +344,20 @@ std::optional<double> Horizon::slope_of(int sector, std::size_t stretch) const {
 }
 
 std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stretch) const {
-    // Where the tangent in the middle of the outer arc meets the sides.
-    const double outside = 1.0 / std::cos(0.5 * sector_angle_);
     const double inner = radii_[stretch];
-    const double outer = outside * radii_[stretch + 1];
-    Box box;
-    for (const double azimuth : {sector * sector_angle_, (sector + 1) * sector_angle_}) {
+    const double outer = outside_ * radii_[stretch + 1];
+    glm::dvec2 low(std::numeric_limits<double>::infinity());
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    for (const int border : {sector, sector + 1}) {
         for (const double along : {inner, outer}) {
-            const auto sample = frame_.sample_at(azimuth, along);
+            const auto sample = sample_at(static_cast<std::size_t>(border), along);
             if (!sample) {
                 return std::nullopt;
             }
-            box.add(glm::dvec3(*sample, 0.0));
+            low = glm::min(low, *sample);
+            high = glm::max(high, *sample);
         }
     }
-    const glm::dvec2 low(box.low);
-    const glm::dvec2 high(box.high);
     if (frame_.is_on_plane()) {
         return SampleRectangle{low, high};
     }
@@ -355,6 +369,13 @@ std::optional<SampleRectangle> Horizon::samples_of(int sector, std::size_t stret
     const double beside = bend_of(std::hypot(deep, wide), geo::smallest_radius_of_earth()) +
                           frame_.drift(outer, heights_apart_);
     return SampleRectangle{low - beside * per_metre, high + beside * per_metre};
+}
+
+std::optional<glm::dvec2> Horizon::sample_at(std::size_t border, double along) const {
+    const Border& line = borders_[border];
+    return line.samples_a_metre && eye_sample_
+               ? std::optional(*eye_sample_ + along * *line.samples_a_metre)
+               : frame_.sample_at(line.direction, along);
 }
 
 } // namespace reljef::terrain

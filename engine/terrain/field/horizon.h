@@ -65,8 +65,11 @@ public:
     [[nodiscard]] double along(double aside, double above) const;
     /// Height over distance, as seen from the eye, of a place at a distance along the ground.
     [[nodiscard]] double slope_of(double along, double height) const;
-    /// The sample at a distance along the ground; empty where there is none.
-    [[nodiscard]] std::optional<glm::dvec2> sample_at(double azimuth, double along) const;
+    /// The sample at a distance along the ground in a direction (east, north) of length 1; empty
+    /// where there is none.
+    [[nodiscard]] std::optional<glm::dvec2> sample_at(glm::dvec2 direction, double along) const;
+    /// On a plane whose map is affine: samples from the eye's own per metre in a direction.
+    [[nodiscard]] std::optional<glm::dvec2> samples_a_metre(glm::dvec2 direction) const;
     /// The most that samples of places up to this far above or below the ground move, in metres.
     [[nodiscard]] double drift(double along, double height) const;
     /// Samples within a horizontal distance of the eye.
@@ -109,7 +112,13 @@ private:
     [[nodiscard]] bool leaves_terrain(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<double> slope_of(int sector, std::size_t stretch) const;
     [[nodiscard]] std::optional<SampleRectangle> samples_of(int sector, std::size_t stretch) const;
+    [[nodiscard]] std::optional<glm::dvec2> sample_at(std::size_t border, double along) const;
 
+    // Between two sectors.
+    struct Border {
+        glm::dvec2 direction{0.0};
+        std::optional<glm::dvec2> samples_a_metre; // as EyeFrame
+    };
     EyeFrame frame_;
     GroundRange ground_;
     HorizonView view_;
@@ -118,8 +127,11 @@ private:
     glm::dvec2 last_sample_;
     double heights_apart_;          // metres: the most between a ray and the eye's or the ground's
     double sector_angle_ = 0.0;     // radians
+    double outside_ = 1.0;          // where tangents meet a sector's sides, over their radius
     double rectangle_growth_ = 1.0; // reach of a stretch's bounding rectangle over its radius
-    std::vector<double> radii_;     // metres; stretch i lies between radii i and i + 1
+    std::vector<Border> borders_;   // of the sectors, one more than these
+    std::optional<glm::dvec2> eye_sample_;
+    std::vector<double> radii_; // metres; stretch i lies between radii i and i + 1
     // By sector, as far as evaluated: the steepest slope that is hidden behind stretches 0 … i.
     std::vector<std::vector<double>> sectors_;
     std::vector<bool> has_ended_; // by sector: the terrain ends, what is farther hides nothing
