@@ -27,8 +27,9 @@ namespace {
 
 view::SelectOptions with_chooser(view::SelectOptions options,
                                  std::shared_ptr<view::TechniqueChooser> chooser) {
-    options.refine = [chooser = std::move(chooser)](view::DrawList& list) {
-        chooser->choose(list);
+    options.refine = [chooser = std::move(chooser)](view::DrawList& list,
+                                                    const std::function<void()>& drop_hidden) {
+        chooser->choose(list, drop_hidden);
     };
     return options;
 }

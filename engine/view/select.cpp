@@ -420,11 +420,15 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
     list.stats.nodes = view.node_count();
     list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
     list.stats.skipped.sky = list.sky ? 0 : 1;
-    if (options.occlusion) {
-        drop_occluded(list);
-    }
+    const auto drop_hidden = [&] {
+        if (options.occlusion) {
+            drop_occluded(list);
+        }
+    };
     if (options.refine) {
-        options.refine(list);
+        options.refine(list, drop_hidden);
+    } else {
+        drop_hidden();
     }
     return frame;
 }

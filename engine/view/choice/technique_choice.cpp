@@ -125,10 +125,14 @@ std::vector<RingCost> costs_of_rings(const DrawList& list, const TerrainDraw& dr
     for (const TileDraw& tile : list.tiles) {
         const int ring = ring_of(*tile.tile, below);
         RingCost& cost = rings.try_emplace(ring, RingCost{.ring = ring}).first->second;
-        cost.triangles += triangles_of(*tile.tile, draw, counts);
+        const double triangles = triangles_of(*tile.tile, draw, counts);
+        cost.triangles += triangles;
         const glm::ivec2 place = tile.tile->first / terrain::tile_cells;
-        const auto pixels = probed.tile_pixels.find({place.x, place.y});
-        cost.pixels += pixels == probed.tile_pixels.end() ? 0.0 : pixels->second;
+        const auto seen = probed.tile_pixels.find({place.x, place.y});
+        if (seen != probed.tile_pixels.end()) {
+            cost.pixels += seen->second;
+            cost.seen_triangles += triangles;
+        }
     }
     std::vector<RingCost> costs;
     costs.reserve(rings.size());
@@ -260,16 +264,41 @@ void TechniqueChooser::consider_unproven(const DrawList& list, const std::vector
     }
 }
 
-TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds) {
+// Whether the choice may be another one once hidden tiles are dropped.
+bool TechniqueChooser::may_hide_decide(const ViewCosts& view, const Decision& decision) const {
+    if (!decision.search || decision.last_ring >= 0) {
+        return true;
+    }
+    ViewCosts seen = view;
+    for (RingCost& ring : seen.rings) {
+        ring.triangles = ring.seen_triangles;
+    }
+    return cheapest_plan(seen, options_.costs).last_ring >= 0;
+}
+
+TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds kinds,
+                                                    const std::function<void()>& drop_hidden) {
     const TerrainDraw& draw = list.terrains.front();
     if (!may_have_rays(list, draw, max_map_side_)) {
+        drop_hidden();
         return {};
     }
     know(*draw.terrain);
     const bool is_typical = allows_typical(*draw.terrain); // its trials begin at exact hits
     const ProbedView probed = probe_view(list, draw, is_typical ? nullptr : &probed_);
-    const ViewCosts view = view_costs(list, counts_, probed, samples_);
+    ViewCosts view = view_costs(list, counts_, probed, samples_);
     Decision decision = decide_proven(list, view, kinds);
+    if (may_hide_decide(view, decision)) {
+        const std::size_t tiles = list.tiles.size();
+        drop_hidden();
+        if (list.tiles.empty()) {
+            return {};
+        }
+        if (list.tiles.size() < tiles) {
+            view = view_costs(list, counts_, probed, samples_);
+            decision = decide_proven(list, view, kinds);
+        }
+    }
     if (is_typical) {
         consider_unproven(list, probed.of_box, view, decision);
     }
@@ -279,21 +308,29 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
 void TechniqueChooser::choose_for_parts(const DrawList& whole) {
     for_parts_.reset();
     if (is_chosen(whole) && !(options_.rays_draw && options_.rays_draw(whole))) {
-        for_parts_ = decide(whole, Kinds::one);
+        for_parts_ = decide(whole, Kinds::one, [] {}); // hidden tiles are dropped already
     }
 }
 
-void TechniqueChooser::choose(DrawList& list) {
+void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_hidden) {
     if (!is_chosen(list)) {
+        drop_hidden();
         return;
     }
-    const auto tiles = static_cast<int>(list.tiles.size());
     if (options_.rays_draw && options_.rays_draw(list)) {
+        drop_hidden();
+        const auto tiles = static_cast<int>(list.tiles.size());
         list.stats.choice = Choice{.tiles_by_rays = tiles, .ray_pixels = 1.0};
         return;
     }
-    const bool is_part = list.camera.whole != glm::ivec2(0);
-    Decision decision = is_part && for_parts_ ? *for_parts_ : decide(list, Kinds::both);
+    Decision decision;
+    if (list.camera.whole != glm::ivec2(0) && for_parts_) { // a part
+        drop_hidden();
+        decision = *for_parts_;
+    } else {
+        decision = decide(list, Kinds::both, drop_hidden);
+    }
+    const auto tiles = static_cast<int>(list.tiles.size());
     if (decision.search) {
         split_at(list, decision.last_ring, *decision.search);
         list.stats.kept_error = decision.kept_error; // by rays; triangles state their own

@@ -40,7 +40,10 @@ public:
     [[nodiscard]] const TechniqueCosts& costs() const { return options_.costs; }
     /// Of a texture, texels: rays of OpenGL over larger terrains cannot be drawn.
     void set_max_map_side(int texels) { max_map_side_ = texels; }
-    void choose(DrawList& list);
+    /// `drop_hidden` drops tiles that nearer ground hides. It is called unless rays are cheaper
+    /// than even the triangles of the tiles that are certainly seen.
+    void choose(
+        DrawList& list, const std::function<void()>& drop_hidden = [] {});
     /// The parts of a picture that are chosen later are drawn as is cheapest for this list of the
     /// whole: triangles alone, or rays alone, so that all have as many samples.
     void choose_for_parts(const DrawList& whole);
@@ -56,7 +59,8 @@ private:
     enum class Kinds { one, both };
     static ViewPlan cheapest(const ViewCosts& view, const TechniqueCosts& costs, Kinds kinds);
     void know(const scene::TerrainNode& terrain);
-    Decision decide(const DrawList& list, Kinds kinds);
+    Decision decide(const DrawList& list, Kinds kinds, const std::function<void()>& drop_hidden);
+    [[nodiscard]] bool may_hide_decide(const ViewCosts& view, const Decision& decision) const;
     Decision decide_proven(const DrawList& list, const ViewCosts& view, Kinds kinds);
     void consider_unproven(const DrawList& list, const std::vector<ProbeRay>& probes,
                            const ViewCosts& view, Decision& decision) const;

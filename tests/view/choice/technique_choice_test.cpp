@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -50,9 +52,10 @@ struct ChosenView {
     [[nodiscard]] FrameView select(const ChoiceOptions& options, int samples = 1) const {
         TechniqueChooser chooser(options);
         chooser.set_samples(samples);
-        return view::select(scene, chosen_size, {.occlusion = true, .refine = [&](DrawList& list) {
-                                                     chooser.choose(list);
-                                                 }});
+        return view::select(scene, chosen_size,
+                            {.occlusion = true, .refine = [&](DrawList& list, const auto& drop) {
+                                 chooser.choose(list, drop);
+                             }});
     }
     [[nodiscard]] DrawList chosen(const TechniqueCosts& costs) const {
         return select({.costs = costs}).list;
@@ -129,6 +132,56 @@ TEST(ViewPlanTest, CountsSamples) {
     EXPECT_DOUBLE_EQ(plan_up_to(0, view, costs).ms,
                      1.0 + 3.0 * (100.0 + touched + 10.0) + 4.0 * 20.0);
     EXPECT_DOUBLE_EQ(plan_up_to(3, view, costs).ms, 2.0 + 3.0 * (100.0 + 2.0 * touched + 20.0));
+}
+
+// A valley behind a ridge: some tiles are hidden.
+Grid<float> valleys_behind_walls() {
+    Grid<float> heights = test::hills(700, 700, 20.0);
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            heights(col, row) += row % 200 > 140 ? 900.0F : 0.0F;
+        }
+    }
+    return heights;
+}
+
+TEST(TechniqueChooserTest, HiddenTilesAreSearchedForOnlyWhereTheyMayDecide) {
+    ChosenView view("auto:error=1", valleys_behind_walls());
+    view.camera->get<scene::Camera>()->eye = {0.0, -1500.0, 200.0};
+    view.camera->get<scene::Camera>()->target = {0.0, 1500.0, 200.0};
+    const DrawList all = view::select(view.scene, chosen_size, {.occlusion = false}).list;
+    DrawList seen = all;
+    drop_occluded(seen);
+    ASSERT_LT(seen.tiles.size(), all.tiles.size());
+    TechniqueChooser chooser({});
+    std::mt19937 random(19);
+    std::map<bool, int> drops;
+    for (int i = 0; i < 300; ++i) {
+        const auto cost = [&](double low, double high) {
+            return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
+        };
+        chooser.set_costs({.triangle_ns = cost(1.0, 1e4),
+                           .touched_pixel_ns = cost(1.0, 1e3),
+                           .rays_ms = cost(1e-2, 10.0),
+                           .ray_pixel_ns = cost(1.0, 1e4)});
+        DrawList of_seen = seen;
+        chooser.choose(of_seen);
+        DrawList of_all = all;
+        bool has_dropped = false;
+        chooser.choose(of_all, [&] {
+            has_dropped = true;
+            drop_occluded(of_all);
+        });
+        ++drops[has_dropped];
+        ASSERT_EQ(of_seen.tiles.size(), of_all.tiles.size());
+        ASSERT_EQ(of_seen.reliefs.size(), of_all.reliefs.size());
+        ASSERT_EQ(of_seen.stats.kept_error, of_all.stats.kept_error);
+        if (has_dropped) {
+            ASSERT_EQ(of_seen.stats.choice, of_all.stats.choice);
+        }
+    }
+    EXPECT_GT(drops[false], 30);
+    EXPECT_GT(drops[true], 30);
 }
 
 TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
