@@ -50,15 +50,15 @@ const std::array<Kind, kind_count>& kinds() {
     static const std::array<Kind, kind_count> all{
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sky},
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::few},
-        Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::many},
-        Kind{{scene::Polygons{.error = 0.5}}, 0.03, 0.0, &MeasuredFrames::flat},
+        Kind{{scene::Polygons{.error = 1.0}}, 0.35, 0.0, &MeasuredFrames::many},
+        Kind{{scene::Polygons{.error = 1.0}}, 0.03, 0.0, &MeasuredFrames::flat},
         Kind{{scene::Exact{}}, 0.35, 0.0, &MeasuredFrames::rays},
         Kind{{scene::Exact{}}, 0.35, 0.45, &MeasuredFrames::fewer_pixels},
         Kind{{scene::Interval{.linear_steps = 4}}, 0.35, 0.0, &MeasuredFrames::few_steps},
         Kind{{scene::Interval{.linear_steps = 28}}, 0.35, 0.0, &MeasuredFrames::many_steps},
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 60.0, &MeasuredFrames::sampled_sky, 4},
         Kind{{scene::Polygons{.error = 16.0}}, 0.35, 0.0, &MeasuredFrames::sampled_few, 4},
-        Kind{{scene::Polygons{.error = 0.5}}, 0.35, 0.0, &MeasuredFrames::sampled_many, 4}};
+        Kind{{scene::Polygons{.error = 1.0}}, 0.35, 0.0, &MeasuredFrames::sampled_many, 4}};
     return all;
 }
 
