@@ -174,7 +174,7 @@ cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto choice = std::make_shared<LodChoice>();
     add_terrains_option(*arguments, choice->terrains, "natural and urban");
     add_suite_options(*arguments, choice->suite);
-    add_choice_options(*arguments, choice->suite);
+    add_drawing_options(*arguments, choice->suite);
     add_output_options(*arguments, choice->outputs);
     add_lod_options(*arguments, *choice);
     arguments->callback([arguments, choice] { check_lod_options(*choice, *arguments); });

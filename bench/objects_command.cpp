@@ -58,7 +58,7 @@ void add_objects_options(CLI::App& command, ObjectsChoice& choice) {
                         "degrees that the camera looks down; may be repeated (15 and 45; with "
                         "--quick 30)");
     add_suite_options(command, choice.options.suite);
-    add_choice_options(command, choice.options.suite);
+    add_drawing_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
 }
 

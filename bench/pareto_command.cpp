@@ -68,7 +68,7 @@ cli::Command add_pareto_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_techniques_option(*arguments, choice->options.techniques,
                           "all techniques, over the ranges of their parameters");
     add_suite_options(*arguments, choice->options.suite);
-    add_choice_options(*arguments, choice->options.suite);
+    add_drawing_options(*arguments, choice->options.suite);
     add_output_options(*arguments, choice->outputs);
     add_part_options(*arguments, choice->part, "scenes and poses");
     arguments->footer(

@@ -99,7 +99,7 @@ cli::Command add_skip_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_terrains_option(*arguments, choice->options.terrains, "natural and urban", false);
     add_choices(*arguments, choice->options);
     add_suite_options(*arguments, choice->options.suite);
-    add_choice_options(*arguments, choice->options.suite);
+    add_drawing_options(*arguments, choice->options.suite);
     add_output_options(*arguments, choice->outputs);
     add_part_options(*arguments, choice->part, "scenes and poses");
     arguments->footer(

@@ -133,7 +133,7 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
                     "earlier run with the same terrains, --poses and --seed checked (0)",
                     "N");
     add_suite_options(command, choice.options.suite);
-    add_choice_options(command, choice.options.suite);
+    add_drawing_options(command, choice.options.suite);
     add_json_option(command, choice.outputs);
     add_page_option(command, choice.outputs);
     add_part_options(command, choice.part, "stresses");

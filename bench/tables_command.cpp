@@ -50,7 +50,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "instead of the tables: the error of heights that are guessed from the colours "
         "of each terrain");
     add_suite_options(command, choice.options.suite);
-    add_choice_options(command, choice.options.suite);
+    add_drawing_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
 }
 

@@ -43,7 +43,7 @@ void add_suite_options(CLI::App& command, SuiteOptions& options) {
     command.add_flag("--quiet", options.quiet, "no progress and no notes on stderr");
 }
 
-void add_choice_options(CLI::App& command, SuiteOptions& options) {
+void add_drawing_options(CLI::App& command, SuiteOptions& options) {
     command
         .add_option("--calibration", options.calibration,
                     "file of 'reljef calibrate': what triangles and rays cost on this machine, for "

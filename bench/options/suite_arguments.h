@@ -20,7 +20,7 @@ namespace reljef::bench {
 void add_suite_options(CLI::App& command, SuiteOptions& options);
 
 /// Adds --calibration and --simd, for suites that draw with `auto` and by rays on the CPU.
-void add_choice_options(CLI::App& command, SuiteOptions& options);
+void add_drawing_options(CLI::App& command, SuiteOptions& options);
 
 /// Sets the picture size to `size` if --quick is given and --size is not.
 SuiteOptions with_quick_size(SuiteOptions options, const CLI::App& command, glm::ivec2 size);

@@ -68,7 +68,7 @@ std::string markdown_report(const Results& raw) {
     check(!raw.rows.empty(), "a report of no rows");
     const Results results = printable(raw);
     std::string text = fmt::format("# reljef-bench {}\n\n", results.rows.front().suite) +
-                       markdown_list(environment_lines(results.environment));
+                       markdown_list(environment_lines(results));
     for (const ReportTable& table : report_tables(results)) {
         text += markdown_table(table);
     }

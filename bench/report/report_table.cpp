@@ -347,13 +347,17 @@ Results printable(Results results) {
     return results;
 }
 
-std::vector<std::string> environment_lines(const Environment& environment) {
+std::vector<std::string> environment_lines(const Results& results) {
+    const Environment& environment = results.environment;
     std::vector<std::string> lines{
         fmt::format("renderer: {}", environment.renderer),
         fmt::format("OpenGL:   {}, context {}", environment.gl, environment.context),
         fmt::format("machine:  {}, {} thread{}; commit {}", environment.cpu, environment.threads,
                     environment.threads == 1 ? "" : "s", environment.commit)};
-    if (!environment.costs.empty()) {
+    const bool has_choice =
+        std::any_of(results.rows.begin(), results.rows.end(),
+                    [](const Row& row) { return row.timing.stats.choice.has_value(); });
+    if (has_choice && !environment.costs.empty()) {
         lines.push_back(fmt::format("auto:     costs {}", environment.costs));
     }
     return lines;

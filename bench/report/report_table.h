@@ -23,7 +23,7 @@ std::vector<ReportTable> report_tables(const Results& results);
 Results printable(Results results);
 
 /// The environment as lines "renderer: …".
-std::vector<std::string> environment_lines(const Environment& environment);
+std::vector<std::string> environment_lines(const Results& results);
 
 /// Sentences that explain the columns.
 std::vector<std::string> column_notes(const Results& results);

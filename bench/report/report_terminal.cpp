@@ -74,7 +74,7 @@ std::string terminal_report(const Results& raw) {
     const std::vector<ReportTable> tables = report_tables(results);
     std::string text =
         fmt::format("{}: frames of the techniques interleaved\n{}\n\n", results.rows.front().suite,
-                    fmt::join(environment_lines(results.environment), "\n"));
+                    fmt::join(environment_lines(results), "\n"));
     std::vector<std::vector<std::string>> lines;
     for (const ReportTable& table : tables) {
         lines.push_back(table.columns);

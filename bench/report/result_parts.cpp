@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view number_word = "%d";
 
-bool is_same(const Environment& a, const Environment& b) {
-    return a.renderer == b.renderer && a.gl == b.gl && a.context == b.context &&
-           a.threads == b.threads && a.cpu == b.cpu && a.commit == b.commit;
-}
-
 template <class Value> void append(std::vector<Value>& all, std::vector<Value>& more) {
     std::move(more.begin(), more.end(), std::back_inserter(all));
 }
@@ -95,7 +90,7 @@ Result<void> check_origins(const std::vector<PartOrigin>& parts) {
             return Error{fmt::format("part {} found, {} was expected",
                                      cli::shard_text(parts[i].shard), cli::shard_text(expected))};
         }
-        if (!is_same(parts[i].environment, parts.front().environment)) {
+        if (parts[i].environment != parts.front().environment) {
             return Error{fmt::format("part {} was measured in another environment than part {}, "
                                      "the same was expected",
                                      cli::shard_text(expected),

@@ -29,6 +29,8 @@ struct Environment {
     std::string cpu;      ///< model name, or "unknown"
     std::string commit;   ///< of the configured sources; "unknown" without git
     std::string costs;    ///< that `auto` chooses by, see session::costs_text; empty: unknown
+
+    friend bool operator==(const Environment&, const Environment&) = default;
 };
 
 /// A part of a run, and where it was measured.

@@ -8,7 +8,7 @@ namespace reljef::bench {
 namespace {
 
 constexpr double frames_over_the_width = 20.0 * 25.0;
-constexpr int steps_to_a_side = 10;
+constexpr int steps_to_a_side = MovingView::half_period / 2;
 
 // 0, 1, ..., 10, 9, ..., -10, -9, ..., 0 and so on.
 int steps_of(int frame) {

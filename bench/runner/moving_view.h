@@ -15,6 +15,8 @@ public:
     using GroundHeight = std::function<double(double x, double y)>; ///< metres
     MovingView(const scene::Camera& camera, const Box& bounds, GroundHeight ground);
 
+    /// Frames from one end of the way to the other.
+    static constexpr int half_period = 20;
     /// Of a frame, from 0 on. No two frames in a row have the same camera.
     [[nodiscard]] scene::Camera at(int frame) const;
 

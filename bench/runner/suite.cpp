@@ -107,6 +107,7 @@ std::vector<Entry> with_null_row(std::vector<Entry> entries) {
         null_entry.row.null_row = true;
         null_entry.row.source.reset();
         null_entry.row.view.reset();
+        null_entry.frames = MovingView::half_period; // elsewhere, or it would find what was cut
         entries.push_back(std::move(null_entry));
     }
     return entries;

@@ -21,7 +21,9 @@ struct TypicalChoice {
 /// What `auto` chose in a view.
 struct Choice {
     int tiles_as_triangles = 0;
-    int tiles_by_rays = 0;   ///< in the view, not counted among the drawn tiles
+    /// In the view, not counted among the drawn tiles. Hidden ones count where rays are so much
+    /// cheaper that none were looked for; so they do for the estimates of triangles.
+    int tiles_by_rays = 0;
     double ray_pixels = 0.0; ///< estimated share of the picture, 0 to 1
     double estimated_ms = 0.0;
     double triangles_ms = 0.0;   ///< estimated for triangles alone

@@ -32,9 +32,8 @@ struct SelectOptions {
     /// Drops tiles behind nearer ground. Without it they are requested and listed, too
     /// (TileDraw::is_hidden): to measure the effect on the picture.
     bool occlusion = true;
-    /// Called with each list that was selected, with tiles that nearer ground hides. It may call
-    /// `drop_hidden`, which drops these; the same list must give the same result. Empty: hidden
-    /// tiles are dropped.
+    /// Changes each selected list; equal lists must get equal results. Tiles that nearer ground
+    /// hides are still in it: `drop_hidden` removes them. Empty: they are removed.
     std::function<void(DrawList&, const std::function<void()>& drop_hidden)> refine = {};
     /// Drops what is outside the frustum. Without it, meshes and terrains in memory are listed
     /// whole. Streams have no tiles there.

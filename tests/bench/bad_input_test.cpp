@@ -56,6 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"lod", "--max-error", "1"}, {"--max-error", "--poses"}},
                     Misuse{{"peers", "--rounds", "0"}, {"--rounds", "'0'"}},
                     Misuse{{"peers", "--csv", "a.csv"}, {"--csv"}},
+                    Misuse{{"peers", "--calibration", "a.json"}, {"--calibration"}},
                     Misuse{{"tables", "--terrain"}, {"--terrain"}},
                     Misuse{{"tables", "natural"}, {"natural"}}));
 

@@ -1,5 +1,6 @@
 #include "engine/session/calibration/calibration.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 #include <utility>
@@ -69,8 +70,11 @@ std::string costs_text(const Costs& costs) {
     }
     std::string text;
     for (const CostField& field : cost_fields) {
-        text +=
-            fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", field.name, costs.*field.member);
+        std::string name = field.name;
+        const std::size_t unit = name.rfind('_');
+        std::replace(name.begin(), name.end(), '_', ' ');
+        text += fmt::format("{}{} {:.4g} {}", text.empty() ? "" : ", ", name.substr(0, unit),
+                            costs.*field.member, name.substr(unit + 1));
     }
     return text;
 }

@@ -27,7 +27,7 @@ struct Calibration {
     friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
-/// "built-in", or else "frame_ms 7.2, triangle_ns 110, …", to four digits.
+/// "built-in", or else "frame 7.2 ms, triangle 110 ns, …", to four digits.
 std::string costs_text(const Costs& costs);
 
 /// A calibration file: JSON.

@@ -232,8 +232,8 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
 
 // Rays alone: the pixels that triangles leave would be the worst ones, and between both there would
 // be cracks.
-void TechniqueChooser::consider_unproven(const DrawList& list, const std::vector<ProbeRay>& probes,
-                                         const ViewCosts& view, Decision& decision) const {
+void TechniqueChooser::consider_unproven(const DrawList& list, const ViewCosts& view,
+                                         Decision& decision) const {
     const TerrainDraw& draw = list.terrains.front();
     const double bound = scene::error_bound(draw.terrain->material.technique);
     if (!error_of_rays(list, draw, steepness_).keeps(bound)) {
@@ -242,6 +242,7 @@ void TechniqueChooser::consider_unproven(const DrawList& list, const std::vector
     const double pixels = static_cast<double>(list.size.x) * list.size.y;
     const TypicalSearch search({list.camera, list.size, glm::dvec3(draw.world_from_local[3])},
                                *draw.terrain->surface);
+    const std::vector<ProbeRay> probes = probe_view(list, draw, nullptr).of_box;
     double limit = share_worth_a_proof * decision.choice.estimated_ms;
     const auto plan_with = [&](const scene::Technique& technique, double steps) {
         return plan_up_to(-1, view, with_search(options_.costs, technique.id(), steps));
@@ -264,14 +265,15 @@ void TechniqueChooser::consider_unproven(const DrawList& list, const std::vector
     }
 }
 
-// Whether the choice may be another one once hidden tiles are dropped.
-bool TechniqueChooser::may_hide_decide(const ViewCosts& view, const Decision& decision) const {
-    if (!decision.search || decision.last_ring >= 0) {
+// Whether the choice may well be another one once hidden tiles are dropped: what probes hit is
+// about what is not hidden.
+bool TechniqueChooser::may_hidden_decide(const ViewCosts& view, const Decision& decision) const {
+    if (!decision.search || decision.last_ring >= 0 || decision.lacks_triangles) {
         return true;
     }
     ViewCosts seen = view;
     for (RingCost& ring : seen.rings) {
-        ring.triangles = ring.seen_triangles;
+        ring.triangles = certain_share * ring.seen_triangles;
     }
     return cheapest_plan(seen, options_.costs).last_ring >= 0;
 }
@@ -284,23 +286,19 @@ TechniqueChooser::Decision TechniqueChooser::decide(const DrawList& list, Kinds 
         return {};
     }
     know(*draw.terrain);
-    const bool is_typical = allows_typical(*draw.terrain); // its trials begin at exact hits
-    const ProbedView probed = probe_view(list, draw, is_typical ? nullptr : &probed_);
+    const ProbedView probed = probe_view(list, draw, &probed_);
     ViewCosts view = view_costs(list, counts_, probed, samples_);
     Decision decision = decide_proven(list, view, kinds);
-    if (may_hide_decide(view, decision)) {
+    if (may_hidden_decide(view, decision)) {
         const std::size_t tiles = list.tiles.size();
         drop_hidden();
-        if (list.tiles.empty()) {
-            return {};
-        }
-        if (list.tiles.size() < tiles) {
+        if (list.tiles.size() < tiles && !list.tiles.empty()) {
             view = view_costs(list, counts_, probed, samples_);
             decision = decide_proven(list, view, kinds);
         }
     }
-    if (is_typical) {
-        consider_unproven(list, probed.of_box, view, decision);
+    if (allows_typical(*draw.terrain)) {
+        consider_unproven(list, view, decision);
     }
     return decision;
 }
@@ -325,10 +323,15 @@ void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_
     }
     Decision decision;
     if (list.camera.whole != glm::ivec2(0) && for_parts_) { // a part
-        drop_hidden();
+        if (!for_parts_->search) {
+            drop_hidden();
+        }
         decision = *for_parts_;
     } else {
         decision = decide(list, Kinds::both, drop_hidden);
+    }
+    if (list.tiles.empty()) {
+        return; // all are hidden
     }
     const auto tiles = static_cast<int>(list.tiles.size());
     if (decision.search) {

@@ -60,10 +60,9 @@ private:
     static ViewPlan cheapest(const ViewCosts& view, const TechniqueCosts& costs, Kinds kinds);
     void know(const scene::TerrainNode& terrain);
     Decision decide(const DrawList& list, Kinds kinds, const std::function<void()>& drop_hidden);
-    [[nodiscard]] bool may_hide_decide(const ViewCosts& view, const Decision& decision) const;
+    [[nodiscard]] bool may_hidden_decide(const ViewCosts& view, const Decision& decision) const;
     Decision decide_proven(const DrawList& list, const ViewCosts& view, Kinds kinds);
-    void consider_unproven(const DrawList& list, const std::vector<ProbeRay>& probes,
-                           const ViewCosts& view, Decision& decision) const;
+    void consider_unproven(const DrawList& list, const ViewCosts& view, Decision& decision) const;
 
     ChoiceOptions options_;
     int samples_ = 1;

@@ -13,7 +13,7 @@ struct RingCost {
     int ring = 0;
     double triangles = 0.0;
     double pixels = 0.0;         ///< of the picture that it covers
-    double seen_triangles = 0.0; ///< of tiles that are certainly not hidden
+    double seen_triangles = 0.0; ///< of tiles that probes hit
 };
 
 /// Which part of a view is drawn as triangles.

@@ -12,7 +12,7 @@
 namespace reljef::view {
 namespace {
 
-constexpr int stride_of_counts = 4; // samples
+constexpr int stride_of_counts = 4; // samples, about
 constexpr int probes_a_count = 3;   // of them, one is cast
 
 // scene::view_ray() of all pixels of a picture, which is affine: three of them give the others.
@@ -41,25 +41,26 @@ private:
 
 } // namespace
 
-ProbedSurface::ProbedSurface(const scene::TerrainSurface& surface) : stride_(stride_of_counts) {
+ProbedSurface::ProbedSurface(const scene::TerrainSurface& surface) {
     const Grid<float>& all = surface.heightfield().heights;
-    const glm::ivec2 samples =
-        glm::max((glm::ivec2(all.cols(), all.rows()) - 1) / stride_ + 1, glm::ivec2(2));
-    heights_ = Grid<float>(samples.x, samples.y);
-    for (int row = 0; row < samples.y; ++row) {
-        for (int col = 0; col < samples.x; ++col) {
-            heights_(col, row) = all.clamped(col * stride_, row * stride_);
+    const glm::ivec2 cells(all.cols() - 1, all.rows() - 1);
+    const glm::ivec2 counted = glm::max(cells / stride_of_counts, glm::ivec2(1));
+    scale_ = {glm::dvec2(cells) / glm::dvec2(counted), 1.0};
+    heights_ = Grid<float>(counted.x + 1, counted.y + 1);
+    for (int row = 0; row <= counted.y; ++row) {
+        for (int col = 0; col <= counted.x; ++col) {
+            const glm::ivec2 sample(glm::round(glm::dvec2(col, row) * glm::dvec2(scale_)));
+            heights_(col, row) = all.clamped(sample.x, sample.y);
         }
     }
     pyramid_ = terrain::MinMaxPyramid(heights_.view());
 }
 
 std::optional<glm::dvec3> ProbedSurface::first_hit(const Ray& sample_ray) const {
-    const glm::dvec3 scale(1.0 / stride_, 1.0 / stride_, 1.0);
     const auto hit = terrain::first_hit(heights_.view(), pyramid_,
-                                        {sample_ray.origin * scale, sample_ray.direction * scale},
+                                        {sample_ray.origin / scale_, sample_ray.direction / scale_},
                                         {0.0, std::numeric_limits<double>::infinity()});
-    return hit ? std::optional(hit->sample / scale) : std::nullopt;
+    return hit ? std::optional(hit->sample * scale_) : std::nullopt;
 }
 
 ProbedView probe_view(const DrawList& list, const TerrainDraw& draw, const ProbedSurface* counted) {

@@ -20,8 +20,8 @@ namespace reljef::view {
 /// Rays of an estimate: columns and rows over the picture.
 inline constexpr glm::ivec2 view_probes{20, 15};
 
-/// Every fourth sample of a terrain in memory: rays that only count pixels take a third of their
-/// time on it, because it fits a processor's cache.
+/// About every fourth sample of a terrain in memory: rays that only count pixels take a third of
+/// their time on it, because it fits a processor's cache.
 class ProbedSurface {
 public:
     ProbedSurface() = default;
@@ -34,7 +34,7 @@ public:
 private:
     Grid<float> heights_;
     terrain::MinMaxPyramid pyramid_;
-    int stride_ = 1;
+    glm::dvec3 scale_{1.0}; // samples of the terrain between two of these
 };
 
 /// What view_probes show.

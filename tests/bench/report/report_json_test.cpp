@@ -23,7 +23,8 @@ TEST(JsonReport, has_the_schema_the_environment_and_a_row_a_technique) {
                                               {"context", "osmesa"},
                                               {"threads", 2},
                                               {"cpu", "a processor"},
-                                              {"commit", "0123456789ab"}}));
+                                              {"commit", "0123456789ab"},
+                                              {"costs", "built-in"}}));
     EXPECT_EQ(report.at("rows").size(), 3U);
 }
 

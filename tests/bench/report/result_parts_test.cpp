@@ -88,6 +88,9 @@ TEST(ResultParts, MissingAndForeignPartsAreRefused) {
     Results other = part(1, 2, "b");
     other.environment.cpu = "another processor";
     EXPECT_THAT(error_of({part(0, 2, "a"), other}), HasSubstr("another environment"));
+    other = part(1, 2, "b");
+    other.environment.costs = "those of a calibration";
+    EXPECT_THAT(error_of({part(0, 2, "a"), other}), HasSubstr("another environment"));
 }
 
 TEST(ResultParts, APartsFileKeepsItsNumber) {

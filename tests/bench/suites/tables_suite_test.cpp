@@ -205,6 +205,7 @@ TEST_F(TablesSuite, environment_is_written_down) {
     EXPECT_EQ(environment.threads, 1U);
     EXPECT_FALSE(environment.cpu.empty());
     EXPECT_FALSE(environment.commit.empty());
+    EXPECT_EQ(environment.costs, "built-in");
 }
 
 TEST_F(TablesSuite, terrain_that_cannot_be_opened_costs_no_measuring) {

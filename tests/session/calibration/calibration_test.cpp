@@ -88,6 +88,12 @@ TEST(Calibration, HoldsInItsPlaceOnly) {
     EXPECT_FALSE(read_costs(folder.path() / "none.json", here_of_test));
 }
 
+TEST(Calibration, CostsHaveAShortText) {
+    EXPECT_EQ(costs_text({}), "built-in");
+    const std::string text = costs_text({.frame_ms = 0.25, .triangle_ns = 123.456});
+    EXPECT_THAT(text, testing::StartsWith("frame 0.25 ms, triangle 123.5 ns, touched pixel "));
+}
+
 TEST(Calibration, CostsFollowFromFrames) {
     // 2 ms; 100 ns a triangle, 30 a touched and 10 a covered pixel; 3 ms and 50 ns a ray; 20 ns a
     // search and 2 a step; of a further sample 1 ms, 5 ns a touched and 4 a covered pixel.

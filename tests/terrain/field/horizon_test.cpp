@@ -196,5 +196,33 @@ TEST(Horizon, NothingIsSaidFromBelowFromBesideOrFromTooClose) {
     EXPECT_FALSE(horizon_of(land, {ground + glm::dvec3(0, 0, 20), 25.0, 0.0}));
 }
 
+TEST(EyeFrame, SamplesAlongALineOfAPlaneAreEvenlySpaced) {
+    const Landscape land("plane", test::plane_heightfield(wave_crests(65, 10.0, 9.0), {30.0, 7.0}),
+                         2.0);
+    test::Chance chance(5);
+    for (int i = 0; i < 1000; ++i) {
+        const glm::dvec3 eye =
+            land.at({chance.between(0.0, 64.0), chance.between(0.0, 64.0)}, 20.0);
+        const auto frame = EyeFrame::create(land.placement, eye);
+        const double azimuth = chance.between(-4.0, 4.0);
+        const glm::dvec2 direction(std::cos(azimuth), std::sin(azimuth));
+        const double along = std::pow(10.0, chance.between(0.0, 6.0));
+        const auto step = frame->samples_a_metre(direction);
+        ASSERT_TRUE(step);
+        const glm::dvec2 expected = *frame->sample_at(direction, along);
+        const glm::dvec2 found = *frame->sample_at(direction, 0.0) + along * *step;
+        // Samples are rounded at 2^-52 of a million metres, seven or thirty to a sample.
+        EXPECT_LT(glm::distance(expected, found), 1e-9) << along;
+    }
+}
+
+TEST(EyeFrame, SamplesAlongALineOfTheEarthAreNot) {
+    const Landscape land(
+        "earth", test::geographic_heightfield(wave_crests(65, 10.0, 9.0), 46.0, 7.0, 0.001));
+    const auto frame = EyeFrame::create(land.placement, land.at({32.0, 32.0}, 20.0));
+    ASSERT_TRUE(frame);
+    EXPECT_FALSE(frame->samples_a_metre({1.0, 0.0}));
+}
+
 } // namespace
 } // namespace reljef::terrain

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 #include <set>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "engine/view/choice/ray_error.h"
 #include "engine/view/select.h"
 #include "tests/render/made_scene.h"
+#include "tests/terrain/chance.h"
 
 namespace reljef::view {
 namespace {
@@ -134,37 +135,41 @@ TEST(ViewPlanTest, CountsSamples) {
     EXPECT_DOUBLE_EQ(plan_up_to(3, view, costs).ms, 2.0 + 3.0 * (100.0 + 2.0 * touched + 20.0));
 }
 
-// A valley behind a ridge: some tiles are hidden.
+// Steps of 900 m every 200 rows, and walls of one sample: the eye sees few tiles.
 Grid<float> valleys_behind_walls() {
     Grid<float> heights = test::hills(700, 700, 20.0);
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
-            heights(col, row) += row % 200 > 140 ? 900.0F : 0.0F;
+            heights(col, row) += row % 200 > 140 ? 900.0F : row % 37 == 0 ? 200.0F : 0.0F;
         }
     }
     return heights;
 }
 
-TEST(TechniqueChooserTest, HiddenTilesAreSearchedForOnlyWhereTheyMayDecide) {
+// By their costs, by a limit of triangles, and by bounds that rays keep or miss.
+TEST(TechniqueChooserTest, HiddenTilesAreLookedForOnlyWhereTheyMayDecide) {
     ChosenView view("auto:error=1", valleys_behind_walls());
     view.camera->get<scene::Camera>()->eye = {0.0, -1500.0, 200.0};
     view.camera->get<scene::Camera>()->target = {0.0, 1500.0, 200.0};
-    const DrawList all = view::select(view.scene, chosen_size, {.occlusion = false}).list;
-    DrawList seen = all;
-    drop_occluded(seen);
-    ASSERT_LT(seen.tiles.size(), all.tiles.size());
+    auto& terrain = *view.node->get<scene::TerrainNode>();
     TechniqueChooser chooser({});
-    std::mt19937 random(19);
-    std::map<bool, int> drops;
+    test::Chance chance(19);
+    const auto any = [&](double low, double high) {
+        return low * std::pow(high / low, chance.between(0.0, 1.0));
+    };
+    std::map<std::pair<bool, bool>, int> cases; // dropped, lacks triangles
     for (int i = 0; i < 300; ++i) {
-        const auto cost = [&](double low, double high) {
-            return low * std::pow(high / low, std::uniform_real_distribution<>()(random));
-        };
-        chooser.set_costs({.triangle_ns = cost(1.0, 1e4),
-                           .touched_pixel_ns = cost(1.0, 1e3),
-                           .rays_ms = cost(1e-2, 10.0),
-                           .ray_pixel_ns = cost(1.0, 1e4)});
-        DrawList of_seen = seen;
+        terrain.material.technique = {scene::Automatic{.error = i % 2 == 0 ? 1.0 : 0.02}};
+        terrain.max_triangles =
+            i % 3 == 0 ? static_cast<std::size_t>(any(1e4, 1e7)) : ~std::size_t{0};
+        const DrawList all = view::select(view.scene, chosen_size, {.occlusion = false}).list;
+        DrawList of_seen = all;
+        drop_occluded(of_seen);
+        ASSERT_LT(of_seen.tiles.size(), all.tiles.size());
+        chooser.set_costs({.triangle_ns = any(1.0, 1e4),
+                           .touched_pixel_ns = any(1.0, 1e3),
+                           .rays_ms = any(1e-2, 10.0),
+                           .ray_pixel_ns = any(1.0, 1e4)});
         chooser.choose(of_seen);
         DrawList of_all = all;
         bool has_dropped = false;
@@ -172,16 +177,19 @@ TEST(TechniqueChooserTest, HiddenTilesAreSearchedForOnlyWhereTheyMayDecide) {
             has_dropped = true;
             drop_occluded(of_all);
         });
-        ++drops[has_dropped];
+        ++cases[{has_dropped, of_all.stats.lacks_triangles}];
         ASSERT_EQ(of_seen.tiles.size(), of_all.tiles.size());
         ASSERT_EQ(of_seen.reliefs.size(), of_all.reliefs.size());
         ASSERT_EQ(of_seen.stats.kept_error, of_all.stats.kept_error);
-        if (has_dropped) {
-            ASSERT_EQ(of_seen.stats.choice, of_all.stats.choice);
-        }
+        ASSERT_EQ(of_seen.stats.lacks_triangles, of_all.stats.lacks_triangles);
+        ASSERT_EQ(of_seen.stats.choice->rays_ms, of_all.stats.choice->rays_ms);
+        ASSERT_EQ(of_seen.stats.choice->estimated_ms, of_all.stats.choice->estimated_ms);
+        ASSERT_EQ(of_seen.stats.choice->ray_pixels, of_all.stats.choice->ray_pixels);
     }
-    EXPECT_GT(drops[false], 30);
-    EXPECT_GT(drops[true], 30);
+    EXPECT_GT((cases[{false, false}]), 30);
+    EXPECT_GT((cases[{true, false}]), 30);
+    EXPECT_GT((cases[{true, true}]), 3);
+    EXPECT_EQ((cases[{false, true}]), 0);
 }
 
 TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {

@@ -79,10 +79,15 @@ TEST(ViewProbes, FewerRaysAndSamplesShowAboutTheSamePixels) {
     }
 }
 
-TEST(ViewProbes, TheSmallestTerrainIsProbed) {
-    const ProbedScene scene(Grid<float>(2, 2, 5.0F), {0.0, 0.0, 30.0});
-    EXPECT_GT(pixels_of(scene.exact()), 0);
-    EXPECT_GT(pixels_of(scene.counted()), 0);
+// From above its middle, a terrain of any size fills the same pixels by all samples and by few.
+TEST(ViewProbes, FewerSamplesCoverTheWholeTerrain) {
+    for (int side = 2; side <= 12; ++side) {
+        const double metres = 10.0 * (side - 1);
+        const ProbedScene scene(Grid<float>(side, side, 5.0F), {0.0, -0.1 * metres, 2.0 * metres});
+        const double all = static_cast<double>(probed_size.x) * probed_size.y;
+        EXPECT_GT(pixels_of(scene.exact()), 0.05 * all) << side;
+        EXPECT_NEAR(pixels_of(scene.exact()), pixels_of(scene.counted()), 0.02 * all) << side;
+    }
 }
 
 } // namespace
