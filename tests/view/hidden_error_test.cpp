@@ -339,7 +339,7 @@ TEST(HiddenError, OfPlacesThatAreSeenIsStated) {
 
 // The horizon that lowered the largest error hides no more of it.
 TEST(HiddenError, LargestIsNotOfGroundThatAFinerHorizonHides) {
-    constexpr int resolution = 4; // of the horizon for the largest errors
+    constexpr int resolution = 8; // of the horizon for the largest errors
     std::mt19937 random(2);
     int compared = 0;
     for (int i = 0; i < 24; ++i) {
