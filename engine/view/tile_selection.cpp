@@ -31,7 +31,7 @@ struct Candidate {
 };
 
 // The horizon by which the largest errors are tightened. It takes long, so only they are.
-constexpr int resolution_for_largest = 4;
+constexpr int resolution_for_largest = 8;
 
 // Lowers the largest errors of proven tiles, until the bound is kept or the largest error is seen.
 void tighten_largest(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
