@@ -175,6 +175,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
                         "keep the numbered pictures of an earlier run of the same command; draw "
                         "those that are missing, damaged or of another size; .png, .jpg or .tif");
     add_show_option(*arguments, choice->shows_choice);
+    arguments->get_option("--show")->excludes(arguments->get_option("--compare"));
     arguments->add_flag("--stats", choice->stats,
                         "print counts and times of the last frame (of a large picture: of all "
                         "parts), and times and memory of all frames");

@@ -44,6 +44,20 @@ Result<std::optional<session::BackendKind>> parse_opengl(const std::string& text
     return kind;
 }
 
+// In smaller pictures, triangles and rays cost too little to tell them apart; larger ones take
+// long.
+Result<glm::ivec2> parse_calibrated_size(const std::string& text) {
+    constexpr glm::ivec2 smallest(320, 240);
+    constexpr int largest_side = 4096;
+    auto size = cli::parse_size(text, largest_side);
+    if (size && (size->x < smallest.x || size->y < smallest.y)) {
+        return Error{fmt::format("--size: {} found, {}x{} or more was expected, in which triangles "
+                                 "and rays take some time",
+                                 text, smallest.x, smallest.y)};
+    }
+    return size;
+}
+
 Result<session::TerrainScene> natural(const CalibrateChoice& choice, session::Log& log,
                                       const std::stop_token& stop) {
     session::SourceOptions source;
@@ -107,10 +121,8 @@ cli::Command add_calibrate_command(CLI::App& program, cli::Interrupt& interrupt)
                     "what draws: egl (GPU without a window) or osmesa (CPU); auto: the first that "
                     "works (auto)",
                     "KIND");
-    cli::add_parsed(
-        *arguments, "--size", choice->size,
-        [](const std::string& text) { return cli::parse_size(text); },
-        "size of the pictures, pixels (1024x768)", "WxH");
+    cli::add_parsed(*arguments, "--size", choice->size, parse_calibrated_size,
+                    "size of the pictures, 320x240 to 4096x4096 pixels (1024x768)", "WxH");
     cli::add_parsed(*arguments, "--threads", choice->threads,
                     cli::number_in<int>("--threads", 0, 1024),
                     "number of threads; 0: one per processor (0)", "N");

@@ -72,8 +72,9 @@ bool suits(scene::TechniqueId id, const SceneChoice& scene) {
     if (id == scene::TechniqueId::texture) {
         return true;
     }
-    return detail->layers ? id == detail->technique
-                          : id != scene::TechniqueId::polygons && !scene::searches_layers(id);
+    const bool is_of_terrain =
+        id == scene::TechniqueId::polygons || id == scene::TechniqueId::automatic;
+    return detail->layers ? id == detail->technique : !is_of_terrain && !scene::searches_layers(id);
 }
 
 std::vector<scene::TechniqueInfo> techniques_of(const SceneChoice& scene) {

@@ -44,7 +44,8 @@ struct TileDraw {
     bool is_hidden = false;                 ///< behind nearer ground
     /// How far the tile is from all samples at most if it is proven, otherwise an estimate; pixels.
     double error = 0.0;
-    double triangle_error = 0.0; ///< left for its triangles, pixels; 0 without an error bound
+    double error_with_hidden = 0.0; ///< see TileSelection::Drawn
+    double triangle_error = 0.0;    ///< left for its triangles, pixels; 0 without an error bound
 
     /// Whether `error` is proven, of every pixel.
     [[nodiscard]] bool is_proven() const {

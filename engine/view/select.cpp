@@ -268,6 +268,7 @@ private:
         const auto add = [&](TileSelection::Drawn& drawn, bool is_hidden) {
             draw.tile = std::move(drawn.tile);
             draw.error = drawn.error;
+            draw.error_with_hidden = drawn.error_with_hidden;
             draw.triangle_error = bound > 0.0 ? triangle_error(bound, drawn.error, worst) : 0.0;
             draw.is_hidden = is_hidden;
             draw.coarse = coarseness && !is_hidden;

@@ -63,7 +63,7 @@ void tighten_largest(std::vector<TileSelection::Drawn>& drawn, const StreamView&
 void tighten(std::vector<TileSelection::Drawn>& drawn, const StreamView& view,
              NearerGround& nearer) {
     const auto is_hidden = [&](const Box& box) { return nearer.hides(box, view.along(box)); };
-    for (auto& [tile, distance, error] : drawn) {
+    for (auto& [tile, distance, error, error_with_hidden] : drawn) {
         if (tile->is_proven && view.is_over_share(error)) {
             error = std::min(error, view.tight_error_of(*tile, is_hidden));
         }
@@ -75,7 +75,7 @@ TileSelection::Drawn drawn_of(const StreamView& view,
                               std::shared_ptr<const scene::TerrainTile> tile) {
     const double distance = view.distance_to(tile->bounds);
     const double error = view.error_of(*tile);
-    return {std::move(tile), distance, error};
+    return {std::move(tile), distance, error, error};
 }
 
 struct WalkLimits {

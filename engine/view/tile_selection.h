@@ -18,6 +18,9 @@ struct TileSelection {
         double distance = 0.0; ///< from the eye to the nearest point of its bounds, metres
         /// How far its vertices are off at most if it is proven, otherwise an estimate; pixels.
         double error = 0.0;
+        /// The same with the parts that nearer ground hides, if its triangles are off by no more
+        /// than the error bound.
+        double error_with_hidden = 0.0;
     };
     std::vector<Drawn> drawn;                 ///< from the eye outwards
     std::vector<Drawn> hidden;                ///< loaded tiles behind the drawn ones

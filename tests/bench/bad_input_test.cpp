@@ -43,6 +43,8 @@ INSTANTIATE_TEST_SUITE_P(
                            {"--technique: displacement", "shows nothing of natural, urban"}},
                     Misuse{{"pareto", "--terrain", "gallery", "--technique", "polygons"},
                            {"--technique: polygons:lods=1", "shows nothing of gallery"}},
+                    Misuse{{"tables", "--terrain", "gallery", "--technique", "auto"},
+                           {"--technique: auto:error=1", "shows nothing of gallery"}},
                     Misuse{{"tables", "--rounds", "0"}, {"--rounds", "'0'"}},
                     Misuse{{"tables", "--rounds", "many"}, {"--rounds", "'many'"}},
                     Misuse{{"tables", "--threads", "-1"}, {"--threads", "'-1'"}},

@@ -47,6 +47,16 @@ view::Coarsening coarser(const terrain::ErrorView& view, const view::Coarsening&
                : view::Coarsening{min_error, 0};
 }
 
+// Of the tile's vertices, pixels. What is hidden by nearer ground shows where the triangles of that
+// ground are off by more than the bound.
+double tile_error(const view::TileDraw& draw, const view::Coarseness& coarseness,
+                  const view::Coarsening& coarsening) {
+    const auto* const bound = std::get_if<terrain::ErrorView>(&coarseness);
+    const bool is_beyond =
+        bound != nullptr && (coarsening.min_size > 0 || coarsening.min_error > bound->max_error);
+    return is_beyond ? std::max(draw.error, draw.error_with_hidden) : draw.error;
+}
+
 std::size_t triangle_count(const view::CutMesh& mesh) {
     std::size_t indices = 0;
     for (const terrain::Triangulation& part : mesh.parts) {
@@ -288,8 +298,9 @@ std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const
         const terrain::Bisection* const bisection =
             by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
         const view::TileSurface surface = view::surface_of(*draw);
-        const view::CutOptions options{bisection, draw->error, draw->triangle_error,
-                                       group.coarsening, is_limited ? &budget : nullptr};
+        const view::CutOptions options{
+            bisection, tile_error(*draw, group.coarseness, group.coarsening), draw->triangle_error,
+            group.coarsening, is_limited ? &budget : nullptr};
         cuts.meshes[at] = view::cut_tile(group.coarseness, surface, options, entry->last);
         if (has_seams(*draw)) {
             cuts.borders[at] = view::border_of(surface, cuts.meshes[at]);

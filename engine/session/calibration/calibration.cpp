@@ -44,15 +44,18 @@ constexpr std::array place_fields{PlaceField{"machine", &CalibrationPlace::machi
                                   PlaceField{"context", &CalibrationPlace::context},
                                   PlaceField{"renderer", &CalibrationPlace::renderer}};
 
+std::string shortened(std::string text) {
+    constexpr std::size_t longest = 100;
+    return text.size() > longest ? text.substr(0, longest) + "…" : text;
+}
+
 // "triangle_ns -1", or "no triangle_ns".
 std::string found_text(const Json& json, const char* name) {
-    constexpr std::size_t longest = 40;
     if (!json.is_object() || !json.contains(name)) {
         return fmt::format("no {}", name);
     }
-    std::string value = json[name].dump(-1, ' ', true, Json::error_handler_t::replace);
     return fmt::format("{} {}", name,
-                       value.size() > longest ? value.substr(0, longest) + "…" : value);
+                       shortened(json[name].dump(-1, ' ', true, Json::error_handler_t::replace)));
 }
 
 constexpr const char* remedy = "'reljef calibrate -o FILE' measures this machine, and without "
@@ -137,7 +140,7 @@ Result<Costs> read_costs(const std::filesystem::path& file, const CalibrationPla
         const std::string& expected = here.*field.member;
         if (found != expected) {
             return Error{fmt::format("{}: {} '{}' found, '{}' was expected; {}", file.string(),
-                                     field.name, found, expected, remedy)};
+                                     field.name, shortened(found), expected, remedy)};
         }
     }
     return calibration->costs;

@@ -128,5 +128,24 @@ TEST_F(DriverGlTest, CliffsNearTheEyeTakeNoMoreTrianglesThanAllowedAndTheErrorIs
         [](const Hit& a, const Hit& b) { return a.depth == b.depth && a.col == b.col; }));
 }
 
+// Nearer ground whose triangles are off by more than the bound hides less than it was thought to.
+TEST_F(DriverGlTest, TooFewTrianglesStateTheErrorOfWhatTheyHide) {
+    constexpr double error_with_hidden = 7.0;
+    World world;
+    set_technique(*world.terrain, "polygons:error=0.25");
+    Driver made = test::must(Driver::create({.size = size, .shader_dir = {}}));
+    view::FrameView frame = view::select(world.scene, size);
+    for (view::TileDraw& draw : frame.list.tiles) {
+        draw.error_with_hidden = error_with_hidden;
+    }
+    const view::FrameStats all = test::must(made.draw(frame, false));
+    ASSERT_FALSE(all.lacks_triangles);
+    EXPECT_LT(all.kept_error.value(), error_with_hidden);
+    world.terrain->get<scene::TerrainNode>()->max_triangles = all.triangles / 8;
+    const view::FrameStats some = test::must(made.draw(frame, false));
+    ASSERT_TRUE(some.lacks_triangles);
+    EXPECT_GE(some.kept_error.value(), error_with_hidden);
+}
+
 } // namespace
 } // namespace reljef::render

@@ -101,7 +101,7 @@ TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
         world.bring();
         std::set<TreeTile> drawn;
         const view::TileSelection choice = world.choice();
-        for (const auto& [tile, distance, error] : choice.drawn) {
+        for (const auto& [tile, distance, error, error_with_hidden] : choice.drawn) {
             drawn.insert(tile->id);
             const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
             const double spacing = world.stream->maker().spacing(tile->id.level);

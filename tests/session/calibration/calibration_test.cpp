@@ -85,6 +85,10 @@ TEST(Calibration, HoldsInItsPlaceOnly) {
         ASSERT_FALSE(costs);
         EXPECT_THAT(costs.error().message, HasSubstr("'another' was expected"));
     }
+    Calibration elsewhere = made_calibration();
+    elsewhere.place.renderer = std::string(100'000, 'r');
+    ASSERT_TRUE(write_text_file(file, to_text(elsewhere)));
+    EXPECT_LT(read_costs(file, here_of_test).error().message.size(), 1000U);
     EXPECT_FALSE(read_costs(folder.path() / "none.json", here_of_test));
 }
 
