@@ -18,6 +18,7 @@ struct ProbeRay {
     Ray ray;                       ///< local metres of the terrain, as scene::view_ray
     glm::dvec2 pixel{0.0};         ///< of the picture
     std::optional<glm::dvec3> hit; ///< col, row, height in metres; absent: the ray misses
+    glm::ivec2 place{0};           ///< column and row among the probes
 };
 
 /// What a search found along probes.

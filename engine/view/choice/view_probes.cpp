@@ -39,6 +39,54 @@ private:
     Ray below_;
 };
 
+// Where rays in the terrain's metres hit it, in samples.
+class ProbeCaster {
+public:
+    ProbeCaster(const scene::TerrainSurface& surface, const ProbedSurface* counted)
+        : surface_(surface), counted_(counted) {}
+
+    [[nodiscard]] std::optional<glm::dvec3> first_hit(const Ray& ray) {
+        if (counted_ != nullptr) {
+            if (const auto line = terrain::sample_ray_on_plane(surface_.placement(), ray)) {
+                return counted_->first_hit(*line);
+            }
+        }
+        if (!exact_) {
+            exact_.emplace(surface_.heightfield().heights.view(), surface_.pyramid(),
+                           surface_.placement());
+        }
+        const auto hit = exact_->first_hit(ray);
+        return hit ? std::optional(hit->sample) : std::nullopt;
+    }
+
+private:
+    const scene::TerrainSurface& surface_;
+    const ProbedSurface* counted_;
+    std::optional<terrain::SurfaceCaster> exact_;
+};
+
+// The probes through the box around the terrain, not cast.
+std::vector<ProbeRay> probes_of_box(const DrawList& list, const TerrainDraw& draw) {
+    const Box bounds = draw.terrain->surface->bounds();
+    const glm::dvec3 offset(draw.world_from_local[3]);
+    const ViewRays rays(list.camera, list.size);
+    std::vector<ProbeRay> probes;
+    probes.reserve(static_cast<std::size_t>(view_probes.x) * view_probes.y);
+    for (int row = 0; row < view_probes.y; ++row) {
+        for (int col = 0; col < view_probes.x; ++col) {
+            const glm::ivec2 place(col, row);
+            const glm::dvec2 pixel =
+                (glm::dvec2(place) + 0.5) / glm::dvec2(view_probes) * glm::dvec2(list.size);
+            Ray ray = rays.at(pixel);
+            ray.origin -= offset;
+            if (intersect(ray, bounds)) {
+                probes.push_back({ray, pixel, std::nullopt, place});
+            }
+        }
+    }
+    return probes;
+}
+
 } // namespace
 
 ProbedSurface::ProbedSurface(const scene::TerrainSurface& surface) {
@@ -66,46 +114,22 @@ std::optional<glm::dvec3> ProbedSurface::first_hit(const Ray& sample_ray) const 
 ProbedView probe_view(const DrawList& list, const TerrainDraw& draw, const ProbedSurface* counted) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
     const Grid<float>& heights = surface.heightfield().heights;
-    std::optional<terrain::SurfaceCaster> caster;
     const glm::ivec2 last_tile =
         (glm::ivec2(heights.cols(), heights.rows()) - 2) / terrain::tile_cells;
-    const auto hit_by = [&](const Ray& ray) -> std::optional<glm::dvec3> {
-        const auto sample_ray =
-            counted ? terrain::sample_ray_on_plane(surface.placement(), ray) : std::nullopt;
-        if (sample_ray) {
-            return counted->first_hit(*sample_ray);
-        }
-        if (!caster) {
-            caster.emplace(heights.view(), surface.pyramid(), surface.placement());
-        }
-        const auto hit = caster->first_hit(ray);
-        return hit ? std::optional(hit->sample) : std::nullopt;
-    };
-    const glm::dvec3 offset(draw.world_from_local[3]);
-    const ViewRays rays(list.camera, list.size);
-    const int step = counted ? probes_a_count : 1;
+    const int step = counted != nullptr ? probes_a_count : 1;
     const double pixels_a_probe = step * static_cast<double>(list.size.x) * list.size.y /
                                   (static_cast<double>(view_probes.x) * view_probes.y);
-    ProbedView probed;
-    probed.of_box.reserve(static_cast<std::size_t>(view_probes.x) * view_probes.y);
-    for (int row = 0; row < view_probes.y; ++row) {
-        for (int col = 0; col < view_probes.x; ++col) {
-            const glm::dvec2 pixel =
-                (glm::dvec2(col, row) + 0.5) / glm::dvec2(view_probes) * glm::dvec2(list.size);
-            Ray ray = rays.at(pixel);
-            ray.origin -= offset;
-            if (!intersect(ray, surface.bounds())) {
-                continue;
-            }
-            ProbeRay& probe = probed.of_box.emplace_back(ProbeRay{ray, pixel, std::nullopt});
-            if ((col + row) % step == 0) {
-                probe.hit = hit_by(ray);
-            }
-            if (probe.hit) {
-                const glm::ivec2 tile =
-                    glm::min(glm::ivec2(*probe.hit) / terrain::tile_cells, last_tile);
-                probed.tile_pixels[{tile.x, tile.y}] += pixels_a_probe;
-            }
+    ProbeCaster caster(surface, counted);
+    ProbedView probed{{}, probes_of_box(list, draw)};
+    for (ProbeRay& probe : probed.of_box) {
+        if ((probe.place.x + probe.place.y) % step != 0) {
+            continue;
+        }
+        probe.hit = caster.first_hit(probe.ray);
+        if (probe.hit) {
+            const glm::ivec2 tile =
+                glm::min(glm::ivec2(*probe.hit) / terrain::tile_cells, last_tile);
+            probed.tile_pixels[{tile.x, tile.y}] += pixels_a_probe;
         }
     }
     return probed;

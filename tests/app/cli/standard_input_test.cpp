@@ -73,8 +73,12 @@ TEST_F(StandardInput, ThatNeedsAFileNameSaysSo) {
 
 // The second signal ends a run without cleanup; SIGKILL does it, too.
 TEST_F(StandardInput, WhatAKilledRunLeftIsRemovedByTheNext) {
-    const auto killed = in_shell(
-        "(cat '" + dem_ + "'; sleep 1) | timeout -s KILL 0.5 " + reljef_ + "info -", folder_);
+    const std::string temporary = (folder_.path() / "temporary").string();
+    const auto killed = in_shell("(cat '" + dem_ + "'; sleep 20) 2>&- | " + reljef_ +
+                                     "info - & n=0; until [ -n \"$(ls -A '" + temporary +
+                                     "')\" ] || [ $n -ge 400 ]; do sleep 0.05; n=$((n + 1)); "
+                                     "done; kill -KILL $!",
+                                 folder_);
     EXPECT_FALSE(std::filesystem::is_empty(folder_.path() / "temporary")) << killed.err;
     const auto next = in_shell(reljef_ + "info - < '" + dem_ + "'", folder_);
     EXPECT_EQ(next.exit_code, 0) << next.err;
