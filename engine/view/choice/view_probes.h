@@ -20,8 +20,8 @@ namespace reljef::view {
 /// Rays of an estimate: columns and rows over the picture.
 inline constexpr glm::ivec2 view_probes{20, 15};
 
-/// About every fourth sample of a terrain in memory: rays that only count pixels take a third of
-/// their time on it, because it fits a processor's cache.
+/// About every fourth sample of a terrain in memory: rays that only count pixels take half to two
+/// thirds of their time on it, because it fits a processor's cache.
 class ProbedSurface {
 public:
     ProbedSurface() = default;
