@@ -209,8 +209,12 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
         return;
     }
     if (!over_ || *stats_.kept_error > over_->kept_error) {
-        over_ = {*stats_.kept_error, *bound, over_ ? over_->memory : MemoryForBound{},
-                 over_ && over_->misses_tiles, over_ && over_->lacks_triangles};
+        over_ = {*stats_.kept_error,
+                 *bound,
+                 over_ ? over_->memory : MemoryForBound{},
+                 over_ && over_->misses_tiles,
+                 over_ && over_->lacks_triangles,
+                 over_ && over_->by_rounding};
     }
     const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
     if (needed.growth > over_->memory.growth) {
@@ -218,6 +222,7 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     }
     over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
     over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
+    over_->by_rounding = over_->by_rounding || stats_.exceeded_by_rounding;
 }
 
 void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
@@ -229,6 +234,9 @@ void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
 }
 
 std::string DeviceFrames::remedy() const {
+    if (over_->by_rounding) {
+        return "floats are too coarse for so narrow or far a view";
+    }
     const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
     if (megabytes > options_.memory_megabytes || over_->lacks_triangles) {
         return over_->memory.is_enough && !over_->lacks_triangles

@@ -12,8 +12,12 @@
 
 #include "engine/core/check.h"
 
-// Where the near plane cuts a triangle of size s, its corners are up to f s / near pixels outside
-// the picture. Rasterizers interpolate places between them in floats.
+// Floats round the place of a vertex in a few steps: relative to the eye, in the world's axes, in
+// the picture, and on the rasterizer's grid. Each is a share of its distance from the eye, which
+// the picture shows as at most f / cos^2(a) pixels, where a is the angle of the corner from the
+// middle; without perspective, as the distance times the pixels per metre. A triangle of size s at
+// a depth of z has corners up to f s / z pixels outside the picture, and rasterizers interpolate
+// places between them in floats.
 //
 // A pixel shows a point A of a triangle, which belongs at B = A + D. Along the view's right, up and
 // forward axes A = (Ax, Ay, Az). With f pixels per radian at the middle of the picture
@@ -27,6 +31,11 @@ namespace {
 
 // Of a float, and of the few operations that interpolate it.
 constexpr double rounded = 0x1p-23;
+// The operations that round a vertex one after the other: 3 relative to the eye, 4 and 5 for two
+// matrices, 4 for the grid, 8 for places that are interpolated from there.
+constexpr double rounded_vertex = 24.0 * 0x1p-24;
+// Share of the bound that triangles get at least: better ones would hardly change the picture.
+constexpr double min_left = 0.5;
 
 // Bounds the factor by which a transform lengthens a vector.
 double max_stretch(const glm::dmat3& axes) {
@@ -56,6 +65,24 @@ std::array<glm::dvec4, 5> frustum_sides(const glm::dmat4& clip_from_local) {
         side /= glm::length(glm::dvec3(side));
     }
     return sides;
+}
+
+// At the middle of the picture.
+double pixels_per_radian(const scene::Camera& camera, glm::ivec2 size) {
+    return 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov));
+}
+
+// Pixels, at most.
+double rounding_of_vertices(const scene::Camera& camera, glm::ivec2 size) {
+    const double diagonal = glm::length(glm::dvec2(scene::whole_picture(camera, size))); // pixels
+    if (camera.projection == scene::ProjectionKind::perspective) {
+        const double focal = pixels_per_radian(camera, size);
+        return rounded_vertex * (focal + 0.25 * diagonal * diagonal / focal);
+    }
+    const double pixels_per_metre = size.y / camera.view_height;
+    const double farthest =
+        std::max(std::abs(camera.orthographic_near), std::abs(camera.orthographic_far));
+    return rounded_vertex * (pixels_per_metre * farthest + 0.5 * diagonal);
 }
 
 // Whether the transform keeps lengths and angles.
@@ -92,15 +119,20 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                                world_from_local);
     view.depth = glm::dvec4(glm::transpose(axes) * forward, glm::dot(forward, offset));
     view.near = camera.near;
+    view.vertex_rounding = rounding_of_vertices(camera, size);
+    const double left = view.max_error - view.vertex_rounding;
+    view.exceeded_by_rounding = left < min_left * view.max_error;
+    // Their sum, rounded, is within the bound, too.
+    view.max_error = std::max(left, min_left * view.max_error) * (1.0 - 0x1p-50);
     const glm::dvec3 metre_up = axes[2];
     if (!view.perspective) {
         const double across = glm::length(metre_up - forward * glm::dot(forward, metre_up));
         view.scale = size.y / camera.view_height * (is_vertical ? across : view.stretch);
         return view;
     }
-    const double focal = 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov));
+    const double focal = pixels_per_radian(camera, size);
     view.scale = focal * (is_vertical ? glm::length(metre_up) : view.stretch);
-    view.rounding_at_near = rounded * focal / camera.near;
+    view.rounding_between = rounded * focal;
     view.max_rounding = interpolation_error;
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);
     view.lateral_axes = lateral * axes;

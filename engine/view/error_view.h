@@ -16,7 +16,7 @@ namespace reljef::view {
 
 /// Steps per pixel of the grid to which rasterizers snap vertices, in practice.
 inline constexpr float vertex_steps = 256.0F;
-/// The error of places that are interpolated in floats, pixels.
+/// The error of places that are interpolated in floats between a triangle's corners, pixels.
 inline constexpr double interpolation_error = 0.75 / 256.0;
 /// The rasterizer's part of the error, pixels: half the diagonal of a step, and interpolation.
 inline constexpr double rasterizer_error = 0.75 / 256.0 + interpolation_error;
@@ -30,11 +30,17 @@ inline constexpr double max_error = scene::max_polygons_error;
 inline constexpr double morph_from = 0.5;
 
 /// How a picture of `size` pixels shows displacements of a terrain placed as `kind` in a node: at
-/// most `max_error` pixels, the rasterizer's error included. Preconditions: max_error >
+/// most `max_error` pixels, the rasterizer's error and the rounding of floats included, unless the
+/// rounding takes nearly all of it (exceeded_by_rounding). Preconditions: max_error >
 /// rasterizer_error, world_from_local is affine.
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
                               double max_error);
+
+/// How far what triangles within the view's error show is off in all, pixels.
+inline double error_with_rounding(const terrain::ErrorView& view) {
+    return view.max_error + view.vertex_rounding + rasterizer_error;
+}
 
 /// A picture with more around it.
 struct WiderPicture {

@@ -52,7 +52,8 @@ struct FrameStats {
     /// Whether triangles had larger errors than the bound leaves them, to fit their number, or rays
     /// that miss the bound were drawn instead.
     bool lacks_triangles = false;
-    std::optional<Choice> choice; ///< of `auto`
+    bool exceeded_by_rounding = false; ///< see terrain::ErrorView
+    std::optional<Choice> choice;      ///< of `auto`
     int reliefs_as_triangles = 0; ///< on the ellipsoid, where a view bends rays too much to search
     std::size_t rays = 0;         ///< cast on the CPU
     int draws = 0;                ///< draw calls, the sky's included

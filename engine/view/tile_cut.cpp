@@ -48,7 +48,7 @@ CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
             return {};
         }
         cut.parts = std::move(triangles.parts);
-        cut.error = options.error + triangles.error + rasterizer_error;
+        cut.error = options.error + triangles.error + view.vertex_rounding + rasterizer_error;
     } else {
         cut.parts = {terrain::triangulate_patches(std::get<Grid<std::uint8_t>>(coarseness),
                                                   surface.samples)};

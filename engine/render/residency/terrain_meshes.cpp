@@ -53,7 +53,8 @@ double tile_error(const view::TileDraw& draw, const view::Coarseness& coarseness
                   const view::Coarsening& coarsening) {
     const auto* const bound = std::get_if<terrain::ErrorView>(&coarseness);
     const bool is_beyond =
-        bound != nullptr && (coarsening.min_size > 0 || coarsening.min_error > bound->max_error);
+        bound != nullptr && (coarsening.min_size > 0 || coarsening.min_error > bound->max_error ||
+                             bound->exceeded_by_rounding);
     return is_beyond ? std::max(draw.error, draw.error_with_hidden) : draw.error;
 }
 
@@ -357,7 +358,8 @@ Result<void> TerrainMeshes::cut(const view::DrawList& list, Group& group, const 
         return done;
     }
     stats.lacks_triangles = stats.lacks_triangles || group.coarsening != view::Coarsening{};
-    if (std::holds_alternative<terrain::ErrorView>(group.coarseness)) {
+    if (const auto* const bound = std::get_if<terrain::ErrorView>(&group.coarseness)) {
+        stats.exceeded_by_rounding = stats.exceeded_by_rounding || bound->exceeded_by_rounding;
         add_kept_errors(group, draws, stats);
     }
     return {};

@@ -116,7 +116,7 @@ double depth_of(const ErrorView& view, const Split& split) {
 
 // Pixels by which floats round the places of a visible split's triangles.
 double rounding_of(const ErrorView& view, const Split& split, double depth) {
-    return depth <= view.near ? view.rounding_at_near * view.stretch * split.radius : 0.0;
+    return view.rounding_between * view.stretch * split.radius / std::max(depth, view.near);
 }
 
 // Whether the screen-space error of a visible split may exceed the bound. Precondition: its error

@@ -26,9 +26,11 @@ struct ErrorView {
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible
-    /// Pixels by which places of a triangle that the near plane cuts are rounded, per metre of its
-    /// sphere's radius, and their bound: such triangles are split as far as it demands.
-    double rounding_at_near = 0.0;
+    double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
+    bool exceeded_by_rounding = false; ///< it leaves too little of the bound: max_error is larger
+    /// Pixels by which places between a triangle's corners are rounded, times depth over the radius
+    /// of its sphere, and their bound: triangles are split as far as it demands.
+    double rounding_between = 0.0;
     double max_rounding = 0.0;
     int min_size = 0;             ///< of squares that are split, steps
     glm::dmat3 lateral_axes{1.0}; ///< the lateral distance is |lateral_axes · p + origin|

@@ -15,6 +15,7 @@
 
 #include "engine/terrain/mesh/tile_layout.h"
 #include "engine/view/choice/ray_error.h"
+#include "engine/view/error_view.h"
 #include "engine/view/sample_count.h"
 
 namespace reljef::view {
@@ -207,10 +208,12 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     const ViewPlan triangles = plan_up_to(last_ring, view, options_.costs);
     decision.choice.triangles_ms = triangles.ms;
     decision.choice.touched_pixels = triangles.touched_pixels;
-    // With fewer triangles than they need, they are off by more, about in proportion.
     const double bound = scene::error_bound(draw.terrain->material.technique);
+    const auto& error_view = std::get<terrain::ErrorView>(*draw.coarseness);
+    const double of_all = std::max(bound, error_with_rounding(error_view));
+    // With fewer triangles than they need, they are off by more, about in proportion.
     const double by_triangles =
-        bound * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
+        of_all * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
     const auto kept = kept_by_rays(error_of_rays(list, draw, steepness_), bound, by_triangles);
     if (!kept) {
         decision.choice.estimated_ms = triangles.ms;
@@ -225,7 +228,8 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     if (best.last_ring < last_ring) {
         decision.search = scene::make_technique(scene::TechniqueId::exact);
         decision.kept_error = kept;
-        decision.lacks_triangles = *kept > bound;
+        decision.exceeded_by_rounding = *kept > bound && error_view.exceeded_by_rounding;
+        decision.lacks_triangles = *kept > bound && !decision.exceeded_by_rounding;
     }
     return decision;
 }
@@ -338,6 +342,7 @@ void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_
         split_at(list, decision.last_ring, *decision.search);
         list.stats.kept_error = decision.kept_error; // by rays; triangles state their own
         list.stats.lacks_triangles = decision.lacks_triangles;
+        list.stats.exceeded_by_rounding = decision.exceeded_by_rounding;
     }
     decision.choice.tiles_as_triangles = static_cast<int>(list.tiles.size());
     decision.choice.tiles_by_rays = tiles - decision.choice.tiles_as_triangles;

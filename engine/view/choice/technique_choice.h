@@ -53,8 +53,9 @@ private:
         Choice choice;
         int last_ring = 0; ///< of triangles; `search` draws the other rings
         std::optional<scene::Technique> search;
-        std::optional<double> kept_error; ///< by rays, pixels
-        bool lacks_triangles = false;     ///< rays miss the bound, and too few triangles fit
+        std::optional<double> kept_error;  ///< by rays, pixels
+        bool lacks_triangles = false;      ///< rays miss the bound, and too few triangles fit
+        bool exceeded_by_rounding = false; ///< see FrameStats
     };
     enum class Kinds { one, both };
     static ViewPlan cheapest(const ViewCosts& view, const TechniqueCosts& costs, Kinds kinds);

@@ -112,6 +112,22 @@ inline scene::Camera camera_near_the_ground(test::Chance& chance,
     return camera;
 }
 
+// A telescope, or the same without perspective: a field of view of 0.001 to 1 degree.
+inline scene::Camera narrow_camera(test::Chance& chance, const scene::TerrainSurface& surface) {
+    const glm::dvec3 middle = surface.bounds().center();
+    const double distance = surface.bounds().size().x * std::exp(chance.between(-1.0, 8.0));
+    const glm::dvec3 away(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
+                          chance.between(0.2, 1.0));
+    scene::Camera camera;
+    camera.eye = middle + distance * glm::normalize(away);
+    camera.target = middle;
+    camera.vertical_fov = std::pow(10.0, chance.between(-3.0, 0.0));
+    camera.view_height = 2.0 * distance * std::tan(0.5 * glm::radians(camera.vertical_fov));
+    camera.projection =
+        chance.one_in(3) ? scene::ProjectionKind::orthographic : scene::ProjectionKind::perspective;
+    return camera;
+}
+
 using ChanceCamera = scene::Camera (*)(test::Chance&, const scene::TerrainSurface&);
 
 struct PromiseOptions {

@@ -164,6 +164,24 @@ TEST_F(PolygonsErrorGlTest, NorOnARealTerrain) {
         promise_over(test::plane_heightfield(real_heights({700, 100}, 400), {65.0, 92.6}), 40, 5));
 }
 
+// Floats resolve 2^-24 of a distance, which narrow views show as pixels.
+TEST_F(PolygonsErrorGlTest, NarrowViewsStateWhatFloatsRound) {
+    for (const char* technique : {"polygons:error={}", "auto:error={}"}) {
+        PromiseOptions options;
+        options.poses = 60;
+        options.seed = 12;
+        options.technique = technique;
+        options.any_camera = narrow_camera;
+        const Promise promise =
+            promise_over(test::plane_heightfield(test::hills(380, 361, 60.0)), options);
+        EXPECT_GT(promise.pixels, 100000);
+        EXPECT_EQ(promise.violations, 0) << technique << ": " << promise.worst;
+        EXPECT_EQ(promise.holes, 0);
+        EXPECT_GT(promise.worst, 0.1);
+        EXPECT_GT(promise.stated, 2.0);
+    }
+}
+
 TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
     scene::Scene scene;
     scene::Node& node =
