@@ -260,8 +260,9 @@ void add_daylight_options(CLI::App& command, ViewChoice& choice) {
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),
                "haze of the air, 1 (none) to 10: colours of sun, sky and distance (1.4)", "T");
     add_parsed(
-        command, "--visibility", choice.visibility, number_in("--visibility", 0.0, 1e9, true),
-        "metres to 2 % contrast at the lowest ground (10 widths of the terrain, at least 30,000)",
+        command, "--visibility", choice.visibility, number_in("--visibility", 0.0, 1e9),
+        "metres to 2 % contrast at the lowest ground; 0: no haze (10 widths of the terrain, at "
+        "least 30,000)",
         "M");
     add_parsed(command, "--base", choice.base,
                word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},

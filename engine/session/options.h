@@ -108,12 +108,13 @@ struct SceneOptions {
     std::optional<glm::dvec3> eye;    ///< scene metres; together with `target`
     std::optional<glm::dvec3> target; ///< scene metres
     std::optional<GeodeticView> geodetic;
-    std::optional<scene::Pose> pose;  ///< without any of these, the scene file's, else all is seen
-    std::optional<SunChoice> sun;     ///< absent: the scene file's
-    std::optional<double> turbidity;  ///< [1, 10]; absent: the scene file's, else clear air
-    std::optional<double> visibility; ///< metres; absent: the scene file's, else by the size
-    std::optional<BaseKind> base;     ///< absent: the scene file's, else a plane
-    std::optional<bool> hides_sky;    ///< absent: the scene file's, else true
+    std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
+    std::optional<SunChoice> sun;    ///< absent: the scene file's
+    std::optional<double> turbidity; ///< [1, 10]; absent: the scene file's, else clear air
+    std::optional<double>
+        visibility; ///< metres; 0: no haze; absent: the scene file's, else by the size
+    std::optional<BaseKind> base;                      ///< absent: the scene file's, else a plane
+    std::optional<bool> hides_sky;                     ///< absent: the scene file's, else true
     std::vector<io::ObjectDescription> objects;        ///< besides the scene file's
     std::vector<io::FootprintsDescription> footprints; ///< besides the scene file's
     bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)

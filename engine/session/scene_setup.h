@@ -19,7 +19,7 @@ namespace reljef::session {
 /// What surrounds a terrain, besides the sun.
 struct Surroundings {
     double turbidity = scene::default_turbidity;
-    std::optional<double> visibility; ///< metres; absent: by the terrain's size
+    std::optional<double> visibility; ///< metres; 0: no haze; absent: by the terrain's size
     BaseKind base = BaseKind::plane;
 };
 

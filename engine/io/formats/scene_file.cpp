@@ -16,6 +16,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::max();
 constexpr NumberRange positive{0.0, unlimited, true};
+constexpr NumberRange not_negative{0.0, unlimited, false};
 constexpr NumberRange any_number{-unlimited, unlimited, false};
 constexpr NumberRange height_scales{-1e6, 1e6, false};
 constexpr NumberRange height_offsets{-1e6, 1e6, false};
@@ -269,7 +270,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     read_gallery_keys(gallery, folder, scene);
     read_detail_keys(detail, folder, scene);
     read_sun_keys(sun, scene);
-    air.read("visibility", scene.visibility, positive);
+    air.read("visibility", scene.visibility, not_negative);
     air.read("turbidity", scene.turbidity, turbidities);
     air.read("base", scene.base, bases);
     read_camera_keys(camera, scene);

@@ -93,8 +93,8 @@ struct SceneDescription {
     double sun_altitude = 40.0; ///< above the horizon, (0, 90]
 
     // [air]: metres to 2 % contrast; absent: by the scene's size
-    std::optional<double> visibility;
-    std::optional<double> turbidity; ///< [1, 10]; absent: clear air
+    std::optional<double> visibility; ///< 0: no haze
+    std::optional<double> turbidity;  ///< [1, 10]; absent: clear air
     std::string base;      ///< below the terrain's edge: "plane", "solid" or "none"; empty: plane
     bool hides_sky = true; ///< whether terrain keeps the sky's light from itself
 

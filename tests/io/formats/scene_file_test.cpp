@@ -187,6 +187,7 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "[sun]\nazimuth = 400", "azimuth is 400, a number from -360 to 360"},
         {urban + "[sun]\ntime = \"noon\"", "[sun] time is 'noon'"},
         {urban + "[sun]\ntime = \"2026-06-21T12:00\"\nazimuth = 3", "stands beside azimuth"},
+        {urban + "[air]\nvisibility = nan", "[air] visibility is nan"},
         {urban + "[air]\nvisibility = -1", "[air] visibility is -1"},
         {urban + "[camera]\neye = [1, 2, 3]", "eye stands alone"},
         {urban + "[camera]\neye = [1, 2]\nlook = [1, 2, 3]", "three numbers"},
