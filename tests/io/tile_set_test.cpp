@@ -199,6 +199,33 @@ TEST_F(TileSets, ReducedSamplesAreTheMeansOfWholeBlocksAcrossTiles) {
     EXPECT_THAT(test::joined(terrain.notes), HasSubstr("1/4 of the finest"));
 }
 
+TEST_F(TileSets, APictureWithoutAPlaceLiesOverReducedSamplesAsOverAll) {
+    tile("heights.tif", utm31, 46, 42, {500000.0, 5000000.0, 10.0}, plane); // two over from 4s
+    auto picture = made_raster(92, 84, [](int col, int) { return 2 * col; });
+    const auto green = made_raster(92, 84, [](int, int row) { return 2 * row; });
+    for (int band = 0; band < 2; ++band) {
+        picture.values.insert(picture.values.end(), green.values.begin(), green.values.end());
+    }
+    picture.bands = 3;
+    picture.type = GDT_Byte;
+    const test::TemporaryFolder beside;
+    ASSERT_TRUE(test::write(picture, beside.path() / "picture.tif"));
+    TileTerrainOptions options;
+    options.raster.memory_budget = 11 * 10 * bytes_per_sample;
+    options.raster.imagery = {beside.path() / "picture.tif"};
+    const Image color = drawn(options).color;
+    ASSERT_GT(color.cols(), 10);
+    for (int row = 0; row < color.rows(); ++row) {
+        for (int col = 0; col < color.cols(); ++col) {
+            const glm::dvec2 sample = glm::dvec2(col, row) * glm::dvec2(10.0, 9.0) /
+                                      glm::dvec2(color.cols() - 1, color.rows() - 1);
+            const glm::dvec2 pixel = 2.0 * (4.0 * sample + 2.0) - 0.5; // two pixels a sample
+            ASSERT_NEAR(color(col, row).r, 2.0 * pixel.x, 1.5) << col << " " << row;
+            ASSERT_NEAR(color(col, row).g, 2.0 * pixel.y, 1.5) << col << " " << row;
+        }
+    }
+}
+
 double hills(double longitude, double latitude) {
     return 500.0 + 300.0 * std::sin(40.0 * longitude) * std::cos(50.0 * latitude);
 }
