@@ -68,7 +68,7 @@ if(RELJEF_SANITIZE)
   target_compile_options(reljef_test_build INTERFACE -O0
     -fno-sanitize=undefined,float-cast-overflow,float-divide-by-zero,bounds-strict)
 elseif(CMAKE_BUILD_TYPE STREQUAL Release)
-  target_compile_options(reljef_test_build INTERFACE -O0 -U_FORTIFY_SOURCE) # which needs optimisation
+  target_compile_options(reljef_test_build INTERFACE -Og -Wno-maybe-uninitialized)
 endif()
 
 function(reljef_room NAME)
