@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,14 +37,22 @@ public:
         }
         if (task_ != nullptr) {
             task_->update(progress.fraction);
-            window_.set_title(
-                fmt::format("reljef - {} {:.0f} %", label_, 100.0 * progress.fraction));
+            show_title(fmt::format("reljef - {} {:.0f} %", label_, 100.0 * progress.fraction));
         }
     }
 
 private:
+    // A new title is an event, which would end the wait for events at once.
+    void show_title(std::string title) {
+        if (title != title_) {
+            window_.set_title(title);
+            title_ = std::move(title);
+        }
+    }
+
     platform::Window& window_;
     session::Log& log_;
+    std::string title_;
     std::string label_;
     std::unique_ptr<session::Task> task_;
 };

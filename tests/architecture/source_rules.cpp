@@ -84,7 +84,7 @@ const std::vector<Library>& guarded_libraries() {
         {"Assimp", {"assimp/"}, {"engine/io/mesh/"}},
         {"OpenImageIO", {"OpenImageIO/"}, {"engine/io/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
-        {"Highway", {"hwy/"}, {"engine/cast/"}},
+        {"Highway", {"hwy/"}, {"engine/cast/", "engine/terrain/light/"}},
         {"Embree", {"embree"}, {"engine/cast/mesh/", "tests/truth/"}},
         {"Dear ImGui", {"imgui", "backends/imgui"}, {"app/viewer/panels/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},

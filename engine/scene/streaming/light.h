@@ -12,7 +12,7 @@ struct Light {
     // Linear radiance of a surface with albedo 1 that faces the light, or the sky.
     glm::vec3 color{1.70F, 1.60F, 1.43F};
     glm::vec3 ambient{0.30F, 0.35F, 0.44F};
-    /// Terrain hides the sky from itself (terrain/field/sky_share.h), not only its own half.
+    /// Terrain hides the sky from itself (terrain/light/sky_share.h), not only its own half.
     bool is_sky_hidden = false;
 
     friend bool operator==(const Light&, const Light&) = default;

@@ -8,8 +8,8 @@
 
 #include "engine/core/bilinear.h"
 #include "engine/terrain/field/gradient.h"
-#include "engine/terrain/field/sky_share.h"
-#include "engine/terrain/field/sun_visibility.h"
+#include "engine/terrain/light/sky_share.h"
+#include "engine/terrain/light/sun_visibility.h"
 #include "engine/terrain/field/tint.h"
 
 namespace reljef::scene {

@@ -1,7 +1,12 @@
-#include "engine/terrain/field/sky_share.h"
+#include "engine/terrain/light/sky_share.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/terrain/made_heightfield.h"
@@ -76,6 +81,50 @@ TEST(SkyShare, IsThatOfEverySampleOnTheLines) {
         const double expected =
             1.0 - weight * (2.0 - 1.0 / (1.0 + west * west) - 1.0 / (1.0 + east * east));
         ASSERT_NEAR(found(col, 0) / 255.0, expected, 0.003) << col;
+    }
+}
+
+// Half of the azimuths, whose lines run through samples.
+constexpr std::array<glm::ivec2, 8> line_steps{
+    {{1, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 1}, {-1, 2}, {-1, 1}, {-2, 1}}};
+
+// The steepest slope up to the samples on a line from a sample.
+double steepest_along(const Grid<float>& heights, glm::ivec2 from, glm::ivec2 step) {
+    double steepest = 0.0;
+    const double length = glm::length(glm::dvec2(step));
+    int steps = 1;
+    for (glm::ivec2 at = from + step;
+         at.x >= 0 && at.y >= 0 && at.x < heights.cols() && at.y < heights.rows(); at += step) {
+        const double rise = heights(at.x, at.y) - heights(from.x, from.y);
+        steepest = std::max(steepest, rise / (length * steps++));
+    }
+    return steepest;
+}
+
+// Grids smaller and larger than what is swept side by side, with lines that begin at each border.
+TEST(SkyShare, IsThatOfAllSamplesOnSixteenLines) {
+    constexpr double pi = std::numbers::pi;
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {5, 50}, {23, 37}, {200, 31}, {90, 75}}) {
+        const Grid<float> heights =
+            test::random_heights(size.x, size.y, 0.0F, size.x == 23 ? 300.0F : 3.0F, 5);
+        const auto found = sky_share(heights.view(), {1.0, 1.0}, 1.0);
+        for (int row = 0; row < size.y; ++row) {
+            for (int col = 0; col < size.x; ++col) {
+                double expected = 0.0;
+                for (std::size_t i = 0; i < 8; ++i) {
+                    const auto angle = [](glm::ivec2 step) { return std::atan2(step.y, step.x); };
+                    const double next = i < 7 ? angle(line_steps[i + 1]) : pi;
+                    const double last = i > 0 ? angle(line_steps[i - 1]) : angle({2, -1});
+                    for (const int sign : {-1, 1}) {
+                        const double slope =
+                            steepest_along(heights, {col, row}, sign * line_steps[i]);
+                        expected += 0.25 * (next - last) / pi / (1.0 + slope * slope);
+                    }
+                }
+                ASSERT_NEAR(found(col, row) / 255.0, expected, 0.51 / 255.0)
+                    << col << ' ' << row << " of " << size.x << ' ' << size.y;
+            }
+        }
     }
 }
 

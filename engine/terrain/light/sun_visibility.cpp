@@ -1,4 +1,4 @@
-#include "engine/terrain/field/sun_visibility.h"
+#include "engine/terrain/light/sun_visibility.h"
 
 #include <algorithm>
 #include <cmath>

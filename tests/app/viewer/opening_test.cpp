@@ -1,0 +1,51 @@
+#include "app/viewer/opening.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace reljef::app {
+namespace {
+
+// Remembers its titles.
+class TitledWindow final : public platform::Window {
+public:
+    platform::Context& context() override { throw std::logic_error("no context is needed"); }
+    [[nodiscard]] bool should_close() const override { return false; }
+    std::vector<Event> wait_events(std::chrono::milliseconds /*timeout*/) override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return {};
+    }
+    [[nodiscard]] glm::ivec2 framebuffer_size() const override { return {64, 48}; }
+    [[nodiscard]] double content_scale() const override { return 1.0; }
+    void set_title(const std::string& title) override { titles.push_back(title); }
+    void swap_buffers() override {}
+    void set_clipboard(const std::string& /*text*/) override {}
+    void capture_mouse(bool /*on*/) override {}
+    [[nodiscard]] std::string clipboard() const override { return {}; }
+
+    std::vector<std::string> titles;
+};
+
+// A display answers a title with an event, which ends the wait for events.
+TEST(Opening, SetsNoTitleAgain) {
+    TitledWindow window;
+    session::Log silent;
+    session::SourceOptions terrain;
+    terrain.terrain = "natural";
+    const auto opened =
+        open_in_window(window, terrain, session::SceneOptions{}, 4096, silent, std::stop_token());
+    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_TRUE(opened->has_value());
+    ASSERT_FALSE(window.titles.empty());
+    EXPECT_EQ(std::adjacent_find(window.titles.begin(), window.titles.end()), window.titles.end());
+}
+
+} // namespace
+} // namespace reljef::app
