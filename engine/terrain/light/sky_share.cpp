@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "engine/core/parallel_for.h"
@@ -68,6 +69,11 @@ void sweep(const SkySweep& sweep, Grid<float>& share) {
                  [&](int part) { sweep_sky(sweep, parts[static_cast<std::size_t>(part)], share); });
 }
 
+// The same line on the transposed grid.
+glm::ivec2 turned(glm::ivec2 step) {
+    return step.x < 0 ? glm::ivec2(-step.y, -step.x) : glm::ivec2(step.y, step.x);
+}
+
 std::uint8_t byte_of(float share) {
     return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F);
 }
@@ -76,25 +82,25 @@ std::uint8_t byte_of(float share) {
 
 Grid<std::uint8_t> sky_share(GridView<const float> heights, glm::dvec2 spacing,
                              double exaggeration) {
-    const Grid<float> turned = transposed(heights); // its lines go from row to row
-    Grid<float> share(heights.cols(), heights.rows(), 0.0F);
-    Grid<float> turned_share(heights.rows(), heights.cols(), 0.0F);
-    for (std::size_t index = 0; index < steps.size(); ++index) {
-        const glm::ivec2 step = steps[index];
-        const double length = std::hypot(step.x * spacing.x, step.y * spacing.y);
-        SkySweep lines{heights, step, static_cast<float>(exaggeration / length),
-                       static_cast<float>(0.5 * weight_of(index, spacing))};
-        const bool is_along_rows = step.y < std::abs(step.x);
-        if (is_along_rows) {
-            lines.heights = turned.view();
-            lines.step = glm::ivec2(step.y, std::abs(step.x)) * glm::ivec2(step.x < 0 ? -1 : 1, 1);
+    const auto sweep_all = [&](GridView<const float> ground, bool along_rows, Grid<float>& share) {
+        for (std::size_t index = 0; index < steps.size(); ++index) {
+            const glm::ivec2 step = steps[index];
+            if ((step.y < std::abs(step.x)) == along_rows) {
+                const double length = std::hypot(step.x * spacing.x, step.y * spacing.y);
+                sweep({ground, along_rows ? turned(step) : step,
+                       static_cast<float>(exaggeration / length),
+                       static_cast<float>(0.5 * weight_of(index, spacing))},
+                      share);
+            }
         }
-        sweep(lines, is_along_rows ? turned_share : share);
-    }
+    };
+    Grid<float> turned_share(heights.rows(), heights.cols(), 0.0F);
+    sweep_all(transposed(heights).view(), true, turned_share); // so that lines go from row to row
+    Grid<float> share = transposed(std::exchange(turned_share, {}).view());
+    sweep_all(heights, false, share);
     Grid<std::uint8_t> bytes(heights.cols(), heights.rows());
-    const Grid<float> other = transposed(turned_share.view());
-    std::transform(share.samples().begin(), share.samples().end(), other.samples().begin(),
-                   bytes.samples().begin(), [](float a, float b) { return byte_of(a + b); });
+    std::transform(share.samples().begin(), share.samples().end(), bytes.samples().begin(),
+                   byte_of);
     return bytes;
 }
 
