@@ -32,7 +32,9 @@ std::optional<CrsPlace> crs_place(const scene::TerrainSurface& surface, glm::dve
 AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScene& scene) {
     AppearanceContent appearance;
     appearance.turbidity = scene.surroundings.turbidity;
-    appearance.visibility = scene.scene.sky() ? scene.scene.sky()->visibility : 0.0;
+    if (const auto sky = scene.scene.sky()) {
+        appearance.visibility = sky->visibility;
+    }
     if (terrain_of(scene).surface->heightfield().georeference) {
         appearance.on_earth =
             terrain_of(scene).surface->placement().geodetic_from_world(scene.bounds.center());

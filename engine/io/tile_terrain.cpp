@@ -219,10 +219,12 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     if (!options.raster.imagery.empty()) {
-        // Images without a place are stretched over all samples, also those that no block has.
+        // Images without a place are stretched over all samples, also those that the reduction
+        // leaves out.
         const Dataset whole = frame_of(planned->grid, state_->crs);
-        const double k = planned->reduction;
-        place->grid = {glm::dvec2(0.5 * k), glm::dvec2(k), samples_grid.cols, samples_grid.rows};
+        const double reduction = planned->reduction;
+        place->grid = {glm::dvec2(0.5 * reduction), glm::dvec2(reduction), samples_grid.cols,
+                       samples_grid.rows};
         auto color = read_imagery(*whole, *place, options.raster, result.notes, result.errors);
         if (!color) {
             return color.error();

@@ -214,7 +214,7 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
                  over_ ? over_->memory : MemoryForBound{},
                  over_ && over_->misses_tiles,
                  over_ && over_->lacks_triangles,
-                 over_ && over_->by_rounding};
+                 stats_.exceeded_by_rounding};
     }
     const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
     if (needed.growth > over_->memory.growth) {
@@ -222,7 +222,6 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     }
     over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
     over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
-    over_->by_rounding = over_->by_rounding || stats_.exceeded_by_rounding;
 }
 
 void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
@@ -235,7 +234,7 @@ void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
 
 std::string DeviceFrames::remedy() const {
     if (over_->by_rounding) {
-        return "floats are too coarse for so narrow or far a view";
+        return "the view is too narrow, or too far away, for floats";
     }
     const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
     if (megabytes > options_.memory_megabytes || over_->lacks_triangles) {

@@ -80,7 +80,7 @@ private:
         MemoryForBound memory;   // the largest
         bool misses_tiles = false;
         bool lacks_triangles = false;
-        bool by_rounding = false;
+        bool by_rounding = false; // that of the largest error
     };
     void take_stats(const view::FrameStats& stats, const scene::Scene& scene);
     void note_kept_error(const scene::Scene& scene);

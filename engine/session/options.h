@@ -111,8 +111,8 @@ struct SceneOptions {
     std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
     std::optional<SunChoice> sun;    ///< absent: the scene file's
     std::optional<double> turbidity; ///< [1, 10]; absent: the scene file's, else clear air
-    std::optional<double>
-        visibility; ///< metres; 0: no haze; absent: the scene file's, else by the size
+    /// Metres; 0: no haze; absent: the scene file's, else by the size.
+    std::optional<double> visibility;
     std::optional<BaseKind> base;                      ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;                     ///< absent: the scene file's, else true
     std::vector<io::ObjectDescription> objects;        ///< besides the scene file's

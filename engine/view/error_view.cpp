@@ -101,16 +101,27 @@ bool is_rigid(const glm::dmat4& transform) {
 
 } // namespace
 
+BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error) {
+    check(max_error > rasterizer_error, "an error that no rasterizer can keep");
+    const double rounding = rounding_of_vertices(camera, size);
+    const double least = min_left * (max_error - rasterizer_error);
+    const double left = max_error - rasterizer_error - rounding;
+    // The sum of all parts, rounded, is within the bound, too.
+    return {std::max(left, least) * (1.0 - 0x1p-50), rounding, left < least};
+}
+
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
                               double max_error) {
-    check(max_error > rasterizer_error, "an error that no rasterizer can keep");
     const glm::dvec3 forward = scene::view_axes(camera).forward;
     const glm::dmat3 axes(world_from_local);
     const glm::dvec3 offset = glm::dvec3(world_from_local[3]) - camera.eye;
     const bool is_vertical = kind == terrain::PlacementKind::plane;
     terrain::ErrorView view;
-    view.max_error = max_error - rasterizer_error;
+    const BoundLeft left = left_of_bound(camera, size, max_error);
+    view.max_error = left.error;
+    view.vertex_rounding = left.vertex_rounding;
+    view.exceeded_by_rounding = left.exceeded_by_rounding;
     view.perspective = camera.projection == scene::ProjectionKind::perspective;
     view.stretch = max_stretch(axes);
     // Those of the whole picture: triangles beside a part divide others in it.
@@ -119,11 +130,6 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                                world_from_local);
     view.depth = glm::dvec4(glm::transpose(axes) * forward, glm::dot(forward, offset));
     view.near = camera.near;
-    view.vertex_rounding = rounding_of_vertices(camera, size);
-    const double left = view.max_error - view.vertex_rounding;
-    view.exceeded_by_rounding = left < min_left * view.max_error;
-    // Their sum, rounded, is within the bound, too.
-    view.max_error = std::max(left, min_left * view.max_error) * (1.0 - 0x1p-50);
     const glm::dvec3 metre_up = axes[2];
     if (!view.perspective) {
         const double across = glm::length(metre_up - forward * glm::dot(forward, metre_up));

@@ -37,6 +37,16 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
                               const glm::dmat4& world_from_local, terrain::PlacementKind kind,
                               double max_error);
 
+/// What floats and the rasterizer leave of an error bound.
+struct BoundLeft {
+    double error = 0.0;           ///< for tiles and triangles, pixels
+    double vertex_rounding = 0.0; ///< of each place by floats, pixels, at most
+    bool exceeded_by_rounding =
+        false; ///< rounding takes nearly all: `error` is larger than what is left
+};
+/// Precondition: max_error > rasterizer_error.
+BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error);
+
 /// How far what triangles within the view's error show is off in all, pixels.
 inline double error_with_rounding(const terrain::ErrorView& view) {
     return view.max_error + view.vertex_rounding + rasterizer_error;

@@ -362,7 +362,7 @@ std::optional<double> max_error_of(const TerrainDraw& terrain) {
         return 0.0;
     }
     const auto* const view = std::get_if<terrain::ErrorView>(&*terrain.coarseness);
-    return view != nullptr ? std::optional(view->max_error) : std::nullopt;
+    return view != nullptr ? std::optional(view->max_error + view->vertex_rounding) : std::nullopt;
 }
 
 // What nearer ground of a terrain in memory hides: on a plane, or on the Earth.

@@ -46,9 +46,11 @@ constexpr double unbounded = 1e9;
 
 constexpr double max_texel = 1.0; // pixels between texels, if there are finer images
 
-double max_error_of(const scene::Technique& technique) {
-    const double error = scene::error_bound(technique);
-    return error > 0.0 ? std::max(error, min_error) - rasterizer_error : default_error;
+BoundLeft left_of_bound_of(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                           glm::ivec2 size) {
+    const double error = scene::error_bound(terrain.material.technique);
+    return error > 0.0 ? left_of_bound(camera, size, std::max(error, min_error))
+                       : BoundLeft{default_error, 0.0, false};
 }
 
 // Rays also need the tiles above the drawn ones: at most a third as many if all are in the view.
@@ -93,9 +95,10 @@ StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& c
                        glm::ivec2 size, const glm::dmat4& world_from_local)
     : terrain_(terrain), stream_(*terrain.stream), camera_(camera),
       world_from_local_(world_from_local), max_drawn_(max_drawn_of(terrain)),
-      max_error_(max_error_of(terrain.material.technique)),
+      max_error_(left_of_bound_of(terrain, camera, size).error),
+      max_shift_(max_error_ + left_of_bound_of(terrain, camera, size).vertex_rounding),
       frustum_(scene::clip_from_world(camera, size)),
-      wider_(wider_picture(camera, size, max_error_)),
+      wider_(wider_picture(camera, size, max_shift_)),
       wider_frustum_(scene::clip_from_world(wider_.camera, wider_.size)),
       picture_error_(wider_.camera, wider_.size, world_from_local),
       eye_(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0)),
@@ -113,7 +116,7 @@ StreamView::StreamView(const scene::TerrainNode& terrain, const scene::Camera& c
 void StreamView::find_horizon(glm::ivec2 size) {
     const auto root = stream_.recall(stream_.tree().root());
     const double errors = root && root->is_proven ? errors_of_horizon : errors_of_unproven_horizon;
-    horizon_ = horizon_view(camera_, size, world_from_local_, errors * max_error_);
+    horizon_ = horizon_view(camera_, size, world_from_local_, errors * max_shift_);
     const scene::TerrainSurface& overview = builder().overview();
     if (horizon_ && root && overview.placement().kind() == terrain::PlacementKind::ellipsoid) {
         const terrain::HeightRange range = range_below(*root, errors_hidden);

@@ -140,7 +140,8 @@ private:
     const scene::Camera& camera_;
     const glm::dmat4& world_from_local_;
     std::size_t max_drawn_;
-    double max_error_; // pixels, without the rasterizer's error
+    double max_error_; // pixels, without what floats and the rasterizer add
+    double max_shift_; // pixels, without what the rasterizer adds
     Frustum frustum_;
     WiderPicture wider_; // contains the true places of all pixels that keep the error bound
     Frustum wider_frustum_;

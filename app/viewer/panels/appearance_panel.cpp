@@ -52,6 +52,7 @@ PanelActions draw_sun(const AppearanceContent& appearance) {
 PanelActions draw_air(const AppearanceContent& appearance) {
     constexpr double nearest = 1e3; // metres, of the slider
     constexpr double farthest = 1e6;
+    constexpr double usual = 1e5;
     constexpr double kilometre = 1e3;
     PanelActions actions;
     double turbidity = appearance.turbidity;
@@ -59,10 +60,14 @@ PanelActions draw_air(const AppearanceContent& appearance) {
                     "{:.1f}")) {
         actions.emplace_back(SetTurbidity{std::round(10.0 * turbidity) / 10.0});
     }
-    if (appearance.visibility > 0.0) {
-        double visibility = appearance.visibility / kilometre;
-        if (draw_slider("Haze: visibility, km", visibility, nearest / kilometre,
-                        farthest / kilometre, "{:.0f}", ImGuiSliderFlags_Logarithmic)) {
+    bool is_hazy = appearance.visibility.value_or(0.0) > 0.0;
+    if (appearance.visibility && ImGui::Checkbox("Haze", &is_hazy)) {
+        actions.emplace_back(SetVisibility{is_hazy ? usual : 0.0});
+    }
+    if (appearance.visibility.value_or(0.0) > 0.0) {
+        double visibility = *appearance.visibility / kilometre;
+        if (draw_slider("Visibility, km", visibility, nearest / kilometre, farthest / kilometre,
+                        "{:.0f}", ImGuiSliderFlags_Logarithmic)) {
             actions.emplace_back(SetVisibility{kilometre * visibility});
         }
     }

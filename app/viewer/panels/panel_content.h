@@ -51,7 +51,7 @@ struct TechniqueContent {
 struct AppearanceContent {
     scene::Light light; ///< requested
     double turbidity = 1.0;
-    double visibility = 0.0;               ///< metres; 0: no haze
+    std::optional<double> visibility = {}; ///< metres; 0: no haze; absent: no sky
     std::optional<geo::Geodetic> on_earth; ///< of the terrain's middle
     double true_north = 0.0;               ///< there, degrees clockwise from the scene's north
     std::string ramp;                      ///< requested; empty: heights have no colours

@@ -26,7 +26,7 @@ struct Sky {
     glm::vec3 horizon{0.62F, 0.74F, 0.87F};
     glm::vec3 glow{0.30F, 0.28F, 0.25F};
     float curve = 0.2F;      ///< > 0
-    double visibility = 0.0; ///< metres to 2 % contrast at `base` (Koschmieder); 0: no fog
+    double visibility = 0.0; ///< metres to 2 % contrast at `base` (Koschmieder); 0: no haze
     glm::vec3 fading{1.0F};  ///< extinction of the three colours, relative to the mean one
     double air_height = 0.0; ///< metres to 1/e of the air's density; 0: the same everywhere
     double base = 0.0;       ///< z of the full density and of the plane, world metres

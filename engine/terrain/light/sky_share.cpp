@@ -50,9 +50,9 @@ Grid<float> transposed(GridView<const float> grid) {
 
 // Parts of the lines that are worth a thread.
 std::vector<SkyLines> parts_of(const SkySweep& sweep) {
-    constexpr int cols_a_part = 256;
-    const int steps = (sweep.heights.rows() - 1) / sweep.step.y;
-    const int reach = sweep.step.x * steps; // of the last samples from the first ones
+    constexpr int cols_a_part = 4 * max_sky_lines;
+    const int last_step = (sweep.heights.rows() - 1) / sweep.step.y;
+    const int reach = sweep.step.x * last_step; // of the last samples from the first ones
     const int end = sweep.heights.cols() - std::min(reach, 0);
     std::vector<SkyLines> parts;
     for (int row = 0; row < std::min(sweep.step.y, sweep.heights.rows()); ++row) {
@@ -70,7 +70,7 @@ void sweep(const SkySweep& sweep, Grid<float>& share) {
 }
 
 // The same line on the transposed grid.
-glm::ivec2 turned(glm::ivec2 step) {
+glm::ivec2 transposed_step(glm::ivec2 step) {
     return step.x < 0 ? glm::ivec2(-step.y, -step.x) : glm::ivec2(step.y, step.x);
 }
 
@@ -87,16 +87,17 @@ Grid<std::uint8_t> sky_share(GridView<const float> heights, glm::dvec2 spacing,
             const glm::ivec2 step = steps[index];
             if ((step.y < std::abs(step.x)) == along_rows) {
                 const double length = std::hypot(step.x * spacing.x, step.y * spacing.y);
-                sweep({ground, along_rows ? turned(step) : step,
+                sweep({ground, along_rows ? transposed_step(step) : step,
                        static_cast<float>(exaggeration / length),
                        static_cast<float>(0.5 * weight_of(index, spacing))},
                       share);
             }
         }
     };
-    Grid<float> turned_share(heights.rows(), heights.cols(), 0.0F);
-    sweep_all(transposed(heights).view(), true, turned_share); // so that lines go from row to row
-    Grid<float> share = transposed(std::exchange(turned_share, {}).view());
+    Grid<float> transposed_share(heights.rows(), heights.cols(), 0.0F);
+    sweep_all(transposed(heights).view(), true,
+              transposed_share); // so that lines go from row to row
+    Grid<float> share = transposed(std::exchange(transposed_share, {}).view());
     sweep_all(heights, false, share);
     Grid<std::uint8_t> bytes(heights.cols(), heights.rows());
     std::transform(share.samples().begin(), share.samples().end(), bytes.samples().begin(),

@@ -26,11 +26,12 @@
 #define RELJEF_SKY_SWEEP_ONCE
 namespace reljef::terrain {
 
-constexpr int sky_packs = 4;          // of lines that are swept side by side
-constexpr std::size_t max_lanes = 16; // of AVX-512
+constexpr int max_packs = 4;                         // of lines that are swept side by side
+constexpr int max_lanes = max_sky_lines / max_packs; // of AVX-512
 
 // By pack, step and lane.
 struct SweepMemory {
+    int packs = 0;
     std::span<float> heights;
     std::span<std::int32_t> before;
 };
@@ -48,7 +49,7 @@ using Floats = hn::Vec<decltype(floats)>;
 using Ints = hn::Vec<decltype(ints)>;
 using FloatLanes = hn::Mask<decltype(floats)>;
 
-static_assert(HWY_MAX_BYTES <= max_lanes * sizeof(float));
+static_assert(HWY_MAX_BYTES <= static_cast<std::size_t>(max_lanes) * sizeof(float));
 
 HWY_INLINE int lane_count() {
     return static_cast<int>(hn::Lanes(floats));
@@ -181,15 +182,15 @@ struct Pack {
 class PackSweeper {
 public:
     PackSweeper(const SkySweep& sweep, const SweepMemory& memory, Grid<float>& share)
-        : sweep_(sweep), share_(share) {
+        : sweep_(sweep), share_(share), packs_(memory.packs) {
         const std::size_t size = index(steps_from(0)) * hn::Lanes(floats);
-        for (int i = 0; i < packs; ++i) {
+        for (int i = 0; i < packs_; ++i) {
             hulls_[i].use(memory.heights.data() + index(i) * size,
                           memory.before.data() + index(i) * size);
         }
     }
 
-    static int width() { return packs * lane_count(); }
+    [[nodiscard]] int width() const { return packs_ * lane_count(); }
 
     void sweep(Pack first) {
         const int steps = steps_from(first.row);
@@ -225,8 +226,8 @@ private:
     }
 
     void clear() {
-        for (Hulls& hulls : hulls_) {
-            hulls.clear();
+        for (int i = 0; i < packs_; ++i) {
+            hulls_[i].clear();
         }
     }
 
@@ -235,7 +236,7 @@ private:
         if (row < 0 || row >= sweep_.heights.rows()) {
             return;
         }
-        for (int i = 0; i < packs; ++i) {
+        for (int i = 0; i < packs_; ++i) {
             const int col =
                 std::clamp(col_at(first, step) + i * lane_count(), 0, sweep_.heights.cols() - 1);
             hwy::Prefetch(sweep_.heights.row(row).data() + col);
@@ -246,7 +247,7 @@ private:
     HWY_INLINE void visit(Pack first, int step, int place) {
         const std::span<const float> heights = sweep_.heights.row(row_at(first, step));
         const std::span<float> shares = share_.row(row_at(first, step));
-        for (int i = 0; i < packs; ++i) {
+        for (int i = 0; i < packs_; ++i) {
             const int col = col_at(first, step) + i * lane_count();
             const Floats slope =
                 hn::Mul(hulls_[i].add(place, load(heights, col), lanes_inside(col)),
@@ -264,18 +265,18 @@ private:
                               hn::And(begun, hn::Lt(cols, hn::Set(ints, sweep_.heights.cols()))));
     }
 
-    static constexpr int packs = sky_packs;
     static constexpr int steps_ahead = 8;
 
     const SkySweep& sweep_;
     Grid<float>& share_;
-    Hulls hulls_[packs];
+    int packs_;
+    Hulls hulls_[max_packs];
 };
 
 void sweep_lines(const SkySweep& sweep, const SkyLines& lines, const SweepMemory& memory,
                  Grid<float>& share) {
     PackSweeper sweeper(sweep, memory, share);
-    for (int col = lines.first_col; col < lines.end_col; col += PackSweeper::width()) {
+    for (int col = lines.first_col; col < lines.end_col; col += sweeper.width()) {
         sweeper.sweep({lines.row, col});
     }
 }
@@ -289,11 +290,14 @@ namespace reljef::terrain {
 HWY_EXPORT(sweep_lines);
 
 void sweep_sky(const SkySweep& sweep, const SkyLines& lines, Grid<float>& share) {
+    constexpr int long_line = 16384; // steps: its hulls take 2 MB in each pack
     const int steps = (sweep.heights.rows() + sweep.step.y - 1) / sweep.step.y;
-    const std::size_t size = static_cast<std::size_t>(steps) * sky_packs * max_lanes;
+    const int packs = steps > long_line ? 1 : max_packs;
+    const std::size_t size =
+        static_cast<std::size_t>(steps) * static_cast<std::size_t>(packs * max_lanes);
     std::vector<float> heights(size);
     std::vector<std::int32_t> before(size);
-    HWY_DYNAMIC_DISPATCH(sweep_lines)(sweep, lines, {heights, before}, share);
+    HWY_DYNAMIC_DISPATCH(sweep_lines)(sweep, lines, {packs, heights, before}, share);
 }
 
 } // namespace reljef::terrain

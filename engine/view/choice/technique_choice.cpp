@@ -210,10 +210,10 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     decision.choice.touched_pixels = triangles.touched_pixels;
     const double bound = scene::error_bound(draw.terrain->material.technique);
     const auto& error_view = std::get<terrain::ErrorView>(*draw.coarseness);
-    const double of_all = std::max(bound, error_with_rounding(error_view));
+    const double triangle_error = std::max(bound, error_with_rounding(error_view));
     // With fewer triangles than they need, they are off by more, about in proportion.
     const double by_triangles =
-        of_all * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
+        triangle_error * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
     const auto kept = kept_by_rays(error_of_rays(list, draw, steepness_), bound, by_triangles);
     if (!kept) {
         decision.choice.estimated_ms = triangles.ms;
@@ -229,7 +229,7 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
         decision.search = scene::make_technique(scene::TechniqueId::exact);
         decision.kept_error = kept;
         decision.exceeded_by_rounding = *kept > bound && error_view.exceeded_by_rounding;
-        decision.lacks_triangles = *kept > bound && !decision.exceeded_by_rounding;
+        decision.lacks_triangles = *kept > triangle_error;
     }
     return decision;
 }

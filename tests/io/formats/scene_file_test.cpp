@@ -56,6 +56,9 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->sun_azimuth, 200.0);
     EXPECT_EQ(scene->sun_altitude, 12.5);
     EXPECT_EQ(scene->visibility, 50000.0);
+    const auto clear = parse("[terrain]\ngenerator = \"urban\"\n[air]\nvisibility = 0\n");
+    ASSERT_TRUE(clear) << clear.error().message;
+    EXPECT_EQ(clear->visibility, 0.0);
     EXPECT_EQ(scene->ramp, "/data/colors.txt");
     EXPECT_FALSE(scene->hides_sky);
     EXPECT_EQ(scene->turbidity, 3.0);

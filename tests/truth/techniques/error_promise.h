@@ -117,7 +117,7 @@ inline scene::Camera narrow_camera(test::Chance& chance, const scene::TerrainSur
     const glm::dvec3 middle = surface.bounds().center();
     const double distance = surface.bounds().size().x * std::exp(chance.between(-1.0, 8.0));
     const glm::dvec3 away(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
-                          chance.between(0.2, 1.0));
+                          chance.between(0.02, 1.0));
     scene::Camera camera;
     camera.eye = middle + distance * glm::normalize(away);
     camera.target = middle;
