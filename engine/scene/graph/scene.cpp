@@ -158,6 +158,8 @@ void Node::animate(double time) {
     for (const Animator& animator : animators_) {
         animator(*this, time);
     }
+    std::erase_if(children_,
+                  [&](const auto& child) { return child->end_ && time >= *child->end_; });
     for (const auto& child : children_) {
         child->animate(time);
     }

@@ -109,6 +109,10 @@ public:
     [[nodiscard]] Box world_bounds() const;
 
     void add_animator(Animator animator) { animators_.push_back(std::move(animator)); }
+    /// animate() of the parent removes this node from this time on; absent: never.
+    void set_end(std::optional<double> time) { end_ = time; }
+    [[nodiscard]] std::optional<double> end() const { return end_; }
+    /// Calls the animators of the node and of all below it, parents first.
     void animate(double time);
 
 private:
@@ -118,6 +122,7 @@ private:
     std::vector<std::unique_ptr<Node>> children_;
     std::vector<Animator> animators_;
     glm::dmat4 parent_from_local_{1.0};
+    std::optional<double> end_;
     bool visible_ = true;
 };
 
