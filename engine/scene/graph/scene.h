@@ -12,6 +12,7 @@
 #include "engine/core/event.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/facing.h"
 #include "engine/scene/graph/mesh.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/scene/streaming/light.h"
@@ -52,6 +53,9 @@ AirSeen air_seen(const Sky& sky, const Camera& camera);
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;
     Material material;
+    /// Towards the scene's camera: drawn turned by faced(). Children of the node do not turn with
+    /// it.
+    Facing facing = Facing::node;
 
     friend bool operator==(const MeshNode&, const MeshNode&) = default;
 };
