@@ -183,14 +183,15 @@ private:
 
 Result<MeshCaster> MeshCaster::create(const scene::Scene& scene) {
     MeshCaster caster;
+    const scene::Camera camera = scene.camera();
     std::optional<Error> error;
     std::map<const scene::Mesh*, std::shared_ptr<const Tree>> trees;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node,
-                                           const glm::dmat4& world_from_local) {
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& transform) {
         const auto* const mesh = node.get<scene::MeshNode>();
         if (mesh == nullptr || error) {
             return;
         }
+        const glm::dmat4 world_from_local = scene::faced(mesh->facing, transform, camera);
         const scene::SurfaceDetail& detail = mesh->material.detail;
         if (detail.set != nullptr && !scene::is_picture(detail)) {
             error = Error{fmt::format("node '{}': is a mesh with relief, of which there is no "

@@ -28,7 +28,8 @@ struct MeshHit {
 /// later changes of the scene. Thread-safe.
 class MeshCaster {
 public:
-    /// The visible meshes. Fails for one whose detail texture has relief.
+    /// The visible meshes; billboards face the scene's camera. Fails for one whose detail texture
+    /// has relief.
     static Result<MeshCaster> create(const scene::Scene& scene);
 
     [[nodiscard]] bool empty() const { return instances_.empty(); }

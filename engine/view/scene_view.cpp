@@ -30,9 +30,13 @@ template <class Value> bool set_value(Value& value, const Value& now) {
     return true;
 }
 
-bool look_at(SeenNode& seen, const scene::Node& node, const glm::dmat4& world_from_local) {
+bool look_at(SeenNode& seen, const scene::Node& node, const glm::dmat4& world_from_local,
+             const scene::Camera& camera) {
+    const auto* const mesh = node.get<scene::MeshNode>();
+    const scene::Facing facing = mesh != nullptr ? mesh->facing : scene::Facing::node;
     bool is_new = set_value(seen.node, &node);
-    is_new = set_value(seen.world_from_local, world_from_local) || is_new;
+    is_new =
+        set_value(seen.world_from_local, scene::faced(facing, world_from_local, camera)) || is_new;
     is_new = set_value(seen.stream_revision, revision_of(node)) || is_new;
     if (set_value(seen.content, node.content())) {
         seen.local_bounds = node.local_bounds(); // takes long for a mesh
@@ -64,7 +68,7 @@ bool SceneView::look_at_nodes(const scene::Scene& scene) {
         if (shown == nodes_.size()) {
             nodes_.emplace_back();
         }
-        is_new = look_at(nodes_[shown++], node, transform) || is_new;
+        is_new = look_at(nodes_[shown++], node, transform, camera_) || is_new;
     });
     is_new = set_value(visible_count_, visible) || nodes_.size() != shown || is_new;
     nodes_.resize(shown);

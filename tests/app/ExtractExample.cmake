@@ -1,8 +1,13 @@
-# Writes the first C++ block of README to OUTPUT.
+# Writes a C++ block of README to OUTPUT: the first one, or that after SKIPPED others.
 file(READ "${README}" text)
-string(FIND "${text}" "```cpp\n" begin)
-string(SUBSTRING "${text}" ${begin} -1 text)
-string(SUBSTRING "${text}" 7 -1 text)
+if(NOT SKIPPED)
+  set(SKIPPED 0)
+endif()
+foreach(block RANGE 0 ${SKIPPED})
+  string(FIND "${text}" "```cpp\n" begin)
+  string(SUBSTRING "${text}" ${begin} -1 text)
+  string(SUBSTRING "${text}" 7 -1 text)
+endforeach()
 string(FIND "${text}" "```" end)
 string(SUBSTRING "${text}" 0 ${end} text)
 file(WRITE "${OUTPUT}" "${text}")

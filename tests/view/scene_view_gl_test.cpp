@@ -56,6 +56,10 @@ std::vector<SceneChange> scene_changes() {
              world.scene.set_active_camera(world.scene.add_camera(Camera{}));
              world.camera->get<Camera>()->eye.x -= 2.0;
          }},
+        {"facing",
+         [](ViewedWorld& world) {
+             world.mesh->get<scene::MeshNode>()->facing = scene::Facing::camera;
+         }},
         {"sun", [](ViewedWorld& world) { world.light->get<scene::Light>()->altitude = 10.0; }},
         {"no sun", [](ViewedWorld& world) { world.light->set_visible(false); }},
         {"sky", [](ViewedWorld& world) { world.scene.set_sky({.visibility = 100.0}); }},

@@ -142,6 +142,14 @@ Mesh plane_mesh(glm::vec2 size) {
     return mesh;
 }
 
+Mesh billboard_mesh(glm::vec2 size) {
+    Mesh mesh;
+    add_quad(mesh, {-0.5F * size.x, 0.0F, -0.5F * size.y}, {size.x, 0.0F, 0.0F},
+             {0.0F, 0.0F, size.y});
+    mesh.normals.assign(mesh.normals.size(), {0.0F, 0.0F, 1.0F});
+    return mesh;
+}
+
 Mesh sphere_mesh(float radius, int segments) {
     const int around = std::max(segments, 3);
     const int down = std::max(around / 2, 2);

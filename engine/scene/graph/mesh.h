@@ -55,6 +55,11 @@ std::optional<TexturePlane> texture_plane(const Mesh& mesh);
 /// with x, v against y, 0 to 1.
 Mesh plane_mesh(glm::vec2 size);
 
+/// A standing rectangle around the origin: `size` in metres along x and z, seen from −y; u grows
+/// with x, v against z, 0 to 1. Its normals point up: as a billboard (facing.h), it has the light
+/// of level ground, from wherever it is seen.
+Mesh billboard_mesh(glm::vec2 size);
+
 /// A box centred at the origin; `size` in metres along x, y, z; u and v from 0 to 1 on each side.
 Mesh box_mesh(glm::vec3 size);
 

@@ -149,7 +149,10 @@ Box Node::local_bounds() const {
 Box Node::world_bounds() const {
     Box bounds;
     visit_visible(*this, [&](const Node& node, const glm::dmat4& world_from_local) {
-        bounds.add(reljef::transformed(world_from_local, node.local_bounds()));
+        const auto* const mesh = node.get<MeshNode>();
+        const bool turns = mesh != nullptr && mesh->facing != Facing::node;
+        const Box local = turns ? turned_bounds(node.local_bounds()) : node.local_bounds();
+        bounds.add(reljef::transformed(world_from_local, local));
     });
     return bounds;
 }
@@ -158,6 +161,8 @@ void Node::animate(double time) {
     for (const Animator& animator : animators_) {
         animator(*this, time);
     }
+    std::erase_if(children_,
+                  [&](const auto& child) { return child->end_ && time >= *child->end_; });
     for (const auto& child : children_) {
         child->animate(time);
     }

@@ -12,6 +12,7 @@
 #include "engine/core/event.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/facing.h"
 #include "engine/scene/graph/mesh.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/scene/streaming/light.h"
@@ -52,6 +53,9 @@ AirSeen air_seen(const Sky& sky, const Camera& camera);
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;
     Material material;
+    /// Towards the scene's camera: drawn turned by faced(). Children of the node do not turn with
+    /// it.
+    Facing facing = Facing::node;
 
     friend bool operator==(const MeshNode&, const MeshNode&) = default;
 };
@@ -109,6 +113,10 @@ public:
     [[nodiscard]] Box world_bounds() const;
 
     void add_animator(Animator animator) { animators_.push_back(std::move(animator)); }
+    /// animate() of the parent removes this node from this time on; absent: never.
+    void set_end(std::optional<double> time) { end_ = time; }
+    [[nodiscard]] std::optional<double> end() const { return end_; }
+    /// Calls the animators of the node and of all below it, parents first.
     void animate(double time);
 
 private:
@@ -118,6 +126,7 @@ private:
     std::vector<std::unique_ptr<Node>> children_;
     std::vector<Animator> animators_;
     glm::dmat4 parent_from_local_{1.0};
+    std::optional<double> end_;
     bool visible_ = true;
 };
 

@@ -41,7 +41,9 @@ std::vector<PlacedMesh> meshes_of(const scene::Scene& scene) {
     std::vector<PlacedMesh> meshes;
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& to_world) {
         if (const auto* mesh = node.get<scene::MeshNode>()) {
-            meshes.push_back({*mesh, to_world});
+            PlacedMesh placed{*mesh, scene::faced(mesh->facing, to_world, scene.camera())};
+            placed.node.facing = scene::Facing::node;
+            meshes.push_back(std::move(placed));
         }
     });
     return meshes;

@@ -1,4 +1,4 @@
-// The program of docs/irrlicht.md.
+// The programs of docs/irrlicht.md.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -36,19 +36,28 @@ test::ProgramResult run_example(const std::string& answer, test::ProgramOptions 
                              options);
 }
 
-TEST(IrrlichtExample, HasAtMost120Lines) {
+// Of each C++ block of the page.
+std::vector<int> lines_of_programs() {
     std::ifstream page(RELJEF_IRRLICHT_PAGE);
-    int lines = 0;
+    std::vector<int> lines;
     bool inside = false;
     for (std::string line; std::getline(page, line);) {
         if (line.rfind("```", 0) == 0) {
             inside = line == "```cpp";
-        } else {
-            lines += inside ? 1 : 0;
+            lines.resize(lines.size() + (inside ? 1 : 0));
+        } else if (inside) {
+            ++lines.back();
         }
     }
-    EXPECT_GT(lines, 50);
-    EXPECT_LE(lines, 120);
+    return lines;
+}
+
+TEST(IrrlichtExample, HasAtMost120Lines) {
+    const std::vector<int> lines = lines_of_programs();
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_GT(lines[0], 50);
+    EXPECT_LE(lines[0], 120);
+    EXPECT_LE(lines[1], 60);
 }
 
 // "Scene::add_mesh", "session::Device" …
@@ -101,6 +110,24 @@ TEST(IrrlichtExample, DrawsReliefAndParallaxInAWindow) {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         EXPECT_EQ(result.err, "");
     }
+}
+
+TEST(IrrlichtExample, WhatMovesIsDrawnWithoutAWindow) {
+    RELJEF_RELEASE_ONLY("it is built with all tests only");
+    const test::TemporaryFolder folder;
+    std::string heights = "P5\n201 201\n255\n";
+    for (int i = 0; i < 201 * 201; ++i) {
+        heights += static_cast<char>(20 + i % 201 / 10);
+    }
+    const auto ground = folder.write("heights.pgm", heights);
+    test::ProgramOptions options;
+    options.folder = folder.path();
+    const auto result = test::run_program(RELJEF_MOTION_EXAMPLE, {ground.string()}, options);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::string first = test::read_bytes(folder.path() / "walk-1.png");
+    const std::string second = test::read_bytes(folder.path() / "walk-2.png");
+    EXPECT_GT(first.size(), 1000U);
+    EXPECT_NE(first, second);
 }
 
 TEST(IrrlichtExample, WithoutADisplayOrPicturesFailsInOneSentence) {

@@ -13,6 +13,7 @@
 
 #include "engine/cast/frame/driver.h"
 #include "engine/scene/graph/picture_detail.h"
+#include "engine/scene/graph/text_mesh.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "tests/cast/frame/compared_pictures.h"
@@ -74,6 +75,22 @@ struct ObjectStage : Stage {
     void add(scene::Mesh mesh, glm::dvec2 at, const scene::Material& material) {
         const double ground = surface().height_at(at.x, at.y).value();
         scene.add_mesh(std::move(mesh), material).set_position({at, ground + 3.0});
+    }
+    // Signs and labels that face the camera, one of them upright, and a tilted one on a node.
+    void add_billboards() {
+        add(scene::billboard_mesh({14.0F, 18.0F}), {-12.0, -60.0}, picture_on_mesh());
+        add(scene::billboard_mesh({9.0F, 30.0F}), {22.0, -65.0}, colored({0.2F, 0.6F, 0.3F}));
+        add(scene::text_mesh("Grad 14 m", 7.0F), {5.0, -75.0}, colored({0.9F, 0.8F, 0.2F}));
+        std::size_t count = 0;
+        for (const auto& node : scene.root().children()) {
+            auto* const mesh = node->get<scene::MeshNode>();
+            if (mesh != nullptr && ++count > 4) {
+                mesh->facing = count == 6 ? scene::Facing::upright : scene::Facing::camera;
+                node->set_parent_from_local(
+                    glm::rotate(glm::translate(node->parent_from_local(), {0.0, 0.0, 9.0}), 0.1,
+                                glm::dvec3(0.0, 1.0, 0.0)));
+            }
+        }
     }
     void look_near() {
         look(test::camera_at({10.0, -120.0, surface().bounds().high.z + 20.0}, {0.0, -10.0, 5.0}));
@@ -144,6 +161,41 @@ TEST(MeshFrame, WithoutTheOptionNothingCastsShadows) {
     const Image expected = stage.true_picture(truth::SunShadow::sweep);
     const Image shown = stage.drawn();
     EXPECT_LE(test::share_of_others(shown, expected, 16), 0.01);
+}
+
+TEST(MeshFrame, BillboardsAndTextAreThoseOfTheTruth) {
+    ObjectStage stage;
+    stage.look_near();
+    const Image without = stage.drawn();
+    stage.add_billboards();
+    for (const bool is_map : {false, true}) {
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image shown = stage.drawn();
+        const Image expected = stage.true_picture(truth::SunShadow::ray);
+        EXPECT_LE(test::share_of_others(shown, expected, 16), 0.01) << is_map;
+        EXPECT_GE(test::share_of_others(shown, without, 16), 0.03) << is_map;
+    }
+}
+
+// A sign is as wide on the picture from wherever it is seen, and has the same light.
+TEST(MeshFrame, ABillboardLooksTheSameFromAllSides) {
+    scene::Scene scene;
+    scene.add_light();
+    scene::Node& sign = scene.add_mesh(scene::billboard_mesh({3.0F, 2.0F}), picture_on_mesh());
+    sign.get<scene::MeshNode>()->facing = scene::Facing::upright;
+    scene::Node& camera = scene.add_camera();
+    const auto seen_from = [&](double angle) {
+        *camera.get<scene::Camera>() =
+            test::camera_at({5.0 * std::sin(angle), -5.0 * std::cos(angle), 0.0}, {});
+        Driver driver = test::must(Driver::create({.size = mesh_picture}));
+        test::must(driver.draw(view::select(scene, mesh_picture)));
+        return driver.read_color();
+    };
+    const Image front = seen_from(0.0);
+    EXPECT_NE(front(120, 120), front(0, 0)) << "it is there";
+    for (const double angle : {0.7, 1.6, 3.0, 4.4}) {
+        EXPECT_LE(test::share_of_others(front, seen_from(angle), 8), 0.01) << angle;
+    }
 }
 
 TEST(MeshFrame, HitsAreThoseOfTheTruth) {
@@ -244,6 +296,7 @@ class MeshFrameGlTest : public test::GlTest {};
 // OpenGL casts no shadows of meshes, and filters textures with derivatives of four pixels.
 TEST_F(MeshFrameGlTest, MeshesAreThoseOfTheShaders) {
     ObjectStage stage(false);
+    stage.add_billboards();
     stage.terrain->get<scene::TerrainNode>()->material.technique.options.writes_depth = true;
     for (const bool is_map : {false, true}) {
         is_map ? stage.look_from_above() : stage.look_near();
