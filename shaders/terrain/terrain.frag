@@ -24,11 +24,11 @@ layout(binding = warped_places_unit) uniform sampler2D warped_places;
 #include "frame/output.glsl"
 
 #if defined(HIT) && !defined(WARPED)
-// eye_sample plus `offset` as two floats (Knuth's two-sum).
-void write_place(vec2 offset) {
-    precise vec2 sum = eye_sample.xy + offset;
-    precise vec2 added = sum - eye_sample.xy;
-    precise vec2 low = ((eye_sample.xy - (sum - added)) + (offset - added)) + eye_sample.zw;
+// `origin` plus `offset` as two floats (Knuth's two-sum).
+void write_place(vec4 origin, vec2 offset) {
+    precise vec2 sum = origin.xy + offset;
+    precise vec2 added = sum - origin.xy;
+    precise vec2 low = ((origin.xy - (sum - added)) + (offset - added)) + origin.zw;
     precise vec2 high = sum + low;
     precise vec2 rest = low - (high - sum);
     hit = vec4(high, height_and_depth);
@@ -53,7 +53,10 @@ void main() {
     hit = vec4(seen, height_and_depth.y);
     hit_low = vec2(0.0);
 #elif defined(HIT)
-    write_place(place_from_eye);
+    // Floats round places by a share of their distance from the origin, which walls show as their height.
+    bool is_near_eye = dot(place_from_eye, place_from_eye) < dot(tile_place, tile_place);
+    write_place(is_near_eye ? eye_sample : vec4(tile_sample, 0.0, 0.0),
+                is_near_eye ? place_from_eye : tile_place);
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;

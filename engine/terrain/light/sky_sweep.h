@@ -14,7 +14,7 @@ struct SkySweep {
     float weight = 0.0F;   ///< of the light from each of the two directions
 };
 
-/// At most so many lines are swept side by side.
+/// The largest number of lines that are swept side by side.
 inline constexpr int max_sky_lines = 64;
 
 /// A part of the lines: those whose first row is below step.y, with the columns there (or where

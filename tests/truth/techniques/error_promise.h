@@ -113,9 +113,10 @@ inline scene::Camera camera_near_the_ground(test::Chance& chance,
 }
 
 // A telescope, or the same without perspective: a field of view of 0.001 to 1 degree.
-inline scene::Camera narrow_camera(test::Chance& chance, const scene::TerrainSurface& surface) {
+inline scene::Camera narrow_camera_at(test::Chance& chance, const scene::TerrainSurface& surface,
+                                      double widths) {
     const glm::dvec3 middle = surface.bounds().center();
-    const double distance = surface.bounds().size().x * std::exp(chance.between(-1.0, 8.0));
+    const double distance = surface.bounds().size().x * widths;
     const glm::dvec3 away(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
                           chance.between(0.02, 1.0));
     scene::Camera camera;
@@ -126,6 +127,14 @@ inline scene::Camera narrow_camera(test::Chance& chance, const scene::TerrainSur
     camera.projection =
         chance.one_in(3) ? scene::ProjectionKind::orthographic : scene::ProjectionKind::perspective;
     return camera;
+}
+
+inline scene::Camera narrow_camera(test::Chance& chance, const scene::TerrainSurface& surface) {
+    return narrow_camera_at(chance, surface, std::exp(chance.between(-1.0, 8.0)));
+}
+
+inline scene::Camera far_narrow_camera(test::Chance& chance, const scene::TerrainSurface& surface) {
+    return narrow_camera_at(chance, surface, std::exp(chance.between(4.5, 8.0)));
 }
 
 using ChanceCamera = scene::Camera (*)(test::Chance&, const scene::TerrainSurface&);

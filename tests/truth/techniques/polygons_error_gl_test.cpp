@@ -182,6 +182,18 @@ TEST_F(PolygonsErrorGlTest, NarrowViewsStateWhatFloatsRound) {
     }
 }
 
+// A place that is rounded along the ground is off by the height of a wall.
+TEST_F(PolygonsErrorGlTest, WallsSeenFromAfarAreNoFartherOff) {
+    const auto heights = test::made_heights(200, 200, [](int col, int row) {
+        return col / 40 % 2 == 1 && row / 40 % 2 == 1 ? 60.0 : 0.0;
+    });
+    const Promise promise = promise_over(test::plane_heightfield(heights, {0.5, 0.5}), 30, 13, {},
+                                         0, far_narrow_camera);
+    EXPECT_GT(promise.pixels, 50000);
+    EXPECT_EQ(promise.violations, 0) << promise.worst;
+    EXPECT_EQ(promise.holes, 0);
+}
+
 TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
     scene::Scene scene;
     scene::Node& node =
