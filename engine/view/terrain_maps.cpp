@@ -69,11 +69,11 @@ glm::ivec2 map_size(const scene::TerrainSurface& surface, const Image& albedo, i
 
 Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::TerrainLight>& light,
               int largest_side) {
-    Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     if (!light) {
-        return albedo;
+        return subsampled(scene::albedo_map(surface), largest_side);
     }
     const scene::TerrainIrradiance irradiance(surface, *light);
+    const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const glm::ivec2 size = map_size(surface, albedo, largest_side);
     Image lit(size.x, size.y);
     for_each_texel(surface, albedo, size,
@@ -85,8 +85,8 @@ Image lit_map(const scene::TerrainSurface& surface, const std::optional<scene::T
 
 LightParts light_parts(const scene::TerrainSurface& surface, const scene::TerrainLight& light,
                        int largest_side) {
-    const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const scene::TerrainIrradiance irradiance(surface, light);
+    const Image albedo = subsampled(scene::albedo_map(surface), largest_side);
     const glm::ivec2 size = map_size(surface, albedo, largest_side);
     LightParts parts{Image(size.x, size.y), Image(size.x, size.y)};
     for_each_texel(surface, albedo, size,

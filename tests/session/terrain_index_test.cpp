@@ -214,6 +214,22 @@ TEST_F(TerrainIndex, WithDamagedProofsIsReportedAndMadeAnew) {
     EXPECT_THAT(log_.notes, testing::Not(testing::Contains(HasSubstr("damaged parts"))));
 }
 
+// All proofs may be left, and the heights of coarse tiles be gone.
+TEST_F(TerrainIndex, ThatIsCutIsReportedAndMadeAnew) {
+    ASSERT_TRUE(stream_of(IndexUse::made, bounded())->options().find_proof);
+    const auto size = fs::file_size(indexes().front());
+    for (const std::uintmax_t cut : {size - 1, size / 2, size / 20}) {
+        fs::resize_file(indexes().front(), cut);
+        log_.notes.clear();
+        ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
+        EXPECT_THAT(log_.notes, testing::Contains(HasSubstr("damaged parts")).Times(1)) << cut;
+        EXPECT_EQ(fs::file_size(indexes().front()), size);
+        log_.notes.clear();
+        ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
+        EXPECT_THAT(log_.notes, testing::Not(testing::Contains(HasSubstr("damaged parts"))));
+    }
+}
+
 TEST_F(TerrainIndex, OfNonsenseIsReportedOnceAndTheTilesAreRight) {
     ASSERT_TRUE(stream_of(IndexUse::made, bounded()));
     const io::IndexSource source = index_source_of(opened());

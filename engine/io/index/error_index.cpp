@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "engine/io/cache/cache_file.h"
@@ -118,15 +119,20 @@ Result<std::optional<ErrorIndex>> ErrorIndex::open(const IndexSource& source) {
                                  "was expected; 'reljef index' makes it",
                                  source.file.string(), index_version, source.tiles.name())};
     }
-    std::error_code ignored;
-    const std::uintmax_t bytes = std::filesystem::file_size(source.file, ignored);
-    const std::vector<Level> levels = was_complete ? index.levels() : std::vector<Level>();
-    const bool is_whole = !ignored && bytes >= index.interim_ &&
-                          std::all_of(levels.begin(), levels.end(),
-                                      [](const Level& level) { return level.unproven == 0; });
-    index.is_complete_ = was_complete && is_whole;
-    index.is_damaged_ = was_complete && !is_whole;
+    index.is_complete_ = was_complete && index.has_all_parts();
+    index.is_damaged_ = was_complete && !index.is_complete_;
     return std::optional(std::move(index));
+}
+
+bool ErrorIndex::has_all_parts() const {
+    struct stat file {};
+    if (::fstat(file_.number(), &file) != 0 ||
+        static_cast<std::uint64_t>(std::max<off_t>(file.st_size, 0)) < interim_) {
+        return false;
+    }
+    const std::vector<Level> found = levels();
+    return std::all_of(found.begin(), found.end(),
+                       [](const Level& level) { return level.unproven == 0; });
 }
 
 bool ErrorIndex::has_level(int level) const {

@@ -114,6 +114,8 @@ private:
     Result<void> write_block(std::uint64_t place, std::vector<float> floats);
     /// Whether the header is of this source; sets is_complete_.
     [[nodiscard]] bool has_begun();
+    /// Of a complete index: whether it has its size, and all proofs are good.
+    [[nodiscard]] bool has_all_parts() const;
     /// Empties a damaged file, and one of another state of the source.
     Result<void> begin();
     /// False if another process has the lock.

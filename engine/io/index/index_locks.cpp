@@ -1,5 +1,4 @@
 // How processes share the file of an index.
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -46,9 +45,7 @@ bool ErrorIndex::has_begun() {
 
 // A complete index with damaged parts lacks what its coarser levels were made of.
 Result<void> ErrorIndex::begin() {
-    const auto is_proven = [](const Level& level) { return level.unproven == 0; };
-    const bool is_good = has_begun() && (!is_complete_ || std::ranges::all_of(levels(), is_proven));
-    return is_good ? Result<void>() : clear();
+    return has_begun() && (!is_complete_ || has_all_parts()) ? Result<void>() : clear();
 }
 
 // A lock is given back before the other one is taken: of all processes, the last gets it.

@@ -1,15 +1,12 @@
 #include "engine/scene/streaming/terrain_light.h"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <functional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/core/parallel_for.h"
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/light/sky_share.h"
@@ -56,19 +53,11 @@ Image albedo_map(const TerrainSurface& surface) {
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)
-    : world_from_normal_(glm::inverseTranspose(light.world_from_local)),
+    : sky_share_(share_of_sky(surface, light)), visibility_(visibility_of_sun(surface, light)),
+      gradients_(terrain::surface_gradients(surface.heightfield(), surface.placement())),
+      world_from_normal_(glm::inverseTranspose(light.world_from_local)),
       to_sun_(to_light(light.sun)), sun_(light.sun.color), sky_(light.sun.ambient),
-      is_day_((glm::inverse(light.world_from_local) * to_light(light.sun)).z > 0.0) {
-    // The sun's front goes from line to line, so one thread does it beside the others.
-    const std::array<std::function<void()>, 2> tasks{
-        [&] { visibility_ = visibility_of_sun(surface, light); },
-        [&] {
-            gradients_ = terrain::surface_gradients(surface.heightfield(), surface.placement());
-            sky_share_ = share_of_sky(surface, light);
-        }};
-    parallel_for(static_cast<int>(tasks.size()),
-                 [&](int task) { tasks[static_cast<std::size_t>(task)](); });
-}
+      is_day_((glm::inverse(light.world_from_local) * to_light(light.sun)).z > 0.0) {}
 
 glm::vec3 TerrainIrradiance::normal_at(glm::dvec2 sample) const {
     const glm::vec2 gradient = bilinear(gradients_, sample, std::identity());

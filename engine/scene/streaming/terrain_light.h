@@ -59,9 +59,9 @@ private:
     [[nodiscard]] glm::vec3 normal_at(glm::dvec2 sample) const;
     [[nodiscard]] float sky_at(glm::dvec2 sample, glm::vec3 normal) const;
 
-    Grid<glm::vec2> gradients_;
-    Grid<std::uint8_t> visibility_;
     Grid<std::uint8_t> sky_share_; // empty: nothing hides the sky
+    Grid<std::uint8_t> visibility_;
+    Grid<glm::vec2> gradients_;
     glm::mat3 world_from_normal_;
     glm::vec3 to_sun_;
     glm::vec3 sun_;

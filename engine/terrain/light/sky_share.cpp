@@ -75,7 +75,7 @@ glm::ivec2 transposed_step(glm::ivec2 step) {
 }
 
 std::uint8_t byte_of(float share) {
-    return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F)));
 }
 
 } // namespace
