@@ -14,10 +14,11 @@
 
 // Floats round the place of a vertex in a few steps: relative to the eye, in the world's axes, in
 // the picture, and on the rasterizer's grid. Each is a share of its distance from the eye, which
-// the picture shows as at most f / cos^2(a) pixels, where a is the angle of the corner from the
-// middle; without perspective, as the distance times the pixels per metre. A triangle of size s at
-// a depth of z has corners up to f s / z pixels outside the picture, and rasterizers interpolate
-// places between them in floats.
+// the picture shows as at most f / cos^2(a) pixels, where a is the angle of the picture's corner
+// from its middle; without perspective, as the distance times the pixels per metre. A triangle of
+// size s at a depth of z has corners up to f s / z pixels outside the picture, and rasterizers
+// interpolate places between them in floats. That such corners are farther away than what is seen,
+// and rounded by more, is not counted.
 //
 // A pixel shows a point A of a triangle, which belongs at B = A + D. Along the view's right, up and
 // forward axes A = (Ax, Ay, Az). With f pixels per radian at the middle of the picture

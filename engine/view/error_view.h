@@ -39,10 +39,9 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 
 /// What floats and the rasterizer leave of an error bound.
 struct BoundLeft {
-    double error = 0.0;           ///< for tiles and triangles, pixels
-    double vertex_rounding = 0.0; ///< of each place by floats, pixels, at most
-    bool exceeded_by_rounding =
-        false; ///< rounding takes nearly all: `error` is larger than what is left
+    double error = 0.0;                ///< for tiles and triangles, pixels
+    double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
+    bool exceeded_by_rounding = false; ///< `error` is larger than what rounding leaves
 };
 /// Precondition: max_error > rasterizer_error.
 BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error);

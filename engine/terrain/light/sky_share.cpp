@@ -95,8 +95,8 @@ Grid<std::uint8_t> sky_share(GridView<const float> heights, glm::dvec2 spacing,
         }
     };
     Grid<float> transposed_share(heights.rows(), heights.cols(), 0.0F);
-    sweep_all(transposed(heights).view(), true,
-              transposed_share); // so that lines go from row to row
+    // Lines that go from row to row lie side by side in the memory.
+    sweep_all(transposed(heights).view(), true, transposed_share);
     Grid<float> share = transposed(std::exchange(transposed_share, {}).view());
     sweep_all(heights, false, share);
     Grid<std::uint8_t> bytes(heights.cols(), heights.rows());
