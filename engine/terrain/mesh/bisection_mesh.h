@@ -25,7 +25,7 @@ struct ErrorView {
     bool perspective = true;
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
-    double near = 0.0;                 ///< smallest depth of what is visible
+    double near = 0.0;                 ///< smallest depth of what is visible; > 0 in perspective
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
     bool exceeded_by_rounding = false; ///< it leaves too little of the bound: max_error is larger
     /// Pixels by which places between a triangle's corners are rounded, times depth over the radius

@@ -35,6 +35,7 @@ ErrorView view_around(glm::dvec3 eye) {
     view.morph_from = first_rise;
     view.scale = 300.0;
     view.depth = {0.0, 0.0, -1.0, eye.z};
+    view.near = 0.01;
     view.lateral_origin = -eye;
     view.lateral_axes[2][2] = 0.0;
     return view;

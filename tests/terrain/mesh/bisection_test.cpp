@@ -93,7 +93,8 @@ ErrorView random_view(test::Chance& chance, const Heightfield& heightfield) {
         view.scale = 700.0;
         view.depth = glm::dvec4(forward, -glm::dot(forward, eye));
         view.lateral_origin = -eye;
-        view.sides[4] = view.depth;
+        view.near = 0.01;
+        view.sides[4] = view.depth - glm::dvec4(0.0, 0.0, 0.0, view.near);
     }
     return view;
 }
