@@ -82,6 +82,7 @@ static void describe(Fields& fields, typename Fields::template Of<Timing>& timin
     fields.later_field("gpu_ms", timing.gpu_ms);
     fields.field("tiles", timing.stats.tiles);
     fields.field("triangles", timing.stats.triangles);
+    fields.later_field("slivers", timing.stats.slivers);
     fields.field("draws", timing.stats.draws);
     fields.field("uploads", timing.stats.uploads);
     fields.later_field("bytes_uploaded", timing.stats.upload_bytes);

@@ -42,4 +42,8 @@ void Buffer::bind_uniform_block(unsigned int binding) const {
     glBindBufferBase(GL_UNIFORM_BUFFER, binding, id());
 }
 
+void Buffer::bind_storage_block(unsigned int binding) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id());
+}
+
 } // namespace reljef::gl

@@ -8,8 +8,8 @@
 
 namespace reljef::gl {
 
-/// A buffer object: vertices, indices or a uniform block. Default-constructed and moved-from ones
-/// hold nothing (id 0, size 0).
+/// A buffer object: vertices, indices, a uniform block or a storage block. Default-constructed and
+/// moved-from ones hold nothing (id 0, size 0).
 class Buffer {
 public:
     Buffer() = default;
@@ -23,6 +23,7 @@ public:
     void write(std::size_t offset, std::span<const std::byte> bytes);
 
     void bind_uniform_block(unsigned int binding) const;
+    void bind_storage_block(unsigned int binding) const;
 
     [[nodiscard]] unsigned int id() const { return id_.get(); }
     [[nodiscard]] std::size_t size() const { return id() == 0U ? 0 : size_; }

@@ -288,7 +288,8 @@ std::string DeviceFrames::stats() const {
            choice_text(stats_.choice) +
            fmt::format(
                "renderer: {}\n"
-               "nodes: {}, tiles: {}, triangles: {}, rays: {}, draws: {}, state changes: {}\n"
+               "nodes: {}, tiles: {}, triangles: {} ({} slivers), rays: {}, draws: {}, state "
+               "changes: {}\n"
                "uploads: {} ({:.1f} MB)\n"
                "tiles cut: {}, unproven: {}, kept error: {}\n"
                "skipped: {} hidden nodes, {} nodes, {} tiles and {} triangles outside the "
@@ -296,8 +297,8 @@ std::string DeviceFrames::stats() const {
                "triangles under the error, {} details too small, {} selections, {} cuts and {} "
                "uploads that were there\n"
                "cpu: {:.2f} ms, gpu: {:.2f} ms\n",
-               device_.info().renderer, stats_.nodes, stats_.tiles, stats_.triangles, stats_.rays,
-               stats_.draws, stats_.state_changes, stats_.uploads,
+               device_.info().renderer, stats_.nodes, stats_.tiles, stats_.triangles,
+               stats_.slivers, stats_.rays, stats_.draws, stats_.state_changes, stats_.uploads,
                static_cast<double>(stats_.upload_bytes) * 1e-6, stats_.tiles_cut,
                stats_.tiles_unproven, kept_error_text(stats_), stats_.skipped.invisible_nodes,
                stats_.skipped.nodes_outside_frustum, stats_.skipped.tiles_outside_frustum,

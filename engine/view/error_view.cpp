@@ -35,6 +35,9 @@ constexpr double rounded = 0x1p-23;
 // The operations that round a vertex one after the other: 3 relative to the eye, 4 and 5 for two
 // matrices, 4 for the grid, 8 for places that are interpolated from there.
 constexpr double rounded_vertex = 24.0 * 0x1p-24;
+// Share of the bound for places that are interpolated within triangles. With a smaller one, more
+// triangles are slivers (triangles/slivers.h).
+constexpr double interpolation_share = 1.0 / 32.0;
 // Share of the bound that triangles get at least: better ones would hardly change the picture.
 constexpr double min_left = 0.5;
 
@@ -104,11 +107,13 @@ bool is_rigid(const glm::dmat4& transform) {
 
 BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error) {
     check(max_error > rasterizer_error, "an error that no rasterizer can keep");
-    const double rounding = rounding_of_vertices(camera, size);
+    const double interpolation = interpolation_share * max_error;
+    const double rounding = rounding_of_vertices(camera, size) + interpolation;
     const double min_error_left = min_left * (max_error - rasterizer_error);
     const double left = max_error - rasterizer_error - rounding;
     // The sum of all parts, rounded, is within the bound, too.
-    return {std::max(left, min_error_left) * (1.0 - 0x1p-50), rounding, left < min_error_left};
+    return {std::max(left, min_error_left) * (1.0 - 0x1p-50), rounding, interpolation,
+            left < min_error_left};
 }
 
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
@@ -122,6 +127,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     const BoundLeft left = left_of_bound(camera, size, max_error);
     view.max_error = left.error;
     view.vertex_rounding = left.vertex_rounding;
+    view.interpolation = left.interpolation;
     view.exceeded_by_rounding = left.exceeded_by_rounding;
     view.perspective = camera.projection == scene::ProjectionKind::perspective;
     view.stretch = max_stretch(axes);

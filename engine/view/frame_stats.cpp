@@ -38,7 +38,9 @@ FrameStats together(const FrameStats& a, const FrameStats& b) {
         std::array{&FrameStats::tiles, &FrameStats::tiles_missing, &FrameStats::tiles_cut,
                    &FrameStats::tiles_unproven, &FrameStats::reliefs_as_triangles,
                    &FrameStats::draws, &FrameStats::state_changes, &FrameStats::uploads});
-    add(sum, b, std::array{&FrameStats::triangles, &FrameStats::rays, &FrameStats::upload_bytes});
+    add(sum, b,
+        std::array{&FrameStats::triangles, &FrameStats::slivers, &FrameStats::rays,
+                   &FrameStats::upload_bytes});
     add(sum, b, std::array{&FrameStats::cpu_ms, &FrameStats::gpu_ms});
     sum.kept_error = larger(a.kept_error, b.kept_error);
     sum.lacks_triangles = a.lacks_triangles || b.lacks_triangles;

@@ -40,8 +40,9 @@ struct FrameStats {
     int nodes = 0; ///< in the scene, visible or not
     int tiles = 0; ///< terrain tiles drawn
     std::size_t triangles = 0;
-    int tiles_missing = 0; ///< streamed tiles that are not loaded; coarser ones are drawn
-    int tiles_cut = 0;     ///< tiles with new triangles
+    std::size_t slivers = 0; ///< of these, drawn by their corners (view::SliverView)
+    int tiles_missing = 0;   ///< streamed tiles that are not loaded; coarser ones are drawn
+    int tiles_cut = 0;       ///< tiles with new triangles
     /// Drawn tiles whose error is an estimate, and those that an unproven search shows. Their
     /// pixels, and those of walls beside them, may be farther off than `kept_error`. Coarse tiles
     /// with voids count.

@@ -1,12 +1,15 @@
 // Multisampling: interpolates at the covered part of a pixel, because extrapolated values of a triangle
 // seen edge-on are far off. With PER_SAMPLE the inputs already belong to the sample.
-#ifdef MULTISAMPLED
+#if defined(MULTISAMPLED) && !defined(SLIVER)
 // Always 1. Mesa's software renderer divides by the w of the pixel's centre wherever it interpolates;
 // dividing by this corrects it.
 in float one;
 #endif
 
-#if defined(MULTISAMPLED) && defined(PER_SAMPLE)
+#ifdef SLIVER // not interpolated
+#define INSIDE(value) (value)
+#define FROM_PIXEL_TO_PIXEL(value) (value)
+#elif defined(MULTISAMPLED) && defined(PER_SAMPLE)
 #define INSIDE(value) ((value) / one)
 #define FROM_PIXEL_TO_PIXEL(value) INSIDE(value)
 #elif defined(MULTISAMPLED)

@@ -1,9 +1,13 @@
 // Surface detail on a terrain, projected along the local axis that the surface faces most (triplanar), in
 // the tangent plane.
+#ifdef SLIVER
+#include "terrain/sliver.glsl"
+#else
 in vec2 tile_place;     // samples from the terrain tile's first
 in vec3 local_from_eye; // metres
 
 uniform mat3 world_from_local; // directions
+#endif
 uniform vec3 tiles_at_eye;     // position of the eye modulo a tile
 
 vec3 from_eye = vec3(0.0); // local metres

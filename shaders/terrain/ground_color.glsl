@@ -51,15 +51,18 @@ vec4 looked_up(sampler2D map, vec4 map_from_sample) {
 #endif
 }
 
-#ifdef MULTISAMPLED
+#if defined(MULTISAMPLED) && !defined(SLIVER)
 float distance_to_eye() {
     return length(relative);
 }
-#else
+#elif !defined(SLIVER)
 #include "frame/distance.glsl"
 #endif
 
 void main() {
+#ifdef SLIVER
+    set_from_corners();
+#endif
     vec3 plain = looked_up(lit_map, lit_from_sample).rgb;
     vec3 albedo = looked_up(albedo_map, ground_from_sample).rgb;
     vec4 ground = looked_up(ground_map, ground_from_sample);

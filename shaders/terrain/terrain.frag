@@ -1,8 +1,11 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 #include "frame/fragment.glsl"
-#include "frame/distance.glsl"
 #include "frame/count.glsl"
+#ifdef SLIVER
+#include "terrain/sliver.glsl"
+#else
+#include "frame/distance.glsl"
 
 in vec2 tile_place;
 #ifdef HIT
@@ -10,6 +13,7 @@ in vec2 place_from_eye;
 in vec2 height_and_depth;
 
 uniform vec4 eye_sample; // xy: col, row; zw: to be added
+#endif
 #endif
 
 uniform vec2 tile_sample;     // col, row of the tile's first sample
@@ -24,19 +28,38 @@ layout(binding = warped_places_unit) uniform sampler2D warped_places;
 #include "frame/output.glsl"
 
 #if defined(HIT) && !defined(WARPED)
-// `origin` plus `offset` as two floats (Knuth's two-sum).
-void write_place(vec4 origin, vec2 offset) {
-    precise vec2 sum = origin.xy + offset;
-    precise vec2 added = sum - origin.xy;
-    precise vec2 low = ((origin.xy - (sum - added)) + (offset - added)) + origin.zw;
+// A place as two floats, in xy and zw, moved by `offset` (Knuth's two-sum).
+vec4 moved(vec4 place, vec2 offset) {
+    precise vec2 sum = place.xy + offset;
+    precise vec2 added = sum - place.xy;
+    precise vec2 low = ((place.xy - (sum - added)) + (offset - added)) + place.zw;
     precise vec2 high = sum + low;
     precise vec2 rest = low - (high - sum);
-    hit = vec4(high, height_and_depth);
-    hit_low = rest;
+    return vec4(high, rest);
 }
+
+#ifdef SLIVER
+void write_hit() {
+    vec4 place = moved(moved(vec4(tile_sample, 0.0, 0.0), corner_place), from_corner);
+    hit = vec4(place.xy, true_height, dot(way_from_eye, view_forward.xyz));
+    hit_low = place.zw;
+}
+#else
+void write_hit() {
+    // Floats round places by a share of their distance from the origin, which walls show as their height.
+    bool is_near_eye = dot(place_from_eye, place_from_eye) < dot(tile_place, tile_place);
+    vec4 place = is_near_eye ? moved(eye_sample, place_from_eye)
+                             : moved(vec4(tile_sample, 0.0, 0.0), tile_place);
+    hit = vec4(place.xy, height_and_depth);
+    hit_low = place.zw;
+}
+#endif
 #endif
 
 void main() {
+#ifdef SLIVER
+    set_from_corners();
+#endif
     vec2 place = tile_sample + INSIDE(tile_place);
 #ifdef WARPED
     vec2 coordinate = (tile_sample + tile_place) * lit_from_sample.xy;
@@ -53,10 +76,7 @@ void main() {
     hit = vec4(seen, height_and_depth.y);
     hit_low = vec2(0.0);
 #elif defined(HIT)
-    // Floats round places by a share of their distance from the origin, which walls show as their height.
-    bool is_near_eye = dot(place_from_eye, place_from_eye) < dot(tile_place, tile_place);
-    write_place(is_near_eye ? eye_sample : vec4(tile_sample, 0.0, 0.0),
-                is_near_eye ? place_from_eye : tile_place);
+    write_hit();
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;

@@ -1,11 +1,15 @@
 #include "frame/frame_block.glsl"
 
+#ifdef SLIVER
+#include "terrain/corners.glsl"
+
+flat out int first_corner;
+#else
 layout(location = 0) in vec3 position; // local metres
 layout(location = 1) in vec2 place;    // samples from the tile's first
 #ifdef HIT
 layout(location = 2) in float height; // true metres
 #endif
-
 layout(location = 3) in vec3 rest; // local metres, to be added to the position
 
 uniform vec3 eye;      // local metres
@@ -27,6 +31,9 @@ out vec3 way_from_eye; // metres
 #ifdef MULTISAMPLED
 out float one;
 #endif
+#endif
+
+invariant gl_Position; // slivers are drawn by another program than their neighbours
 
 // Snaps to the rasterizer's vertex grid before interpolation. Otherwise triangles seen edge-on show places
 // beyond their border, on cliffs pixels away.
@@ -37,6 +44,19 @@ vec4 on_vertex_grid(vec4 clip) {
     return is_on_it ? vec4(round(steps) / vertex_grid.xy * clip.w, clip.zw) : clip;
 }
 
+// `relative`: from the eye, world metres.
+void set_position(vec3 relative) {
+    gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));
+}
+
+#ifdef SLIVER
+void main() {
+    Vertex vertex = vertex_of(gl_VertexID);
+    precise vec3 from_eye = (vertex.position - eye) + (vertex.rest - eye_rest);
+    first_corner = gl_VertexID - gl_VertexID % 3;
+    set_position(world_from_local * from_eye);
+}
+#else
 void main() {
     // Equal bits for shared vertices of two tiles, so there are no cracks. Differences of neighbouring floats
     // are exact (Cozzi and Ring 2011, "3D Engine Design for Virtual Globes", 5.4).
@@ -56,5 +76,6 @@ void main() {
     place_from_eye = from_eye_sample;
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));
 #endif
-    gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));
+    set_position(relative);
 }
+#endif

@@ -61,4 +61,13 @@ void DrawState::draw(const ResidentMesh& mesh, gl::IndexType type) {
     ++stats_.state_changes;
 }
 
+void DrawState::draw_triangles(const gl::VertexArray& no_vertices, std::size_t count) {
+    no_vertices.bind();
+    gl::draw_arrays(gl::Primitive::triangles, static_cast<int>(3 * count));
+    stats_.triangles += count;
+    stats_.slivers += count;
+    ++stats_.draws;
+    ++stats_.state_changes;
+}
+
 } // namespace reljef::render

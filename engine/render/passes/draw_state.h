@@ -33,6 +33,9 @@ public:
     void set_adding(bool adding);
 
     void draw(const ResidentMesh& mesh, gl::IndexType type);
+    /// Triangles whose corners the vertex shader finds by gl_VertexID. `no_vertices`: a vertex
+    /// array without attributes.
+    void draw_triangles(const gl::VertexArray& no_vertices, std::size_t count);
 
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 

@@ -1,13 +1,14 @@
 #include "engine/render/passes/frame_context.h"
 
 #include <algorithm>
+#include <span>
 
 #include "engine/core/geometry.h"
 #include "engine/render/passes/ground_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
-#include "engine/view/tile_cut.h"
+#include "engine/view/triangles/tile_cut.h"
 
 namespace reljef::render {
 namespace {
@@ -33,10 +34,16 @@ void bind_ground(gl::Program& program, const ResidentGround& ground) {
     program.set(uniforms.ground_from_sample, ground.ground_from_sample);
 }
 
+enum class Part {
+    all_but_slivers,
+    slivers ///< view::SliverView
+};
+
 // Sets shared state once for successive tiles of a terrain.
 class TerrainPass {
 public:
-    explicit TerrainPass(const FrameContext& frame) : frame_(frame), state_(frame.state) {
+    TerrainPass(const FrameContext& frame, Part part)
+        : frame_(frame), state_(frame.state), part_(part) {
         state_.set_culling(gl::Culling::back);
         state_.set_adding(frame.counts());
     }
@@ -44,6 +51,9 @@ public:
     // The tile with this index in the list.
     Result<void> draw(std::size_t index) {
         const view::TileDraw& draw = frame_.list.tiles[index];
+        if (part_ == Part::slivers && !has_slivers(index)) {
+            return {};
+        }
         const view::DetailLevel detail = shown(draw.detail);
         const glm::dmat4& world_from_local = frame_.list.world_from_local(draw);
         if (!is_set_for(*draw.terrain, detail)) {
@@ -99,10 +109,12 @@ private:
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
+        const std::uint32_t features =
+            frame_.features | (part_ == Part::slivers ? feature_sliver : 0U);
         if (detail != view::DetailLevel::none) {
-            return ground_variant(*terrain.detail, detail, frame_.features);
+            return ground_variant(*terrain.detail, detail, features);
         }
-        return {ShaderKind::terrain, frame_.features | (is_warped(terrain) ? feature_warped : 0U)};
+        return {ShaderKind::terrain, features | (is_warped(terrain) ? feature_warped : 0U)};
     }
 
     // Of a terrain in memory.
@@ -160,23 +172,51 @@ private:
                                                  : glm::vec2(0.0F);
     }
 
+    [[nodiscard]] std::span<const TileMesh> meshes(std::size_t index) const {
+        return frame_.residency.terrain_meshes().tile(index);
+    }
+
+    [[nodiscard]] bool has_slivers(std::size_t index) const {
+        const auto tile = meshes(index);
+        return std::any_of(tile.begin(), tile.end(),
+                           [](const TileMesh& mesh) { return !mesh.slivers.empty(); });
+    }
+
     void draw_meshes(std::size_t index, const view::TileDraw& draw) {
+        if (part_ == Part::slivers) {
+            draw_slivers(index);
+            return;
+        }
         view::FrameStats& stats = state_.stats();
-        const std::size_t before = stats.triangles;
-        for (const ResidentMesh& mesh : frame_.residency.terrain_meshes().tile(index)) {
-            state_.draw(mesh, gl::IndexType::uint16);
+        std::size_t drawn = 0;
+        for (const TileMesh& mesh : meshes(index)) {
+            if (mesh.mesh.index_count > 0) {
+                state_.draw(mesh.mesh, gl::IndexType::uint16);
+            }
+            drawn += static_cast<std::size_t>(mesh.mesh.index_count) / 3 + mesh.slivers.size();
         }
         if (draw.coarse) {
             const glm::ivec2 cells = draw.tile->cells;
             const std::size_t all =
                 2U * static_cast<std::size_t>(cells.x) * static_cast<std::size_t>(cells.y);
-            stats.skipped.triangles_under_error += all - std::min(all, stats.triangles - before);
+            stats.skipped.triangles_under_error += all - std::min(all, drawn);
         }
         ++stats.tiles;
     }
 
+    void draw_slivers(std::size_t index) {
+        for (const TileMesh& mesh : meshes(index)) {
+            if (!mesh.slivers.empty()) {
+                mesh.mesh.vertices.bind_storage_block(bindings::tile_vertices_binding);
+                mesh.sliver_corners.bind_storage_block(bindings::sliver_corners_binding);
+                state_.draw_triangles(frame_.no_vertices, mesh.slivers.size());
+            }
+        }
+    }
+
     const FrameContext& frame_;
     DrawState& state_;
+    Part part_;
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* terrain_ = nullptr; // of the program's state
     view::DetailLevel detail_ = view::DetailLevel::none;
@@ -185,10 +225,12 @@ private:
 } // namespace
 
 Result<void> draw_terrain_tiles(const FrameContext& frame) {
-    TerrainPass pass(frame);
-    for (std::size_t i = 0; i < frame.list.tiles.size(); ++i) {
-        if (auto drawn = pass.draw(i); !drawn) {
-            return drawn;
+    for (const Part part : {Part::all_but_slivers, Part::slivers}) {
+        TerrainPass pass(frame, part);
+        for (std::size_t i = 0; i < frame.list.tiles.size(); ++i) {
+            if (auto drawn = pass.draw(i); !drawn) {
+                return drawn;
+            }
         }
     }
     return {};

@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel_for.h"
 #include "engine/scene/streaming/tile_stream.h"
+#include "engine/view/triangles/slivers.h"
 
 namespace reljef::render {
 namespace {
@@ -71,19 +72,6 @@ bool has_seams(const view::TileDraw& draw) {
     return !draw.tile->borrows && !draw.flat;
 }
 
-Result<std::vector<ResidentMesh>> uploaded(const view::CutMesh& cut, view::FrameStats& stats) {
-    std::vector<ResidentMesh> meshes;
-    for (std::size_t i = 0; i < cut.parts.size(); ++i) {
-        auto mesh =
-            with_indices(upload_vertices(cut.vertices[i], stats), cut.parts[i].indices, stats);
-        if (!mesh) {
-            return mesh.error();
-        }
-        meshes.push_back(std::move(*mesh));
-    }
-    return meshes;
-}
-
 const view::Coarseness& coarseness_of(const view::DrawList& list, const view::TileDraw& draw) {
     const auto& coarseness = list.terrains[draw.node].coarseness;
     check(coarseness.has_value(), "a coarse terrain of the list was expected");
@@ -106,6 +94,17 @@ TerrainMeshes::Entry::own_bisection(const std::shared_ptr<const scene::TerrainTi
         bisection = std::make_unique<const TileBisection>(tile);
     }
     return bisection->bisection;
+}
+
+std::vector<TileTriangles> TerrainMeshes::triangles_of(const Entry& entry) {
+    std::vector<TileTriangles> parts;
+    for (std::size_t i = 0; i < entry.last.parts.size(); ++i) {
+        parts.push_back({entry.last.vertices[i], entry.last.parts[i].indices});
+    }
+    for (const view::SeamPart& part : entry.seam_parts) {
+        parts.push_back({part.vertices, part.indices});
+    }
+    return parts;
 }
 
 TerrainMeshes::Key TerrainMeshes::key_of(const view::TileDraw& draw) {
@@ -178,6 +177,10 @@ Result<void> TerrainMeshes::prepare(const view::DrawList& list, view::FrameStats
         if (done && has_seams(*draws.front())) {
             done = close_seams(list, *group, draws, stats);
         }
+        if (done && draws.front()->coarse &&
+            std::holds_alternative<terrain::ErrorView>(group->coarseness)) {
+            done = part_slivers(list, *group, draws, stats);
+        }
         if (!done) {
             return done;
         }
@@ -220,19 +223,20 @@ Result<void> TerrainMeshes::upload(std::span<const Outdated> tiles, view::FrameS
         if (!mesh) {
             return mesh.error();
         }
-        std::vector<ResidentMesh> meshes;
-        meshes.push_back(std::move(*mesh));
+        std::vector<TileMesh> meshes;
+        meshes.push_back({std::move(*mesh), {}, {}});
         replace_meshes(*tiles[i].entry, std::move(meshes));
     }
     return {};
 }
 
 // Keeps the seams.
-void TerrainMeshes::replace_meshes(Entry& entry, std::vector<ResidentMesh> meshes) {
+void TerrainMeshes::replace_meshes(Entry& entry, std::vector<TileMesh> meshes) {
     std::move(entry.meshes.end() - static_cast<std::ptrdiff_t>(entry.seam_count),
               entry.meshes.end(), std::back_inserter(meshes));
     entry.meshes = std::move(meshes);
     entry.shape = ++shapes_;
+    entry.slivers_version = 0;
 }
 
 // Forgets what fitted another view, or other errors of the tiles.
@@ -335,7 +339,7 @@ Result<void> TerrainMeshes::keep(Cuts cuts, const Group& group, view::FrameStats
             ++stats.skipped.uploads_unchanged;
             continue;
         }
-        auto meshes = uploaded(mesh, stats);
+        auto meshes = tile_meshes(mesh, stats);
         if (!meshes) {
             return meshes.error();
         }
@@ -415,7 +419,7 @@ Result<void> TerrainMeshes::close_seams(const view::DrawList& list, Group& group
         entry.meshes.resize(entry.meshes.size() - entry.seam_count);
         entry.seam_count = 0;
         for (const view::SeamPart& part : parts[i]) {
-            auto mesh = with_indices(upload_vertices(part.vertices, stats), part.indices, stats);
+            auto mesh = tile_mesh(part.vertices, part.indices, stats);
             if (!mesh) {
                 return mesh.error();
             }
@@ -424,6 +428,42 @@ Result<void> TerrainMeshes::close_seams(const view::DrawList& list, Group& group
         }
         entry.seamed_shape = entry.shape;
         entry.seams = std::move(tiles[i].seams);
+        entry.seam_parts = std::move(parts[i]);
+        entry.slivers_version = 0;
+    }
+    return {};
+}
+
+// Draws the slivers of the view apart.
+Result<void> TerrainMeshes::part_slivers(const view::DrawList& list, Group& group,
+                                         const Draws& draws, view::FrameStats& stats) {
+    std::vector<Outdated> tiles;
+    for (const view::TileDraw* const draw : draws) {
+        Entry& entry = group.tiles.at(draw->tile->id);
+        if (entry.slivers_version != group.version) {
+            tiles.push_back({draw, &entry});
+        }
+    }
+    std::vector<std::vector<std::vector<std::uint32_t>>> slivers(tiles.size());
+    parallel_for(static_cast<int>(tiles.size()), [&](int i) {
+        const auto& [draw, entry] = tiles[static_cast<std::size_t>(i)];
+        const view::SliverView view(list, *draw);
+        for (const TileTriangles& part : triangles_of(*entry)) {
+            slivers[static_cast<std::size_t>(i)].push_back(
+                view.slivers(part.vertices, part.indices));
+        }
+    });
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        Entry& entry = *tiles[i].entry;
+        const std::vector<TileTriangles> parts = triangles_of(entry);
+        for (std::size_t j = 0; j < parts.size(); ++j) {
+            auto done =
+                set_slivers(entry.meshes[j], parts[j].indices, std::move(slivers[i][j]), stats);
+            if (!done) {
+                return done;
+            }
+        }
+        entry.slivers_version = group.version;
     }
     return {};
 }

@@ -10,10 +10,11 @@
 
 #include "engine/core/result.h"
 #include "engine/render/residency/resident_mesh.h"
+#include "engine/render/residency/tile_mesh.h"
 #include "engine/terrain/mesh/bisection.h"
 #include "engine/view/draw_list.h"
-#include "engine/view/tile_cut.h"
-#include "engine/view/tile_seam.h"
+#include "engine/view/triangles/tile_cut.h"
+#include "engine/view/triangles/tile_seam.h"
 
 namespace reljef::render {
 
@@ -27,7 +28,7 @@ public:
     void forget_cuts();
 
     /// The parts of the tile with this index in the prepared list.
-    [[nodiscard]] std::span<const ResidentMesh> tile(std::size_t index) const {
+    [[nodiscard]] std::span<const TileMesh> tile(std::size_t index) const {
         return drawn_.at(index)->meshes;
     }
 
@@ -49,14 +50,16 @@ private:
     };
     struct Entry {
         std::weak_ptr<const scene::TerrainTile> owner;
-        std::uint64_t drawn = 0;          // last frame
-        std::vector<ResidentMesh> meshes; // of the tile, then of its seams
+        std::uint64_t drawn = 0;      // last frame
+        std::vector<TileMesh> meshes; // of the tile, then of its seams
         std::size_t seam_count = 0;
+        std::uint64_t slivers_version = 0; // of the coarseness; 0: no slivers are known
         // Of tiles of streams:
         std::uint64_t shape = 0; // changes with the triangles; no two tiles have the same
         view::TileBorder border;
         std::uint64_t seamed_shape = 0;
         std::vector<Seam> seams;
+        std::vector<view::SeamPart> seam_parts;
         // Of tiles that are cut.
         std::uint64_t version = 0; // of the coarseness
         double error = 0.0;        // of the tile, pixels
@@ -126,11 +129,15 @@ private:
     Cuts cut_within_budget(Group& group, const Draws& draws);
     std::optional<Cuts> try_to_cut(Group& group, const Draws& draws);
     Result<void> keep(Cuts cuts, const Group& group, view::FrameStats& stats);
-    void replace_meshes(Entry& entry, std::vector<ResidentMesh> meshes);
+    void replace_meshes(Entry& entry, std::vector<TileMesh> meshes);
     static std::vector<Unseamed> unseamed(const view::DrawList& list, Group& group,
                                           const Draws& draws);
     static Result<void> close_seams(const view::DrawList& list, Group& group, const Draws& draws,
                                     view::FrameStats& stats);
+    /// In the order of the entry's meshes. Precondition: the tile is cut.
+    static std::vector<TileTriangles> triangles_of(const Entry& entry);
+    static Result<void> part_slivers(const view::DrawList& list, Group& group, const Draws& draws,
+                                     view::FrameStats& stats);
     static void add_kept_errors(const Group& group, const Draws& draws, view::FrameStats& stats);
     const terrain::Bisection& bisection_of(const scene::TerrainNode& terrain);
 

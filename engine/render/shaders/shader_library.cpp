@@ -18,13 +18,13 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 27> feature_names{
+constexpr std::array<std::string_view, 28> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT"};
-static_assert(std::bit_width(std::uint32_t{feature_counting}) == feature_names.size());
+    "STREAMED",    "CURVED",       "COUNT",       "SLIVER"};
+static_assert(std::bit_width(std::uint32_t{feature_sliver}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -206,7 +206,7 @@ std::uint32_t own_features(ShaderVariant variant) {
     const std::uint32_t search = search_of(variant.features & ~foreign);
     switch (variant.kind) {
     case ShaderKind::terrain:
-        return variant.features & feature_warped;
+        return variant.features & (feature_warped | feature_sliver);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                (variant.features & (feature_streamed | feature_curved));
@@ -217,11 +217,12 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::textured_mesh:
         return (variant.features & feature_warped) | (is_hit ? wrap : lighting);
     case ShaderKind::textured_terrain:
-        return lighting;
+        return lighting | (variant.features & feature_sliver);
     case ShaderKind::relief_hull:
         return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap;
     case ShaderKind::relief_terrain:
-        return search | (options_of(variant.features, search) & shadows);
+        return search | (options_of(variant.features, search) & shadows) |
+               (variant.features & feature_sliver);
     default:
         return 0U;
     }

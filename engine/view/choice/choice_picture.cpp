@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
-#include "engine/view/tile_cut.h"
+#include "engine/view/triangles/tile_cut.h"
 
 // The colours of Okabe and Ito (2008), which people with any colour vision tell apart.
 

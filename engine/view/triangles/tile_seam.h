@@ -8,8 +8,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "engine/view/open_sides.h"
-#include "engine/view/tile_cut.h"
+#include "engine/view/triangles/open_sides.h"
+#include "engine/view/triangles/tile_cut.h"
 
 namespace reljef::view {
 

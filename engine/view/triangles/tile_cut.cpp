@@ -1,4 +1,4 @@
-#include "engine/view/tile_cut.h"
+#include "engine/view/triangles/tile_cut.h"
 
 #include <algorithm>
 #include <utility>

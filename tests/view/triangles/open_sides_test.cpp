@@ -1,4 +1,4 @@
-#include "engine/view/open_sides.h"
+#include "engine/view/triangles/open_sides.h"
 
 #include <map>
 #include <tuple>

@@ -1,4 +1,4 @@
-#include "engine/view/tile_seam.h"
+#include "engine/view/triangles/tile_seam.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/view/draw_list.h"
+#include "engine/view/grid_mesh.h"
+
+namespace reljef::view {
+
+/// Finds the slivers among the triangles of a tile: those that the picture shows so much longer
+/// than wide, or so large, that places which a rasterizer interpolates in floats may be farther off
+/// than `terrain::ErrorView::interpolation`. They take their places from their corners instead, see
+/// shaders/terrain/sliver.glsl.
+class SliverView {
+public:
+    /// Precondition: the tile's triangles follow an error bound.
+    SliverView(const DrawList& list, const TileDraw& draw);
+
+    /// The numbers of the slivers, ascending. Triangles beside the picture or behind the eye are
+    /// none.
+    [[nodiscard]] std::vector<std::uint32_t> slivers(std::span<const GridVertex> vertices,
+                                                     std::span<const std::uint16_t> indices) const;
+
+private:
+    struct Corner {
+        glm::dvec2 pixel{0.0};
+        double depth = 0.0;    // metres; 1 without perspective
+        glm::dvec2 place{0.0}; // samples from the tile's first
+    };
+    [[nodiscard]] Corner corner(const GridVertex& vertex) const;
+    [[nodiscard]] bool is_sliver(const Corner& a, const Corner& b, const Corner& c) const;
+
+    glm::dmat4 clip_from_offset_; // from the eye, local metres
+    glm::dvec3 eye_;              // local metres
+    glm::dvec2 size_;             // pixels
+    double near_;                 // metres
+    glm::dvec2 eye_place_;
+    double max_error_; // of interpolation, pixels
+};
+
+/// The corners of some of a mesh's triangles, three for each. `triangles`: their numbers.
+std::vector<std::uint32_t> corners_of(std::span<const std::uint16_t> indices,
+                                      std::span<const std::uint32_t> triangles);
+/// The corners of the others. `triangles`: ascending.
+std::vector<std::uint16_t> without(std::span<const std::uint16_t> indices,
+                                   std::span<const std::uint32_t> triangles);
+
+} // namespace reljef::view

@@ -1,0 +1,120 @@
+#include "engine/view/triangles/slivers.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/scene/graph/scene.h"
+#include "engine/view/error_view.h"
+#include "engine/view/select.h"
+#include "tests/render/made_scene.h"
+#include "tests/support/test_data.h"
+#include "tests/terrain/chance.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::view {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+constexpr glm::ivec2 seen_size{640, 480};
+constexpr double distance = 100.0; // metres from the eye to the triangles
+
+// A level terrain of 65 by 65 samples, seen straight down.
+class SliverViewTest : public testing::Test {
+protected:
+    SliverViewTest() {
+        node_ = &test::add_terrain(scene_, test::plane_heightfield(Grid<float>(65, 65, 0.0F)));
+        node_->get<scene::TerrainNode>()->material.technique =
+            scene::parse_technique("polygons:error=1").value();
+        scene_.add_camera(test::camera_at({0.0, 0.0, distance}, {0.0, 0.0, 0.0}));
+        list_ = select(scene_, seen_size).list;
+    }
+
+    [[nodiscard]] double pixels_a_metre() const {
+        return 0.5 * seen_size.y / std::tan(0.5 * glm::radians(scene_.camera().vertical_fov)) / distance;
+    }
+
+    // One triangle, at pixels from the middle of the picture, with a place a sample apart each.
+    [[nodiscard]] bool is_sliver(std::array<glm::dvec2, 3> pixels, double place = 10.0) const {
+        const std::array places{glm::dvec2(place), glm::dvec2(place + 1.0, place),
+                                glm::dvec2(place, place + 1.0)};
+        std::vector<GridVertex> vertices;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const glm::dvec2 metres = pixels[i] / pixels_a_metre();
+            vertices.push_back(grid_vertex({metres, 0.0}, 0.0, places[i]));
+        }
+        const std::array<std::uint16_t, 3> indices{0, 1, 2};
+        return !SliverView(list_, list_.tiles.front()).slivers(vertices, indices).empty();
+    }
+
+    scene::Scene scene_;
+    scene::Node* node_ = nullptr;
+    DrawList list_;
+};
+
+TEST_F(SliverViewTest, LongAndNarrowTrianglesAreSlivers) {
+    for (const double length : {1.0, 30.0, 300.0}) {
+        for (const double turn : {0.0, 0.7, 2.0}) {
+            const glm::dvec2 along = length * glm::dvec2(std::cos(turn), std::sin(turn));
+            const glm::dvec2 across = glm::dvec2(-along.y, along.x);
+            EXPECT_FALSE(is_sliver({-0.5 * along, 0.5 * along, 0.5 * across}));
+            EXPECT_FALSE(is_sliver({-0.5 * along, 0.5 * along, 0.05 * across}));
+            EXPECT_TRUE(is_sliver({-0.5 * along, 0.5 * along, 1e-3 * across}));
+            EXPECT_TRUE(is_sliver({-0.5 * along, 0.5 * along, 0.1 * along})) << "no area";
+        }
+    }
+}
+
+TEST_F(SliverViewTest, SoAreLargeOnesFarFromTheTilesFirstSample) {
+    const std::array large{glm::dvec2(-200.0, -200.0), glm::dvec2(200.0, -200.0),
+                           glm::dvec2(0.0, 200.0)};
+    EXPECT_FALSE(is_sliver(large, 1.0));
+    EXPECT_TRUE(is_sliver(large, 5000.0));
+}
+
+TEST_F(SliverViewTest, TrianglesBesideThePictureAreNone) {
+    EXPECT_TRUE(is_sliver({glm::dvec2(0.0, 0.0), glm::dvec2(100.0, 0.0), glm::dvec2(50.0, 1e-3)}));
+    EXPECT_FALSE(
+        is_sliver({glm::dvec2(400.0, 0.0), glm::dvec2(500.0, 0.0), glm::dvec2(450.0, 1e-3)}));
+}
+
+TEST_F(SliverViewTest, TrianglesThatTheNearPlaneCutsAre) {
+    const std::array<std::uint16_t, 3> indices{0, 1, 2};
+    const SliverView view(list_, list_.tiles.front());
+    const auto triangle = [](double top) {
+        return std::vector{grid_vertex({-1.0, 0.0, 0.0}, 0.0, {0.0, 0.0}),
+                           grid_vertex({1.0, 0.0, 0.0}, 0.0, {1.0, 0.0}),
+                           grid_vertex({0.0, 1.0, top}, top, {0.0, 1.0})};
+    };
+    EXPECT_TRUE(view.slivers(triangle(0.9 * distance), indices).empty());
+    EXPECT_FALSE(view.slivers(triangle(1.1 * distance), indices).empty());
+}
+
+TEST(Slivers, AndTheOthersAreAllTriangles) {
+    test::Chance chance(5);
+    for (int i = 0; i < 2000; ++i) {
+        std::vector<std::uint16_t> indices(3 * static_cast<std::size_t>(chance.whole(0, 20)));
+        std::iota(indices.begin(), indices.end(), std::uint16_t{7});
+        Numbers slivers;
+        for (std::uint32_t t = 0; t < indices.size() / 3; ++t) {
+            if (chance.one_in(3)) {
+                slivers.push_back(t);
+            }
+        }
+        const std::vector<std::uint16_t> others = without(indices, slivers);
+        const Numbers corners = corners_of(indices, slivers);
+        EXPECT_EQ(corners.size(), 3 * slivers.size());
+        std::vector<std::uint16_t> all(others);
+        all.insert(all.end(), corners.begin(), corners.end());
+        EXPECT_TRUE(std::is_sorted(others.begin(), others.end()));
+        std::sort(all.begin(), all.end());
+        EXPECT_EQ(all, indices);
+    }
+}
+
+} // namespace
+} // namespace reljef::view
