@@ -42,7 +42,10 @@ vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_sha
 vec4 looked_up(sampler2D map, vec4 map_from_sample) {
     vec2 place = tile_sample + INSIDE(tile_place);
     vec2 coordinate = place * map_from_sample.xy + map_from_sample.zw;
-#ifdef MULTISAMPLED
+#ifdef SLIVER
+    return textureGrad(map, coordinate, place_per_pixel[0] * map_from_sample.xy,
+                       place_per_pixel[1] * map_from_sample.xy);
+#elif defined(MULTISAMPLED)
     return textureGrad(map, coordinate,
                        dFdx(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy,
                        dFdy(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy);

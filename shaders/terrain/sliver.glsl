@@ -4,6 +4,7 @@
 flat in int first_corner;
 
 struct Corner {
+    Vertex vertex;
     vec3 from_eye; // local metres
     vec4 clip;
     vec2 off; // from this fragment, as seen along its ray: pixels times w
@@ -16,58 +17,69 @@ float true_height = 0.0;         // metres
 vec2 corner_place = vec2(0.0);   // of a corner, samples from the tile's first
 vec2 from_corner = vec2(0.0);    // samples
 vec2 tile_place = vec2(0.0);     // samples from the tile's first
+mat2 place_per_pixel = mat2(0.0); // its changes along and across the triangle; at most all of it
 
 Corner corner_of(Vertex vertex) {
     precise vec3 from_eye = (vertex.position - eye) + (vertex.rest - eye_rest);
     vec4 clip = clip_from_relative * vec4(world_from_local * from_eye, 1.0);
     vec2 at = 2.0 * gl_FragCoord.xy * pixel_share.xy - 1.0;
-    return Corner(from_eye, clip, (clip.xy - at * clip.w) / pixel_share.xy);
+    return Corner(vertex, from_eye, clip, 0.5 * (clip.xy - at * clip.w) / pixel_share.xy);
 }
 
 float cross_product(vec2 a, vec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
+float squared(vec2 v) {
+    return dot(v, v);
+}
+
 // Shares of three corners in the fragment, which is at 0. `a` to `b` is the longest edge. Along it the shares
 // are exact; across it, where floats may not tell the corners apart, they are in the triangle.
-vec3 shares_along(vec2 a, vec2 b, vec2 c) {
+vec3 shares_of(vec2 a, vec2 b, vec2 c) {
     const float tiny = 1e-30;
     vec2 edge = b - a;
-    vec2 side = c - a;
-    float length_squared = max(dot(edge, edge), tiny);
+    vec2 to_c = c - a;
+    float length_squared = max(squared(edge), tiny);
     float part = clamp(-dot(a, edge) / length_squared, 0.0, 1.0);
-    float part_of_c = clamp(dot(side, edge) / length_squared, 0.0, 1.0);
+    float part_of_c = clamp(dot(to_c, edge) / length_squared, 0.0, 1.0);
     float most_of_c = min(part / max(part_of_c, tiny), (1.0 - part) / max(1.0 - part_of_c, tiny));
-    float across = cross_product(edge, side);
+    float across = cross_product(edge, to_c);
     float of_c = across == 0.0 ? 0.0 : clamp(cross_product(a, edge) / across, 0.0, min(most_of_c, 1.0));
     float of_b = part - of_c * part_of_c;
     return vec3(1.0 - of_c - of_b, of_b, of_c);
 }
 
-vec3 shares_of(vec2 a, vec2 b, vec2 c) {
-    vec3 squares = vec3(dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c));
-    if (squares.x >= max(squares.y, squares.z)) {
-        return shares_along(a, b, c);
-    }
-    return squares.y >= squares.z ? shares_along(b, c, a).zxy : shares_along(c, a, b).yzx;
-}
-
-void set_from_corners() {
-    Vertex first = vertex_of(first_corner);
-    Vertex second = vertex_of(first_corner + 1);
-    Vertex third = vertex_of(first_corner + 2);
-    Corner a = corner_of(first);
-    Corner b = corner_of(second);
-    Corner c = corner_of(third);
+// `a` to `b` is the longest edge.
+void set_between(Corner a, Corner b, Corner c) {
     vec3 shares = shares_of(a.off, b.off, c.off);
     local_from_eye = mat3(a.from_eye, b.from_eye, c.from_eye) * shares;
     way_from_eye = world_from_local * local_from_eye;
-    true_height = dot(vec3(first.height, second.height, third.height), shares);
-    corner_place = first.place;
-    from_corner = shares.y * (second.place - first.place) + shares.z * (third.place - first.place);
+    true_height = dot(vec3(a.vertex.height, b.vertex.height, c.vertex.height), shares);
+    vec2 to_b = b.vertex.place - a.vertex.place;
+    vec2 to_c = c.vertex.place - a.vertex.place;
+    corner_place = a.vertex.place;
+    from_corner = shares.y * to_b + shares.z * to_c;
     tile_place = corner_place + from_corner;
     vec4 clip = shares.x * a.clip + shares.y * b.clip + shares.z * c.clip;
     gl_FragDepth = clip.z / clip.w;
+    float pixels_long = length(b.off - a.off) / clip.w;
+    float pixels_wide = abs(cross_product(b.off - a.off, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
+    place_per_pixel = mat2(to_b / max(pixels_long, 1.0), to_c / max(pixels_wide, 1.0));
+}
+
+void set_from_corners() {
+    Corner a = corner_of(vertex_of(first_corner));
+    Corner b = corner_of(vertex_of(first_corner + 1));
+    Corner c = corner_of(vertex_of(first_corner + 2));
+    vec3 squares = vec3(squared(b.off - a.off), squared(c.off - b.off), squared(a.off - c.off));
+    if (squares.x >= max(squares.y, squares.z)) {
+        set_between(a, b, c);
+    } else if (squares.y >= squares.z) {
+        set_between(b, c, a);
+    } else {
+        set_between(c, a, b);
+    }
 }
 
 float distance_to_eye() {

@@ -80,6 +80,11 @@ void main() {
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;
+#elif defined(SLIVER)
+    vec3 lit = textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw,
+                           place_per_pixel[0] * lit_from_sample.xy,
+                           place_per_pixel[1] * lit_from_sample.xy)
+                   .rgb;
 #elif defined(MULTISAMPLED)
     vec3 lit = textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw,
                            dFdx(tile_place) * lit_from_sample.xy,

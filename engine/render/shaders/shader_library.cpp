@@ -206,7 +206,8 @@ std::uint32_t own_features(ShaderVariant variant) {
     const std::uint32_t search = search_of(variant.features & ~foreign);
     switch (variant.kind) {
     case ShaderKind::terrain:
-        return variant.features & (feature_warped | feature_sliver);
+        return (variant.features & feature_warped) != 0 ? feature_warped
+                                                        : variant.features & feature_sliver;
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                (variant.features & (feature_streamed | feature_curved));

@@ -18,7 +18,7 @@ inline std::uint32_t possible_features(ShaderKind kind) {
                                      feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
-        return any | feature_warped | feature_multisampled | feature_counting;
+        return any | feature_warped | feature_multisampled | feature_counting | feature_sliver;
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
@@ -32,12 +32,14 @@ inline std::uint32_t possible_features(ShaderKind kind) {
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
                feature_warped | feature_multisampled;
     case ShaderKind::textured_terrain:
-        return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled;
+        return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled |
+               feature_sliver;
     case ShaderKind::relief_hull:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
                feature_multisampled;
     case ShaderKind::relief_terrain:
-        return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled;
+        return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled |
+               feature_sliver;
     default:
         return any;
     }

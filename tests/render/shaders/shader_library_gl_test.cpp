@@ -29,8 +29,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 27;
-static_assert(1U << (feature_count - 1) == feature_counting, "the last feature");
+constexpr std::size_t feature_count = 28;
+static_assert(1U << (feature_count - 1) == feature_sliver, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
@@ -47,7 +47,8 @@ FeaturePairs pairs_of(std::uint32_t features) {
     return pairs;
 }
 
-// So few of all variants that every pair of features that a kind can have is in one of that kind.
+// So few of all variants that every pair of features that a kind can have is in one of that kind,
+// and each feature alone.
 // Greedy: those that bring many new pairs first, and among them those with the most features.
 std::vector<ShaderVariant> pairwise_variants() {
     std::vector<ShaderVariant> all = all_variants();
@@ -60,7 +61,8 @@ std::vector<ShaderVariant> pairwise_variants() {
         for (const ShaderVariant& variant : all) {
             FeaturePairs& of_kind = known[variant.kind];
             const FeaturePairs pairs = pairs_of(variant.features);
-            if ((pairs & ~of_kind).count() >= enough) {
+            const bool is_plain = enough == 1U && std::popcount(variant.features) <= 1;
+            if (is_plain || (pairs & ~of_kind).count() >= enough) {
                 of_kind |= pairs;
                 taken.push_back(variant);
             }
