@@ -107,13 +107,13 @@ bool is_rigid(const glm::dmat4& transform) {
 
 BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error) {
     check(max_error > rasterizer_error, "an error that no rasterizer can keep");
-    const double interpolation = interpolation_share * max_error;
-    const double rounding = rounding_of_vertices(camera, size) + interpolation;
+    const double more_interpolation = interpolation_share * max_error;
+    const double rounding = rounding_of_vertices(camera, size) + more_interpolation;
     const double min_error_left = min_left * (max_error - rasterizer_error);
     const double left = max_error - rasterizer_error - rounding;
     // The sum of all parts, rounded, is within the bound, too.
-    return {std::max(left, min_error_left) * (1.0 - 0x1p-50), rounding, interpolation,
-            left < min_error_left};
+    return {std::max(left, min_error_left) * (1.0 - 0x1p-50), rounding,
+            interpolation_error + more_interpolation, left < min_error_left};
 }
 
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,

@@ -41,7 +41,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 struct BoundLeft {
     double error = 0.0;                ///< for tiles and triangles, pixels
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
-    double interpolation = 0.0;        ///< its part for interpolation within triangles, pixels
+    double interpolation = 0.0;        ///< allowed to places within triangles, pixels
     bool exceeded_by_rounding = false; ///< `error` is larger than what rounding leaves
 };
 /// Precondition: max_error > rasterizer_error.

@@ -27,7 +27,8 @@ struct ErrorView {
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible; > 0 in perspective
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
-    double interpolation = 0.0; ///< its part that is allowed to the rasterizer's interpolation
+    double interpolation =
+        0.0; ///< allowed to places within triangles that floats interpolate, pixels
     bool exceeded_by_rounding = false; ///< it leaves too little of the bound: max_error is larger
     /// Pixels by which places between a triangle's corners are rounded, times depth over the radius
     /// of its sphere, and their bound: triangles are split as far as it demands.
