@@ -15,10 +15,10 @@
 // Floats round the place of a vertex in a few steps: relative to the eye, in the world's axes, in
 // the picture, and on the rasterizer's grid. Each is a share of its distance from the eye, which
 // the picture shows as at most f / cos^2(a) pixels, where a is the angle of the picture's corner
-// from its middle; without perspective, as the distance times the pixels per metre. A triangle of
-// size s at a depth of z has corners up to f s / z pixels outside the picture, and rasterizers
-// interpolate places between them in floats. That such corners are farther away than what is seen,
-// and rounded by more, is not counted.
+// from its middle; without perspective, as the distance times the pixels per metre. The corners of
+// a triangle in a sphere of radius r are up to 2 r farther away than a point of it that is seen at
+// a depth of z, and rounded by up to 2 r / z times as much more. So triangles are split until that
+// is a small share of the bound.
 //
 // A pixel shows a point A of a triangle, which belongs at B = A + D. Along the view's right, up and
 // forward axes A = (Ax, Ay, Az). With f pixels per radian at the middle of the picture
@@ -30,15 +30,15 @@
 namespace reljef::view {
 namespace {
 
-// Of a float, and of the few operations that interpolate it.
-constexpr double rounded = 0x1p-23;
 // The operations that round a vertex one after the other: 3 relative to the eye, 4 and 5 for two
 // matrices, 4 for the grid, 8 for places that are interpolated from there.
 constexpr double rounded_vertex = 24.0 * 0x1p-24;
-// Share of the bound for places that are interpolated within triangles. With a smaller one, more
-// triangles are slivers (triangles/slivers.h).
-constexpr double interpolation_share = 1.0 / 32.0;
-// Share of the bound that triangles get at least: better ones would hardly change the picture.
+// Shares of the bound. For places that are interpolated within triangles: with a smaller share,
+// more triangles are slivers (triangles/slivers.h).
+constexpr double interpolation_share = 1.0 / 64.0;
+// For corners beside the picture: with a smaller share, triangles at the eye are smaller.
+constexpr double corner_share = 1.0 / 64.0;
+// For triangles, at least: better ones would hardly change the picture.
 constexpr double min_left = 0.5;
 
 // Bounds the factor by which a transform lengthens a vector.
@@ -71,6 +71,10 @@ std::array<glm::dvec4, 5> frustum_sides(const glm::dmat4& clip_from_local) {
     return sides;
 }
 
+bool is_perspective(const scene::Camera& camera) {
+    return camera.projection == scene::ProjectionKind::perspective;
+}
+
 // At the middle of the picture.
 double pixels_per_radian(const scene::Camera& camera, glm::ivec2 size) {
     return 0.5 * size.y / std::tan(0.5 * glm::radians(camera.vertical_fov));
@@ -79,7 +83,7 @@ double pixels_per_radian(const scene::Camera& camera, glm::ivec2 size) {
 // Pixels, at most.
 double rounding_of_vertices(const scene::Camera& camera, glm::ivec2 size) {
     const double diagonal = glm::length(glm::dvec2(scene::whole_picture(camera, size))); // pixels
-    if (camera.projection == scene::ProjectionKind::perspective) {
+    if (is_perspective(camera)) {
         const double focal = pixels_per_radian(camera, size);
         return rounded_vertex * (focal + 0.25 * diagonal * diagonal / focal);
     }
@@ -107,13 +111,17 @@ bool is_rigid(const glm::dmat4& transform) {
 
 BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max_error) {
     check(max_error > rasterizer_error, "an error that no rasterizer can keep");
-    const double more_interpolation = interpolation_share * max_error;
-    const double rounding = rounding_of_vertices(camera, size) + more_interpolation;
+    const double interpolation = interpolation_share * max_error;
+    const double corners = is_perspective(camera) ? corner_share * max_error : 0.0;
+    const double rounding = rounding_of_vertices(camera, size) + interpolation + corners;
     const double min_error_left = min_left * (max_error - rasterizer_error);
     const double left = max_error - rasterizer_error - rounding;
     // The sum of all parts, rounded, is within the bound, too.
-    return {std::max(left, min_error_left) * (1.0 - 0x1p-50), rounding,
-            interpolation_error + more_interpolation, left < min_error_left};
+    return {.error = std::max(left, min_error_left) * (1.0 - 0x1p-50),
+            .vertex_rounding = rounding,
+            .corner_rounding = corners,
+            .interpolation = interpolation_error + interpolation,
+            .exceeded_by_rounding = left < min_error_left};
 }
 
 terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
@@ -129,7 +137,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     view.vertex_rounding = left.vertex_rounding;
     view.interpolation = left.interpolation;
     view.exceeded_by_rounding = left.exceeded_by_rounding;
-    view.perspective = camera.projection == scene::ProjectionKind::perspective;
+    view.perspective = is_perspective(camera);
     view.stretch = max_stretch(axes);
     // Those of the whole picture: triangles beside a part divide others in it.
     view.sides = frustum_sides(scene::clip_from_world(scene::camera_of_whole(camera, size),
@@ -145,8 +153,8 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     }
     const double focal = pixels_per_radian(camera, size);
     view.scale = focal * (is_vertical ? glm::length(metre_up) : view.stretch);
-    view.rounding_between = rounded * focal;
-    view.max_rounding = interpolation_error;
+    view.rounding_between = 2.0 * rounding_of_vertices(camera, size);
+    view.max_rounding = left.corner_rounding;
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);
     view.lateral_axes = lateral * axes;
     view.lateral_origin = lateral * offset;

@@ -41,6 +41,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 struct BoundLeft {
     double error = 0.0;                ///< for tiles and triangles, pixels
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
+    double corner_rounding = 0.0;      ///< its part for corners farther away than what is seen
     double interpolation = 0.0;        ///< allowed to places within triangles, pixels
     bool exceeded_by_rounding = false; ///< `error` is larger than what rounding leaves
 };

@@ -97,7 +97,7 @@ TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
     const glm::dvec3 place(0.0, 1000.0, 0.0);
     const double metres_per_pixel =
         1000.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / (0.5 * picture.y);
-    const double left = metres_per_pixel * (1.0 - view.interpolation);
+    const double left = metres_per_pixel * (1.0 - view.vertex_rounding);
     EXPECT_FALSE(terrain::exceeds(view, {0.99 * left, place, 0.0}));
     EXPECT_TRUE(terrain::exceeds(view, {1.01 * metres_per_pixel, place, 0.0}));
 }

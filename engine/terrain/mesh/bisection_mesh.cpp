@@ -114,7 +114,7 @@ double depth_of(const ErrorView& view, const Split& split) {
     return glm::dot(glm::dvec3(view.depth), split.center) + view.depth.w - reach;
 }
 
-// Pixels by which floats round the places of a visible split's triangles.
+// Pixels by which floats round the corners of a visible split's triangles more than what is seen.
 double rounding_of(const ErrorView& view, const Split& split, double depth) {
     return view.rounding_between * view.stretch * split.radius / std::max(depth, view.near);
 }

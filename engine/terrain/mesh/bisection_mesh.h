@@ -27,11 +27,10 @@ struct ErrorView {
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible; > 0 in perspective
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
-    double interpolation =
-        0.0; ///< allowed to places within triangles that floats interpolate, pixels
+    double interpolation = 0.0;        ///< allowed to places within triangles, pixels
     bool exceeded_by_rounding = false; ///< it leaves too little of the bound: max_error is larger
-    /// Pixels by which places between a triangle's corners are rounded, times depth over the radius
-    /// of its sphere, and their bound: triangles are split as far as it demands.
+    /// Pixels by which a triangle's corners are rounded more than what is seen of it, times depth
+    /// over the radius of its sphere, and their bound: triangles are split as far as it demands.
     double rounding_between = 0.0;
     double max_rounding = 0.0;
     int min_size = 0;             ///< of squares that are split, steps

@@ -231,9 +231,9 @@ TEST_F(PolygonsErrorGlTest, ALevelSurfaceTakesTheFewestTriangles) {
         scene::parse_technique("polygons:error=0.1").value();
     session::SceneRenderer driver = test::must(test::make_renderer(picture));
     EXPECT_EQ(test::must(driver.draw(scene)).triangles, 16U);
-    // Triangles that the near plane may cut are smaller: floats round what lies far beside them.
+    // Next to the eye triangles are smaller: floats round corners that are far away.
     *camera.get<scene::Camera>() = test::camera_at({0.0, 0.0, 4.0}, {0.0, 100.0, 3.0});
-    EXPECT_LE(test::must(driver.draw(scene)).triangles, 120U);
+    EXPECT_LE(test::must(driver.draw(scene)).triangles, 500U);
 }
 
 } // namespace
