@@ -3,8 +3,8 @@
 
 #include "engine/core/bilinear.h"
 #include "engine/scene/streaming/tile_stream.h"
-#include "engine/view/triangles/tile_cut.h"
 #include "engine/view/tile_selection.h"
+#include "engine/view/triangles/tile_cut.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
 #include "tests/session/made_session.h"

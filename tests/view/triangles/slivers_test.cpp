@@ -35,7 +35,8 @@ protected:
     }
 
     [[nodiscard]] double pixels_a_metre() const {
-        return 0.5 * seen_size.y / std::tan(0.5 * glm::radians(scene_.camera().vertical_fov)) / distance;
+        return 0.5 * seen_size.y / std::tan(0.5 * glm::radians(scene_.camera().vertical_fov)) /
+               distance;
     }
 
     // One triangle, at pixels from the middle of the picture, with a place a sample apart each.
