@@ -25,7 +25,10 @@
 namespace reljef::session {
 namespace {
 
-constexpr std::size_t part_for_triangles = 4; // of the memory
+constexpr std::size_t part_for_triangles = 6; // of the memory
+
+// More for a sliver (view::SliverView): three corners, its number, and the indices of before.
+constexpr std::size_t bytes_per_sliver = 3 * 4 + 4 + 3 * 2;
 
 // With little memory: a quarter of those of the tiles that are enough for any view.
 constexpr std::size_t min_triangles =
@@ -33,7 +36,8 @@ constexpr std::size_t min_triangles =
 
 std::size_t triangles_within(int megabytes) {
     const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
-    return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
+    return std::max(min_triangles,
+                    bytes / part_for_triangles / (scene::bytes_per_triangle + bytes_per_sliver));
 }
 
 // Of a terrain that is read whole, of a vertex at each sample, and of what a software renderer with
