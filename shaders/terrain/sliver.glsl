@@ -43,9 +43,9 @@ vec3 shares_of(vec2 a, vec2 b, vec2 c) {
     float length_squared = max(squared(edge), tiny);
     float part = clamp(-dot(a, edge) / length_squared, 0.0, 1.0);
     float part_of_c = clamp(dot(to_c, edge) / length_squared, 0.0, 1.0);
-    float most_of_c = min(part / max(part_of_c, tiny), (1.0 - part) / max(1.0 - part_of_c, tiny));
+    float max_of_c = min(part / max(part_of_c, tiny), (1.0 - part) / max(1.0 - part_of_c, tiny));
     float across = cross_product(edge, to_c);
-    float of_c = across == 0.0 ? 0.0 : clamp(cross_product(a, edge) / across, 0.0, min(most_of_c, 1.0));
+    float of_c = across == 0.0 ? 0.0 : clamp(cross_product(a, edge) / across, 0.0, min(max_of_c, 1.0));
     float of_b = part - of_c * part_of_c;
     return vec3(1.0 - of_c - of_b, of_b, of_c);
 }
