@@ -14,4 +14,8 @@ void draw_arrays(Primitive primitive, int count, int instances) {
                           count, instances);
 }
 
+void wait_until_drawn() {
+    glFinish();
+}
+
 } // namespace reljef::gl

@@ -12,4 +12,7 @@ void draw_elements(IndexType type, int count);
 /// attribute.
 void draw_arrays(Primitive primitive, int count, int instances = 1);
 
+/// Waits for all draws before.
+void wait_until_drawn();
+
 } // namespace reljef::gl

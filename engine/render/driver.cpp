@@ -6,14 +6,13 @@
 #include <numeric>
 
 #include "engine/core/stopwatch.h"
+#include "engine/gl/draw.h"
 #include "engine/gl/limits.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/render/passes/draw_state.h"
 #include "engine/render/passes/frame_context.h"
 #include "engine/render/shaders/frame_block.h"
 #include "engine/render/shaders/technique_support.h"
-
-#include <glad/gl.h>
 
 namespace reljef::render {
 namespace {
@@ -105,7 +104,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
             // Averaging the samples waited for the renderer; gpu_ms contains that time.
             stats.cpu_ms -= drawing.milliseconds();
         }
-        glFinish();
+        gl::wait_until_drawn();
         const auto measured = timer.poll();
         stats.gpu_ms = measured ? std::chrono::duration<double, std::milli>(*measured).count()
                                 : drawing.milliseconds();
@@ -117,7 +116,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
 }
 
 Result<void> Driver::check_drawn() {
-    glFinish();
+    gl::wait_until_drawn();
     return check_context();
 }
 
@@ -209,7 +208,7 @@ Result<void> Driver::draw_work(const view::DrawList& list, const gl::Framebuffer
     view::FrameStats ignored;
     picture.bind();
     picture.clear_color(glm::vec4(0.0F));
-    DrawState state(shaders_, blocks_, ignored);
+    DrawState state(shaders_, blocks_, options_.software, ignored);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const FrameContext frame{.list = list,
@@ -295,7 +294,7 @@ Result<void> Driver::draw_sample_pass(const view::DrawList& list, int pass,
     if (auto drawn = draw_pass(list, sample_target_.picture(), stats); !drawn) {
         return drawn;
     }
-    DrawState state(shaders_, blocks_, stats);
+    DrawState state(shaders_, blocks_, options_.software, stats);
     return sample_target_.add_pass(pass, color_target_, state, no_vertices_);
 }
 
@@ -308,7 +307,7 @@ Result<void> Driver::draw_pass(const view::DrawList& list, const gl::Framebuffer
 
 Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuffer& picture,
                                   bool hits, view::FrameStats& stats) {
-    DrawState state(shaders_, blocks_, stats);
+    DrawState state(shaders_, blocks_, options_.software, stats);
     picture.clear_depth();
     frame_block_.bind_uniform_block(FrameBlock::layout.binding);
     const FrameContext frame{

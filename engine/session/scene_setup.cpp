@@ -25,10 +25,7 @@
 namespace reljef::session {
 namespace {
 
-constexpr std::size_t part_for_triangles = 6; // of the memory
-
-// More for a sliver (view::SliverView): three corners, its number, and the indices of before.
-constexpr std::size_t bytes_per_sliver = 3 * 4 + 4 + 3 * 2;
+constexpr std::size_t part_for_triangles = 4; // of the memory
 
 // With little memory: a quarter of those of the tiles that are enough for any view.
 constexpr std::size_t min_triangles =
@@ -36,13 +33,11 @@ constexpr std::size_t min_triangles =
 
 std::size_t triangles_within(int megabytes) {
     const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
-    return std::max(min_triangles,
-                    bytes / part_for_triangles / (scene::bytes_per_triangle + bytes_per_sliver));
+    return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
 }
 
-// Of a terrain that is read whole, of a vertex at each sample, and of what a software renderer with
-// four samples per pixel keeps of its two triangles until they are drawn (measured: 117 each).
-constexpr std::size_t bytes_per_whole_sample = 24 + 40 + 2 * 117;
+// Of a terrain that is read whole, and of a vertex at each sample.
+constexpr std::size_t bytes_per_whole_sample = 24 + 40;
 
 std::size_t vertices_within(int megabytes) {
     return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;

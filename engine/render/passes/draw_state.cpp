@@ -1,9 +1,17 @@
 #include "engine/render/passes/draw_state.h"
 
 namespace reljef::render {
+namespace {
 
-DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats)
-    : shaders_(shaders), blocks_(blocks), stats_(stats) {
+// A software renderer keeps about 230 bytes for each triangle until it is drawn (measured with four
+// samples per pixel).
+constexpr std::size_t max_awaited = 1U << 16U; // 15 MB
+
+} // namespace
+
+DrawState::DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, bool software,
+                     view::FrameStats& stats)
+    : shaders_(shaders), blocks_(blocks), software_(software), stats_(stats) {
     gl::set_reversed_depth();
     gl::set_culling(gl::Culling::back);
     gl::set_polygon_mode(gl::PolygonMode::fill);
@@ -56,18 +64,25 @@ void DrawState::set_adding(bool adding) {
 void DrawState::draw(const ResidentMesh& mesh, gl::IndexType type) {
     mesh.vertex_array.bind();
     gl::draw_elements(type, mesh.index_count);
-    stats_.triangles += static_cast<std::size_t>(mesh.index_count) / 3;
-    ++stats_.draws;
-    ++stats_.state_changes;
+    count_draw(static_cast<std::size_t>(mesh.index_count) / 3);
 }
 
 void DrawState::draw_triangles(const gl::VertexArray& no_vertices, std::size_t count) {
     no_vertices.bind();
     gl::draw_arrays(gl::Primitive::triangles, static_cast<int>(3 * count));
-    stats_.triangles += count;
     stats_.slivers += count;
+    count_draw(count);
+}
+
+void DrawState::count_draw(std::size_t triangles) {
+    stats_.triangles += triangles;
     ++stats_.draws;
     ++stats_.state_changes;
+    awaited_ += triangles;
+    if (software_ && awaited_ >= max_awaited) {
+        gl::wait_until_drawn();
+        awaited_ = 0;
+    }
 }
 
 } // namespace reljef::render

@@ -19,7 +19,9 @@ namespace reljef::render {
 class DrawState {
 public:
     /// Sets reversed depth, filled triangles, back-face culling, and colours that replace others.
-    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, view::FrameStats& stats);
+    /// `software`: a renderer on the CPU, which is waited for so often that its memory is limited.
+    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, bool software,
+              view::FrameStats& stats);
 
     /// Binds the variant's program. Programs with a surface search run per sample. Fails as
     /// ShaderLibrary::program.
@@ -42,10 +44,13 @@ public:
 private:
     Result<void> set_block(unsigned int binding, std::span<const std::byte> content);
     void set_sample_shading(bool on);
+    void count_draw(std::size_t triangles);
 
     ShaderLibrary& shaders_;
     BlockBuffers& blocks_;
+    bool software_;
     view::FrameStats& stats_;
+    std::size_t awaited_ = 0; // triangles
 };
 
 } // namespace reljef::render

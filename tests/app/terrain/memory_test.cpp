@@ -56,7 +56,7 @@ TEST_P(Memory, StaysWithinTheBudget) {
 }
 
 TEST(MemoryNote, TellsOfSamplesThatAreNotDrawn) {
-    constexpr int side = 301;
+    constexpr int side = 601;
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "hills.tif").string();
     ASSERT_TRUE(io::write_heights(file, {side, side, 10.0, {400'000.0, 5e6}}, fill_hills));
@@ -69,9 +69,9 @@ TEST(MemoryNote, TellsOfSamplesThatAreNotDrawn) {
         return result.err;
     };
     const std::string told = "not every sample is drawn, and pixels are off by up to 0.5: "
-                             "--memory 26 holds all triangles";
-    EXPECT_NE(notes_with("25").find(told), std::string::npos);
-    EXPECT_EQ(notes_with("26").find("not every sample"), std::string::npos);
+                             "--memory 23 holds all triangles";
+    EXPECT_NE(notes_with("22").find(told), std::string::npos);
+    EXPECT_EQ(notes_with("23").find("not every sample"), std::string::npos);
 }
 
 INSTANTIATE_TEST_SUITE_P(
