@@ -1,9 +1,6 @@
-// The corners of slivers (sliver.glsl), and the vertices of their tile.
-layout(std430, binding = tile_vertices_binding) readonly buffer TileVertices {
-    float vertices[]; // view::GridVertex
-};
-layout(std430, binding = sliver_corners_binding) readonly buffer SliverCorners {
-    uint sliver_corners[]; // three vertices a triangle
+// The corners of slivers (sliver.glsl).
+layout(std430, binding = corners_binding) readonly buffer Corners {
+    float corners[]; // view::GridVertex, three a triangle
 };
 
 uniform vec3 eye;      // local metres
@@ -18,8 +15,8 @@ struct Vertex {
 };
 
 Vertex vertex_of(int corner) {
-    uint at = 9u * sliver_corners[corner];
-    return Vertex(vec3(vertices[at], vertices[at + 1u], vertices[at + 2u]), vertices[at + 3u],
-                  vec2(vertices[at + 4u], vertices[at + 5u]),
-                  vec3(vertices[at + 6u], vertices[at + 7u], vertices[at + 8u]));
+    int at = 9 * corner;
+    return Vertex(vec3(corners[at], corners[at + 1], corners[at + 2]), corners[at + 3],
+                  vec2(corners[at + 4], corners[at + 5]),
+                  vec3(corners[at + 6], corners[at + 7], corners[at + 8]));
 }

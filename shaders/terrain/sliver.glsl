@@ -62,7 +62,9 @@ void set_between(Corner a, Corner b, Corner c) {
     from_corner = shares.y * to_b + shares.z * to_c;
     tile_place = corner_place + from_corner;
     vec4 clip = shares.x * a.clip + shares.y * b.clip + shares.z * c.clip;
+#ifdef CORNER_DEPTH
     gl_FragDepth = clip.z / clip.w;
+#endif
     float pixels_long = length(b.off - a.off) / clip.w;
     float pixels_wide = abs(cross_product(b.off - a.off, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
     place_per_pixel = mat2(to_b / max(pixels_long, 1.0), to_c / max(pixels_wide, 1.0));

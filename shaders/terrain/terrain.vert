@@ -1,20 +1,19 @@
 #include "frame/frame_block.glsl"
 
-#ifdef SLIVER
-#include "terrain/corners.glsl"
-
-flat out int first_corner;
-#else
 layout(location = 0) in vec3 position; // local metres
-layout(location = 1) in vec2 place;    // samples from the tile's first
-#ifdef HIT
-layout(location = 2) in float height; // true metres
-#endif
-layout(location = 3) in vec3 rest; // local metres, to be added to the position
+layout(location = 3) in vec3 rest;     // local metres, to be added to the position
 
 uniform vec3 eye;      // local metres
 uniform vec3 eye_rest; // local metres, to be added
 uniform mat3 world_from_local;
+
+#ifdef SLIVER
+flat out int first_corner;
+#else
+layout(location = 1) in vec2 place; // samples from the tile's first
+#ifdef HIT
+layout(location = 2) in float height; // true metres
+#endif
 
 out vec2 tile_place; // samples from the tile's first
 #ifdef HIT
@@ -49,19 +48,14 @@ void set_position(vec3 relative) {
     gl_Position = on_vertex_grid(clip_from_relative * vec4(relative, 1.0));
 }
 
-#ifdef SLIVER
-void main() {
-    Vertex vertex = vertex_of(gl_VertexID);
-    precise vec3 from_eye = (vertex.position - eye) + (vertex.rest - eye_rest);
-    first_corner = gl_VertexID - gl_VertexID % 3;
-    set_position(world_from_local * from_eye);
-}
-#else
 void main() {
     // Equal bits for shared vertices of two tiles, so there are no cracks. Differences of neighbouring floats
     // are exact (Cozzi and Ring 2011, "3D Engine Design for Virtual Globes", 5.4).
     precise vec3 from_eye = (position - eye) + (rest - eye_rest);
     vec3 relative = world_from_local * from_eye;
+#ifdef SLIVER
+    first_corner = gl_VertexID - gl_VertexID % 3;
+#else
     tile_place = place;
 #ifdef GROUND
     local_from_eye = from_eye;
@@ -76,6 +70,6 @@ void main() {
     place_from_eye = from_eye_sample;
     height_and_depth = vec2(height, dot(relative, view_forward.xyz));
 #endif
+#endif
     set_position(relative);
 }
-#endif

@@ -67,8 +67,8 @@ void DrawState::draw(const ResidentMesh& mesh, gl::IndexType type) {
     count_draw(static_cast<std::size_t>(mesh.index_count) / 3);
 }
 
-void DrawState::draw_triangles(const gl::VertexArray& no_vertices, std::size_t count) {
-    no_vertices.bind();
+void DrawState::draw_slivers(const ResidentMesh& mesh, std::size_t count) {
+    mesh.vertex_array.bind();
     gl::draw_arrays(gl::Primitive::triangles, static_cast<int>(3 * count));
     stats_.slivers += count;
     count_draw(count);

@@ -20,8 +20,7 @@ class DrawState {
 public:
     /// Sets reversed depth, filled triangles, back-face culling, and colours that replace others.
     /// `software`: a renderer on the CPU, which is waited for so often that its memory is limited.
-    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, bool software,
-              view::FrameStats& stats);
+    DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, bool software, view::FrameStats& stats);
 
     /// Binds the variant's program. Programs with a surface search run per sample. Fails as
     /// ShaderLibrary::program.
@@ -35,9 +34,8 @@ public:
     void set_adding(bool adding);
 
     void draw(const ResidentMesh& mesh, gl::IndexType type);
-    /// Triangles whose corners the vertex shader finds by gl_VertexID. `no_vertices`: a vertex
-    /// array without attributes.
-    void draw_triangles(const gl::VertexArray& no_vertices, std::size_t count);
+    /// The first triangles of a mesh without indices. Counts them as slivers (view::Slivers), too.
+    void draw_slivers(const ResidentMesh& mesh, std::size_t count);
 
     [[nodiscard]] view::FrameStats& stats() { return stats_; }
 

@@ -34,10 +34,7 @@ void bind_ground(gl::Program& program, const ResidentGround& ground) {
     program.set(uniforms.ground_from_sample, ground.ground_from_sample);
 }
 
-enum class Part {
-    all_but_slivers,
-    slivers ///< view::SliverView
-};
+enum class Part { wide, mild_slivers, narrow_slivers }; // view::Slivers
 
 // Sets shared state once for successive tiles of a terrain.
 class TerrainPass {
@@ -51,7 +48,7 @@ public:
     // The tile with this index in the list.
     Result<void> draw(std::size_t index) {
         const view::TileDraw& draw = frame_.list.tiles[index];
-        if (part_ == Part::slivers && !has_slivers(index)) {
+        if (!has_part(index)) {
             return {};
         }
         const view::DetailLevel detail = shown(draw.detail);
@@ -109,8 +106,9 @@ private:
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
-        const std::uint32_t features =
-            frame_.features | (part_ == Part::slivers ? feature_sliver : 0U);
+        const std::uint32_t features = frame_.features |
+                                       (part_ != Part::wide ? feature_sliver : 0U) |
+                                       (part_ == Part::narrow_slivers ? feature_corner_depth : 0U);
         if (detail != view::DetailLevel::none) {
             return ground_variant(*terrain.detail, detail, features);
         }
@@ -176,14 +174,21 @@ private:
         return frame_.residency.terrain_meshes().tile(index);
     }
 
-    [[nodiscard]] bool has_slivers(std::size_t index) const {
+    // Of the part that is drawn.
+    [[nodiscard]] std::size_t sliver_count(const TileMesh& mesh) const {
+        return part_ == Part::narrow_slivers ? mesh.slivers.narrow.size()
+                                             : mesh.slivers.mild.size();
+    }
+
+    [[nodiscard]] bool has_part(std::size_t index) const {
         const auto tile = meshes(index);
-        return std::any_of(tile.begin(), tile.end(),
-                           [](const TileMesh& mesh) { return !mesh.slivers.empty(); });
+        return part_ == Part::wide ||
+               std::any_of(tile.begin(), tile.end(),
+                           [&](const TileMesh& mesh) { return sliver_count(mesh) > 0; });
     }
 
     void draw_meshes(std::size_t index, const view::TileDraw& draw) {
-        if (part_ == Part::slivers) {
+        if (part_ != Part::wide) {
             draw_slivers(index);
             return;
         }
@@ -193,7 +198,8 @@ private:
             if (mesh.mesh.index_count > 0) {
                 state_.draw(mesh.mesh, gl::IndexType::uint16);
             }
-            drawn += static_cast<std::size_t>(mesh.mesh.index_count) / 3 + mesh.slivers.size();
+            drawn += static_cast<std::size_t>(mesh.mesh.index_count) / 3 +
+                     mesh.slivers.mild.size() + mesh.slivers.narrow.size();
         }
         if (draw.coarse) {
             const glm::ivec2 cells = draw.tile->cells;
@@ -206,10 +212,11 @@ private:
 
     void draw_slivers(std::size_t index) {
         for (const TileMesh& mesh : meshes(index)) {
-            if (!mesh.slivers.empty()) {
-                mesh.mesh.vertices.bind_storage_block(bindings::tile_vertices_binding);
-                mesh.sliver_corners.bind_storage_block(bindings::sliver_corners_binding);
-                state_.draw_triangles(frame_.no_vertices, mesh.slivers.size());
+            if (const std::size_t count = sliver_count(mesh); count > 0) {
+                const ResidentMesh& corners =
+                    part_ == Part::narrow_slivers ? mesh.narrow : mesh.mild;
+                corners.vertices.bind_storage_block(bindings::corners_binding);
+                state_.draw_slivers(corners, count);
             }
         }
     }
@@ -225,7 +232,7 @@ private:
 } // namespace
 
 Result<void> draw_terrain_tiles(const FrameContext& frame) {
-    for (const Part part : {Part::all_but_slivers, Part::slivers}) {
+    for (const Part part : {Part::wide, Part::mild_slivers, Part::narrow_slivers}) {
         TerrainPass pass(frame, part);
         for (std::size_t i = 0; i < frame.list.tiles.size(); ++i) {
             if (auto drawn = pass.draw(i); !drawn) {

@@ -7,7 +7,6 @@
 
 #include "engine/core/parallel_for.h"
 #include "engine/scene/streaming/tile_stream.h"
-#include "engine/view/triangles/slivers.h"
 
 namespace reljef::render {
 namespace {
@@ -224,7 +223,7 @@ Result<void> TerrainMeshes::upload(std::span<const Outdated> tiles, view::FrameS
             return mesh.error();
         }
         std::vector<TileMesh> meshes;
-        meshes.push_back({std::move(*mesh), {}, {}});
+        meshes.push_back({std::move(*mesh), {}, {}, {}});
         replace_meshes(*tiles[i].entry, std::move(meshes));
     }
     return {};
@@ -444,7 +443,7 @@ Result<void> TerrainMeshes::part_slivers(const view::DrawList& list, Group& grou
             tiles.push_back({draw, &entry});
         }
     }
-    std::vector<std::vector<std::vector<std::uint32_t>>> slivers(tiles.size());
+    std::vector<std::vector<view::Slivers>> slivers(tiles.size());
     parallel_for(static_cast<int>(tiles.size()), [&](int i) {
         const auto& [draw, entry] = tiles[static_cast<std::size_t>(i)];
         const view::SliverView view(list, *draw);
@@ -457,8 +456,7 @@ Result<void> TerrainMeshes::part_slivers(const view::DrawList& list, Group& grou
         Entry& entry = *tiles[i].entry;
         const std::vector<TileTriangles> parts = triangles_of(entry);
         for (std::size_t j = 0; j < parts.size(); ++j) {
-            auto done =
-                set_slivers(entry.meshes[j], parts[j].indices, std::move(slivers[i][j]), stats);
+            auto done = set_slivers(entry.meshes[j], parts[j], std::move(slivers[i][j]), stats);
             if (!done) {
                 return done;
             }

@@ -2,9 +2,18 @@
 
 #include <utility>
 
-#include "engine/view/triangles/slivers.h"
-
 namespace reljef::render {
+namespace {
+
+Result<ResidentMesh> upload_corners(const TileTriangles& all,
+                                    std::span<const std::uint32_t> triangles,
+                                    view::FrameStats& stats) {
+    return triangles.empty()
+               ? ResidentMesh()
+               : upload_vertices(view::corners_of(all.vertices, all.indices, triangles), stats);
+}
+
+} // namespace
 
 Result<TileMesh> tile_mesh(const std::vector<view::GridVertex>& vertices,
                            const std::vector<std::uint16_t>& indices, view::FrameStats& stats) {
@@ -12,7 +21,7 @@ Result<TileMesh> tile_mesh(const std::vector<view::GridVertex>& vertices,
     if (!mesh) {
         return mesh.error();
     }
-    return TileMesh{std::move(*mesh), {}, {}};
+    return TileMesh{std::move(*mesh), {}, {}, {}};
 }
 
 Result<std::vector<TileMesh>> tile_meshes(const view::CutMesh& cut, view::FrameStats& stats) {
@@ -27,20 +36,20 @@ Result<std::vector<TileMesh>> tile_meshes(const view::CutMesh& cut, view::FrameS
     return meshes;
 }
 
-Result<void> set_slivers(TileMesh& mesh, std::span<const std::uint16_t> indices,
-                         std::vector<std::uint32_t> slivers, view::FrameStats& stats) {
+Result<void> set_slivers(TileMesh& mesh, const TileTriangles& all, view::Slivers slivers,
+                         view::FrameStats& stats) {
     if (mesh.slivers == slivers) {
         return {};
     }
-    gl::Buffer corners;
-    if (!slivers.empty()) {
-        auto uploaded = upload_buffer(bytes_of(view::corners_of(indices, slivers)), stats);
-        if (!uploaded) {
-            return uploaded.error();
-        }
-        corners = std::move(*uploaded);
+    auto mild = upload_corners(all, slivers.mild, stats);
+    if (!mild) {
+        return mild.error();
     }
-    const std::vector<std::uint16_t> others = view::without(indices, slivers);
+    auto narrow = upload_corners(all, slivers.narrow, stats);
+    if (!narrow) {
+        return narrow.error();
+    }
+    const std::vector<std::uint16_t> others = view::without(all.indices, slivers.all());
     if (!others.empty()) {
         auto uploaded = upload_buffer(bytes_of(others), stats);
         if (!uploaded) {
@@ -50,7 +59,8 @@ Result<void> set_slivers(TileMesh& mesh, std::span<const std::uint16_t> indices,
         mesh.mesh.vertex_array.set_indices(mesh.mesh.indices);
     }
     mesh.mesh.index_count = static_cast<int>(others.size());
-    mesh.sliver_corners = std::move(corners);
+    mesh.mild = std::move(*mild);
+    mesh.narrow = std::move(*narrow);
     mesh.slivers = std::move(slivers);
     return {};
 }

@@ -9,15 +9,17 @@
 #include "engine/render/residency/resident_mesh.h"
 #include "engine/view/frame_stats.h"
 #include "engine/view/grid_mesh.h"
+#include "engine/view/triangles/slivers.h"
 #include "engine/view/triangles/tile_cut.h"
 
 namespace reljef::render {
 
-/// Triangles of a terrain's tile, or of its seams. Slivers (view::SliverView) are drawn apart.
+/// Triangles of a terrain's tile, or of its seams. Slivers are drawn apart.
 struct TileMesh {
-    ResidentMesh mesh;                  ///< without slivers
-    std::vector<std::uint32_t> slivers; ///< numbers of triangles, ascending
-    gl::Buffer sliver_corners;          ///< vertices, three for each
+    ResidentMesh mesh; ///< without slivers
+    view::Slivers slivers;
+    ResidentMesh mild; ///< three vertices for each, without indices
+    ResidentMesh narrow;
 };
 
 /// Triangles in the memory of the CPU.
@@ -35,8 +37,8 @@ Result<TileMesh> tile_mesh(const std::vector<view::GridVertex>& vertices,
 /// One mesh for each part.
 Result<std::vector<TileMesh>> tile_meshes(const view::CutMesh& cut, view::FrameStats& stats);
 
-/// Draws these triangles as slivers and all others not. `indices`: of all triangles of the mesh.
-Result<void> set_slivers(TileMesh& mesh, std::span<const std::uint16_t> indices,
-                         std::vector<std::uint32_t> slivers, view::FrameStats& stats);
+/// Draws these triangles as slivers and all others not.
+Result<void> set_slivers(TileMesh& mesh, const TileTriangles& all, view::Slivers slivers,
+                         view::FrameStats& stats);
 
 } // namespace reljef::render

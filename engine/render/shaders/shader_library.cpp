@@ -18,13 +18,13 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 28> feature_names{
-    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX", "BISECT",
-    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",     "HARD_SHADOW",
-    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",     "NORMAL_MAP",
-    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",   "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",       "SLIVER"};
-static_assert(std::bit_width(std::uint32_t{feature_sliver}) == feature_names.size());
+constexpr std::array<std::string_view, 29> feature_names{
+    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",    "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",        "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",        "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",      "MULTISAMPLED",
+    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH"};
+static_assert(std::bit_width(std::uint32_t{feature_corner_depth}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -193,6 +193,11 @@ std::uint32_t lighting_of(std::uint32_t features) {
     return 0U;
 }
 
+std::uint32_t sliver_of(std::uint32_t features) {
+    return (features & feature_sliver) != 0 ? features & (feature_sliver | feature_corner_depth)
+                                            : 0U;
+}
+
 // Features of a kind of shader except light, fog and hit.
 std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
@@ -207,7 +212,7 @@ std::uint32_t own_features(ShaderVariant variant) {
     switch (variant.kind) {
     case ShaderKind::terrain:
         return (variant.features & feature_warped) != 0 ? feature_warped
-                                                        : variant.features & feature_sliver;
+                                                        : sliver_of(variant.features);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                (variant.features & (feature_streamed | feature_curved));
@@ -218,12 +223,12 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::textured_mesh:
         return (variant.features & feature_warped) | (is_hit ? wrap : lighting);
     case ShaderKind::textured_terrain:
-        return lighting | (variant.features & feature_sliver);
+        return lighting | sliver_of(variant.features);
     case ShaderKind::relief_hull:
         return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap;
     case ShaderKind::relief_terrain:
         return search | (options_of(variant.features, search) & shadows) |
-               (variant.features & feature_sliver);
+               sliver_of(variant.features);
     default:
         return 0U;
     }

@@ -66,6 +66,7 @@ enum ShaderFeature : std::uint32_t {
     feature_curved = 1U << 25U,   ///< relief on the ellipsoid: view rays are bent
     feature_counting = 1U << 26U, ///< of a terrain: writes its work instead of colours
     feature_sliver = 1U << 27U,   ///< of a terrain: triangles from their corners (view::SliverView)
+    feature_corner_depth = 1U << 28U, ///< of slivers: depth from their corners, too
 };
 
 struct ShaderVariant {

@@ -17,6 +17,8 @@
 // for column and row. Along the triangle, of length l, a place that is c samples off is l pixels
 // off, because a wall turns columns into heights. So pixels are off by a few times
 // 2^-24 x l / w.
+// Depth is interpolated like that, too: it is that of a point as many pixels away. It only decides
+// what is in front, so silhouettes move.
 // Floats also round the place itself, of p samples from the tile's first or from the eye, by a few
 // times 2^-24 p, which are l / c times as many pixels.
 
@@ -29,6 +31,10 @@ constexpr double rounded_gradient = 8.0 * 0x1p-24;
 // Of the place relative to the eye (1), of the division by w (2), of the hit (1).
 constexpr double rounded_place = 4.0 * 0x1p-24;
 
+// Errors of depth are allowed so many times those of places (view::error_view): silhouettes may
+// move by a quarter of the bound.
+constexpr double of_depth = 16.0;
+
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -38,6 +44,13 @@ double max_part(glm::dvec2 v) {
 }
 
 } // namespace
+
+std::vector<std::uint32_t> Slivers::all() const {
+    std::vector<std::uint32_t> numbers;
+    numbers.reserve(mild.size() + narrow.size());
+    std::merge(mild.begin(), mild.end(), narrow.begin(), narrow.end(), std::back_inserter(numbers));
+    return numbers;
+}
 
 SliverView::SliverView(const DrawList& list, const TileDraw& draw)
     : size_(list.size), near_(list.camera.near) {
@@ -62,25 +75,27 @@ SliverView::Corner SliverView::corner(const GridVertex& vertex) const {
     return {0.5 * size_ * (glm::dvec2(clip) / clip.w + 1.0), clip.w, glm::dvec2(vertex.place)};
 }
 
-bool SliverView::is_sliver(const Corner& a, const Corner& b, const Corner& c) const {
+SliverView::Shape SliverView::shape_of(const Corner& a, const Corner& b, const Corner& c) const {
     if (std::max({a.depth, b.depth, c.depth}) < near_) {
-        return false;
+        return Shape::wide;
     }
     if (std::min({a.depth, b.depth, c.depth}) < near_) {
-        return true;
+        return Shape::narrow;
     }
     const glm::dvec2 low = glm::min(glm::min(a.pixel, b.pixel), c.pixel);
     const glm::dvec2 high = glm::max(glm::max(a.pixel, b.pixel), c.pixel);
     if (high.x < 0.0 || high.y < 0.0 || low.x > size_.x || low.y > size_.y) {
-        return false;
+        return Shape::wide;
     }
     const glm::dvec2 ab = b.pixel - a.pixel;
     const glm::dvec2 ac = c.pixel - a.pixel;
     const glm::dvec2 bc = c.pixel - b.pixel;
     const double length2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
     const double farthest = std::max({max_part(size_), max_part(low), max_part(high)});
-    if (rounded_gradient * farthest * length2 > max_error_ * std::abs(cross(ab, ac))) {
-        return true;
+    const double error = rounded_gradient * farthest * length2; // times the area
+    const double area = std::abs(cross(ab, ac));
+    if (error > max_error_ * area) {
+        return error > of_depth * max_error_ * area ? Shape::narrow : Shape::mild;
     }
     const auto rounded = [&](glm::dvec2 origin) {
         return std::max(
@@ -88,31 +103,37 @@ bool SliverView::is_sliver(const Corner& a, const Corner& b, const Corner& c) co
     };
     const double place = std::min(rounded(glm::dvec2(0.0)), rounded(eye_place_));
     const double samples = std::max(max_part(b.place - a.place), max_part(c.place - a.place));
-    return rounded_place * place * std::sqrt(length2) > max_error_ * samples;
+    return rounded_place * place * std::sqrt(length2) > max_error_ * samples ? Shape::mild
+                                                                             : Shape::wide;
 }
 
-std::vector<std::uint32_t> SliverView::slivers(std::span<const GridVertex> vertices,
-                                               std::span<const std::uint16_t> indices) const {
+Slivers SliverView::slivers(std::span<const GridVertex> vertices,
+                            std::span<const std::uint16_t> indices) const {
     std::vector<Corner> corners;
     corners.reserve(vertices.size());
     std::transform(vertices.begin(), vertices.end(), std::back_inserter(corners),
                    [&](const GridVertex& vertex) { return corner(vertex); });
-    std::vector<std::uint32_t> found;
+    Slivers found;
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-        if (is_sliver(corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]])) {
-            found.push_back(static_cast<std::uint32_t>(i / 3));
+        const Shape shape =
+            shape_of(corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]]);
+        if (shape != Shape::wide) {
+            auto& numbers = shape == Shape::narrow ? found.narrow : found.mild;
+            numbers.push_back(static_cast<std::uint32_t>(i / 3));
         }
     }
     return found;
 }
 
-std::vector<std::uint32_t> corners_of(std::span<const std::uint16_t> indices,
-                                      std::span<const std::uint32_t> triangles) {
-    std::vector<std::uint32_t> corners;
+std::vector<GridVertex> corners_of(std::span<const GridVertex> vertices,
+                                   std::span<const std::uint16_t> indices,
+                                   std::span<const std::uint32_t> triangles) {
+    std::vector<GridVertex> corners;
     corners.reserve(3 * triangles.size());
     for (const std::uint32_t triangle : triangles) {
-        const auto three = indices.subspan(std::size_t{3} * triangle, 3);
-        corners.insert(corners.end(), three.begin(), three.end());
+        for (const std::uint16_t index : indices.subspan(std::size_t{3} * triangle, 3)) {
+            corners.push_back(vertices[index]);
+        }
     }
     return corners;
 }

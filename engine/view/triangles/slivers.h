@@ -13,6 +13,15 @@
 
 namespace reljef::view {
 
+/// Numbers of triangles, ascending.
+struct Slivers {
+    std::vector<std::uint32_t> mild;   ///< whose depth may be interpolated
+    std::vector<std::uint32_t> narrow; ///< whose depth comes from their corners, too
+
+    [[nodiscard]] std::vector<std::uint32_t> all() const;
+    friend bool operator==(const Slivers&, const Slivers&) = default;
+};
+
 /// Finds the slivers among the triangles of a tile: those that the picture shows so much longer
 /// than wide, or so large, that places which a rasterizer interpolates in floats may be farther off
 /// than `terrain::ErrorView::interpolation`. They take their places from their corners instead, see
@@ -22,10 +31,9 @@ public:
     /// Precondition: the tile's triangles follow an error bound.
     SliverView(const DrawList& list, const TileDraw& draw);
 
-    /// The numbers of the slivers, ascending. Triangles beside the picture or behind the eye are
-    /// none.
-    [[nodiscard]] std::vector<std::uint32_t> slivers(std::span<const GridVertex> vertices,
-                                                     std::span<const std::uint16_t> indices) const;
+    /// Triangles beside the picture or behind the eye are none.
+    [[nodiscard]] Slivers slivers(std::span<const GridVertex> vertices,
+                                  std::span<const std::uint16_t> indices) const;
 
 private:
     struct Corner {
@@ -34,7 +42,8 @@ private:
         glm::dvec2 place{0.0}; // samples from the tile's first
     };
     [[nodiscard]] Corner corner(const GridVertex& vertex) const;
-    [[nodiscard]] bool is_sliver(const Corner& a, const Corner& b, const Corner& c) const;
+    enum class Shape { wide, mild, narrow };
+    [[nodiscard]] Shape shape_of(const Corner& a, const Corner& b, const Corner& c) const;
 
     glm::dmat4 clip_from_offset_; // from the eye, local metres
     glm::dvec3 eye_;              // local metres
@@ -45,8 +54,9 @@ private:
 };
 
 /// The corners of some of a mesh's triangles, three for each. `triangles`: their numbers.
-std::vector<std::uint32_t> corners_of(std::span<const std::uint16_t> indices,
-                                      std::span<const std::uint32_t> triangles);
+std::vector<GridVertex> corners_of(std::span<const GridVertex> vertices,
+                                   std::span<const std::uint16_t> indices,
+                                   std::span<const std::uint32_t> triangles);
 /// The corners of the others. `triangles`: ascending.
 std::vector<std::uint16_t> without(std::span<const std::uint16_t> indices,
                                    std::span<const std::uint32_t> triangles);

@@ -18,7 +18,8 @@ inline std::uint32_t possible_features(ShaderKind kind) {
                                      feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
-        return any | feature_warped | feature_multisampled | feature_counting | feature_sliver;
+        return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
+               feature_corner_depth;
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
@@ -33,13 +34,13 @@ inline std::uint32_t possible_features(ShaderKind kind) {
                feature_warped | feature_multisampled;
     case ShaderKind::textured_terrain:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled |
-               feature_sliver;
+               feature_sliver | feature_corner_depth;
     case ShaderKind::relief_hull:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
                feature_multisampled;
     case ShaderKind::relief_terrain:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled |
-               feature_sliver;
+               feature_sliver | feature_corner_depth;
     default:
         return any;
     }

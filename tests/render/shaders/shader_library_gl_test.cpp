@@ -29,8 +29,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 28;
-static_assert(1U << (feature_count - 1) == feature_sliver, "the last feature");
+constexpr std::size_t feature_count = 29;
+static_assert(1U << (feature_count - 1) == feature_corner_depth, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;

@@ -53,10 +53,10 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         multisampled += is_multisampled ? 1U : 0U;
         colors += has_color && !is_multisampled ? 1U : 0U;
     }
-    // terrain: fog or not, or a hit; as it is, warped, or its slivers; mesh: lit or not too; sky:
-    // lit or not, fog or not; the mean of pictures. relief, of four parallaxes: each with and
-    // without fade and depth; of eight searches: these, and as colour three shadows and smooth
-    // edges or not.
+    // terrain: fog or not, or a hit; as it is, warped, or one of two kinds of slivers; mesh: lit or
+    // not too; sky: lit or not, fog or not; the mean of pictures. relief, of four parallaxes: each
+    // with and without fade and depth; of eight searches: these, and as colour three shadows and
+    // smooth edges or not.
     constexpr std::size_t parallax = 4U * 3U * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 4U * 6U);
     // All of a relief are there for streams and on the ellipsoid, too.
@@ -70,15 +70,16 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t layers = 2U * (4U + 4U * 2U * (3U + 1U));
     // A hull is lit with three shadows or not at all, wrapped or not.
     // A terrain with a tile: lit in four ways or not; one that searches casts three shadows, or is
-    // not lit; none is ever hit. Slivers of both are there, too.
-    constexpr std::size_t textured_ground = 2U * 2U * (4U + 1U);
+    // not lit; none is ever hit. Both kinds of slivers are there, too.
+    constexpr std::size_t textured_ground = 3U * 2U * (4U + 1U);
     constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * (1U + 3U));
-    constexpr std::size_t ground_searches = 2U * 2U * (4U * 2U + 8U * (1U + 3U));
-    constexpr std::size_t plain = 3U * 3U + 5U + 4U + 1U;
-    // What counts is a colour without air and depth: of a terrain, also warped or its slivers; of
-    // the beams; and of a relief, of four parallaxes with and without fade; of eight searches with
-    // these, three shadows, and smooth edges or not; three of them with beams, without fade.
-    constexpr std::size_t counting = 3U + 4U * (1U + 4U * 2U + 8U * 2U * 6U + 3U * 6U);
+    constexpr std::size_t ground_searches = 3U * 2U * (4U * 2U + 8U * (1U + 3U));
+    constexpr std::size_t plain = 3U * 4U + 5U + 4U + 1U;
+    // What counts is a colour without air and depth: of a terrain, also warped or its two kinds of
+    // slivers; of the beams; and of a relief, of four parallaxes with and without fade; of eight
+    // searches with these, three shadows, and smooth edges or not; three of them with beams,
+    // without fade.
+    constexpr std::size_t counting = 4U + 4U * (1U + 4U * 2U + 8U * 2U * 6U + 3U * 6U);
     EXPECT_EQ(counted, counting);
     EXPECT_EQ(all_variants().size() - multisampled - counted,
               plain + 4U * (parallax + searches + beams) + textured + mesh_parallax +

@@ -40,7 +40,7 @@ protected:
     }
 
     // One triangle, at pixels from the middle of the picture, with a place a sample apart each.
-    [[nodiscard]] bool is_sliver(std::array<glm::dvec2, 3> pixels, double place = 10.0) const {
+    [[nodiscard]] Slivers slivers_of(std::array<glm::dvec2, 3> pixels, double place = 10.0) const {
         const std::array places{glm::dvec2(place), glm::dvec2(place + 1.0, place),
                                 glm::dvec2(place, place + 1.0)};
         std::vector<GridVertex> vertices;
@@ -49,7 +49,10 @@ protected:
             vertices.push_back(grid_vertex({metres, 0.0}, 0.0, places[i]));
         }
         const std::array<std::uint16_t, 3> indices{0, 1, 2};
-        return !SliverView(list_, list_.tiles.front()).slivers(vertices, indices).empty();
+        return SliverView(list_, list_.tiles.front()).slivers(vertices, indices);
+    }
+    [[nodiscard]] bool is_sliver(std::array<glm::dvec2, 3> pixels, double place = 10.0) const {
+        return !slivers_of(pixels, place).all().empty();
     }
 
     scene::Scene scene_;
@@ -68,6 +71,17 @@ TEST_F(SliverViewTest, LongAndNarrowTrianglesAreSlivers) {
             EXPECT_TRUE(is_sliver({-0.5 * along, 0.5 * along, 0.1 * along})) << "no area";
         }
     }
+}
+
+TEST_F(SliverViewTest, TheDepthOfTheNarrowestComesFromTheirCornersToo) {
+    const auto narrow_of = [&](double width) { // pixels
+        const Slivers found =
+            slivers_of({glm::dvec2(-50.0, 0.0), glm::dvec2(50.0, 0.0), glm::dvec2(0.0, width)});
+        EXPECT_EQ(found.all().size(), 1);
+        return found.narrow.size();
+    };
+    EXPECT_EQ(narrow_of(0.5), 0);
+    EXPECT_EQ(narrow_of(1e-2), 1);
 }
 
 TEST_F(SliverViewTest, SoAreLargeOnesFarFromTheTilesFirstSample) {
@@ -91,12 +105,16 @@ TEST_F(SliverViewTest, TrianglesThatTheNearPlaneCutsAre) {
                            grid_vertex({1.0, 0.0, 0.0}, 0.0, {1.0, 0.0}),
                            grid_vertex({0.0, 1.0, top}, top, {0.0, 1.0})};
     };
-    EXPECT_TRUE(view.slivers(triangle(0.9 * distance), indices).empty());
-    EXPECT_FALSE(view.slivers(triangle(1.1 * distance), indices).empty());
+    EXPECT_TRUE(view.slivers(triangle(0.9 * distance), indices).all().empty());
+    EXPECT_FALSE(view.slivers(triangle(1.1 * distance), indices).all().empty());
 }
 
 TEST(Slivers, AndTheOthersAreAllTriangles) {
     test::Chance chance(5);
+    std::vector<GridVertex> vertices;
+    for (int i = 0; i < 100; ++i) {
+        vertices.push_back(grid_vertex({}, i, {}));
+    }
     for (int i = 0; i < 2000; ++i) {
         std::vector<std::uint16_t> indices(3 * static_cast<std::size_t>(chance.whole(0, 20)));
         std::iota(indices.begin(), indices.end(), std::uint16_t{7});
@@ -107,10 +125,12 @@ TEST(Slivers, AndTheOthersAreAllTriangles) {
             }
         }
         const std::vector<std::uint16_t> others = without(indices, slivers);
-        const Numbers corners = corners_of(indices, slivers);
+        const std::vector<GridVertex> corners = corners_of(vertices, indices, slivers);
         EXPECT_EQ(corners.size(), 3 * slivers.size());
         std::vector<std::uint16_t> all(others);
-        all.insert(all.end(), corners.begin(), corners.end());
+        std::transform(
+            corners.begin(), corners.end(), std::back_inserter(all),
+            [](const GridVertex& vertex) { return static_cast<std::uint16_t>(vertex.height); });
         EXPECT_TRUE(std::is_sorted(others.begin(), others.end()));
         std::sort(all.begin(), all.end());
         EXPECT_EQ(all, indices);
