@@ -224,6 +224,12 @@ std::string geoid_text(const Json& crs, const cli::TerrainChoice& choice) {
                                   : "geoid not applied: none given or installed for it";
 }
 
+// With so many decimals, or with three digits if these would be lost.
+std::string metres(double value, int decimals) {
+    const bool is_lost = value != 0.0 && std::abs(value) < 10.0 * std::pow(10.0, -decimals);
+    return is_lost ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string text(const Json& value) {
     return value.get<std::string>();
 }
@@ -252,10 +258,10 @@ void print_text(const Json& info, const cli::TerrainChoice& choice) {
                    info["tiles"]["formats"].dump());
     }
     const Json& extent = info["extent"];
-    fmt::print("  spacing  {:.4f} x {:.4f} m\n", number(info["spacing"]["x_m"]),
-               number(info["spacing"]["y_m"]));
-    fmt::print("  extent   {:.1f} x {:.1f} m\n", number(extent["width_m"]),
-               number(extent["height_m"]));
+    fmt::print("  spacing  {} x {} m\n", metres(number(info["spacing"]["x_m"]), 4),
+               metres(number(info["spacing"]["y_m"]), 4));
+    fmt::print("  extent   {} x {} m\n", metres(number(extent["width_m"]), 1),
+               metres(number(extent["height_m"]), 1));
     if (extent.contains("south")) {
         fmt::print("           latitude {:.6f} to {:.6f}, longitude {:.6f} to {:.6f}\n",
                    number(extent["south"]), number(extent["north"]), number(extent["west"]),
@@ -267,8 +273,8 @@ void print_text(const Json& info, const cli::TerrainChoice& choice) {
                    read["cols"].dump(), read["rows"].dump(), read["reduction"].dump(),
                    read["reduction"].dump());
     }
-    fmt::print("  heights  {:.2f} to {:.2f} m\n", number(info["height_range"]["low_m"]),
-               number(info["height_range"]["high_m"]));
+    fmt::print("  heights  {} to {} m\n", metres(number(info["height_range"]["low_m"]), 2),
+               metres(number(info["height_range"]["high_m"]), 2));
     fmt::print("  voids    {}\n", info["voids"].dump());
     fmt::print("  memory   {:.1f} MB when drawn\n", number(info["memory_bytes"]) * 1e-6);
     for (const auto& model : info.value("models", Json::array())) {

@@ -53,10 +53,13 @@ std::string error_text(const view::FrameStats& stats, const scene::Technique& te
     if (stats.reliefs_as_triangles > 0) {
         return " - triangles, rays are bent too much here";
     }
-    if (scene::error_bound(technique) > 0.0 && stats.tiles_unproven > 0) {
+    const double bound = technique.id() == scene::TechniqueId::exact
+                             ? scene::max_expected_error_of_rays
+                             : scene::error_bound(technique);
+    if (bound > 0.0 && stats.tiles_unproven > 0) {
         return " - error unproven";
     }
-    return stats.kept_error.value_or(0.0) > scene::error_bound(technique)
+    return stats.kept_error.value_or(0.0) > bound
                ? fmt::format(" - up to {:.1f} px off", *stats.kept_error)
                : std::string();
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include <glm/vec2.hpp>
@@ -120,6 +121,8 @@ struct BlockJob {
     /// Sides at which other tiles begin. A ray that was above the tile before hits a wall where it
     /// comes in below the surface: neighbours may have other heights at their common border.
     unsigned walls = 0;
+    /// Metres above the base height: rays that come in below have never been above any tile.
+    float wall_floor = -std::numeric_limits<float>::infinity();
     /// The t at which the rays may begin; infinity: they hit nothing.
     float start = 0.0F;
     bool has_beams = true;    ///< finds later starts for the rays of each beam

@@ -131,6 +131,8 @@ public:
             job.certain_stride = tile.certain_stride;
         }
         job.walls = tile.walls | more_walls;
+        job.wall_floor =
+            static_cast<float>(placed_.wall_floor - job.rays.base_height) - job.rays.lift;
         if (indices_ != nullptr) {
             indices_->push_back(index);
         }

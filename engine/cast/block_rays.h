@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -50,6 +51,8 @@ struct RaySkips {
 struct PlacedTiles {
     std::vector<PlacedTile> tiles;
     bool has_walls = false;
+    /// The lowest height of a streamed terrain's tiles, true metres: no wall is below.
+    double wall_floor = -std::numeric_limits<double>::infinity();
     /// Not null: the tiles are on the ellipsoid.
     std::shared_ptr<const CurvedRays> curve;
     TileNodes nodes; ///< on the ellipsoid, of several tiles

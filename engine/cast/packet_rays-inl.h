@@ -213,8 +213,10 @@ HWY_INLINE Entry entry_of(const Rays& rays) {
     return {entering(rays.col), entering(rays.row)};
 }
 
-// The rays that come in from another tile.
-HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, unsigned walls) {
+// The rays that come in from another tile, above the lowest one. `begin`: their t.
+HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, Floats begin,
+                           const BlockJob& job) {
+    const unsigned walls = job.walls;
     const auto has = [&](unsigned side) HWY_ATTR { return all((walls & side) != 0 ? 1.0F : 0.0F); };
     const auto side_of = [&](const Axis& axis, unsigned low, unsigned high) HWY_ATTR {
         const Lanes forward = hn::RebindMask(floats, hn::Eq(axis.ahead, all(1)));
@@ -225,7 +227,9 @@ HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, unsigned walls)
                        side_of(rays.row, north_wall, south_wall));
     const Lanes enters = hn::Gt(entry.t(), rays.begin);
     const Lanes walled = hn::And(hn::Gt(side, hn::Zero(floats)), enters);
-    return (walls & begin_wall) != 0 ? hn::Or(walled, hn::Not(enters)) : walled;
+    const Floats height = hn::MulAdd(begin, rays.rise, rays.height);
+    const Lanes above = hn::Ge(height, all(job.wall_floor));
+    return hn::And(above, (walls & begin_wall) != 0 ? hn::Or(walled, hn::Not(enters)) : walled);
 }
 
 HWY_INLINE Rays rays_of(const BlockJob& job, const PixelOffsets& pixels) {

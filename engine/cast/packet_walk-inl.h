@@ -459,7 +459,7 @@ HWY_NOINLINE PacketHits hits_of(Rays rays, const BlockJob& job, Floats start, Me
     if constexpr (Mode::has_walls) {
         walk.active = hn::AndNot(met.found, walk.active);
         walk.entry = hn::Max(entry.t(), rays.begin);
-        walk.walled = walled_of(rays, entry, job.walls);
+        walk.walled = walled_of(rays, entry, begin, job);
         walk.below = met.below;
     }
     if constexpr (Mode::counts) {

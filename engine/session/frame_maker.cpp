@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "engine/core/process_memory.h"
 #include "engine/core/statistics.h"
 #include "engine/core/stopwatch.h"
 #include "engine/session/flight_keys.h"
 #include "engine/view/choice/choice_picture.h"
+#include "engine/view/choice/triangle_counts.h"
+#include "engine/view/error_view.h"
 
 namespace reljef::session {
 namespace {
@@ -109,6 +113,18 @@ std::string kept_error_text(const view::FrameStats& stats) {
                        is_partial ? " where tiles are proven" : "");
 }
 
+// Triangles may be off by far more for other reasons, also in views that are too narrow.
+bool is_over_by_rounding(const view::FrameStats& stats, const scene::Camera& camera,
+                         glm::ivec2 size, double expected) {
+    const bool by_triangles = stats.rays == 0 &&
+                              (!stats.choice || stats.choice->tiles_by_rays == 0) &&
+                              stats.triangles > 0;
+    const double rounding =
+        view::left_of_bound(camera, size, std::max(expected, view::min_error)).vertex_rounding;
+    return stats.exceeded_by_rounding &&
+           (!by_triangles || *stats.kept_error < 4.0 * std::max(rounding, expected));
+}
+
 } // namespace
 
 DeviceFrames::DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options)
@@ -196,28 +212,33 @@ void DeviceFrames::take_stats(const view::FrameStats& stats, const scene::Scene&
 }
 
 void DeviceFrames::note_kept_error(const scene::Scene& scene) {
-    const auto bound = smallest_error_bound(scene);
-    if (!bound) {
+    const auto expected = expected_error(scene);
+    if (!expected) {
         return;
     }
+    names_bound_ = expected->is_named;
     if (stats_.choice && stats_.choice->typical) {
         min_share_ = std::min(min_share_.value_or(1.0), stats_.choice->typical->share);
     } else {
         max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
     }
-    if (stats_.kept_error.value_or(0.0) <= *bound) {
+    if (stats_.kept_error.value_or(0.0) <= expected->pixels) {
         return;
     }
     if (!over_ || *stats_.kept_error > over_->kept_error) {
+        SceneRenderer& renderer = device_.renderer();
         over_ = {*stats_.kept_error,
-                 *bound,
+                 *expected,
                  over_ ? over_->memory : MemoryForBound{},
+                 stats_.lacks_triangles
+                     ? view::triangles_for_bound(renderer.selector().selected().list)
+                     : 0,
                  over_ && over_->misses_tiles,
                  over_ && over_->lacks_triangles,
-                 stats_.exceeded_by_rounding};
+                 is_over_by_rounding(stats_, scene.camera(), renderer.size(), expected->pixels)};
     }
     const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
-    if (needed.growth > over_->memory.growth) {
+    if (needed.growth >= over_->memory.growth) {
         over_->memory = needed;
     }
     over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
@@ -236,9 +257,23 @@ std::string DeviceFrames::remedy() const {
     if (over_->by_rounding) {
         return "the view is too narrow, or too far away, for floats";
     }
-    const double megabytes = std::ceil(over_->memory.growth * options_.memory_megabytes);
-    if (megabytes > options_.memory_megabytes || over_->lacks_triangles) {
-        return over_->memory.is_enough && !over_->lacks_triangles
+    const MemoryForBound& memory = over_->memory;
+    const int now = options_.memory_megabytes;
+    double megabytes = std::ceil(memory.growth * now);
+    const bool is_less_whole =
+        memory.whole_megabytes && (!memory.is_enough || *memory.whole_megabytes < megabytes);
+    megabytes = is_less_whole ? *memory.whole_megabytes : megabytes;
+    if (over_->lacks_triangles) {
+        return over_->triangles > 0
+                   ? fmt::format("--memory {} keeps it", megabytes_for_triangles(over_->triangles))
+               : megabytes > now
+                   ? fmt::format(
+                         "more than --memory {} is needed, about {:.0f} for its tiles alone", now,
+                         megabytes)
+                   : fmt::format("more than --memory {} is needed", now);
+    }
+    if (megabytes > now) {
+        return memory.is_enough || is_less_whole
                    ? fmt::format("--memory {:.0f} keeps it", megabytes)
                    : fmt::format("more than --memory {:.0f} is needed", megabytes);
     }
@@ -248,12 +283,17 @@ std::string DeviceFrames::remedy() const {
 std::vector<std::string> DeviceFrames::error_notes() const {
     std::vector<std::string> notes;
     if (over_) {
+        const double diagonal = glm::length(glm::dvec2(device_.renderer().size()));
         const std::string found =
             std::isinf(over_->kept_error)
                 ? std::string("pixels are off by any distance, because the errors reach the eye")
+            : over_->kept_error > diagonal
+                ? std::string("pixels are off by more than the picture's size")
                 : fmt::format("pixels are off by up to {:.3g}", over_->kept_error);
+        const std::string_view kind =
+            over_->expected.is_named ? "was the error bound" : "was expected of exact rays";
         notes.push_back(
-            fmt::format("{}, and {:g} was the error bound: {}", found, over_->bound, remedy()));
+            fmt::format("{}, and {:g} {}: {}", found, over_->expected.pixels, kind, remedy()));
     }
     if (megabytes_for_vertices_ > 0) {
         notes.push_back(
@@ -263,9 +303,9 @@ std::vector<std::string> DeviceFrames::error_notes() const {
     }
     if (max_unproven_ > 0) {
         notes.push_back(fmt::format(
-            "the errors of {} tiles are estimates, and pixels may be farther off than the error "
-            "bound: 'reljef index' proves them, except near voids",
-            max_unproven_));
+            "the errors of {} tiles are estimates, and pixels may be farther off than {}: 'reljef "
+            "index' proves them, except near voids",
+            max_unproven_, names_bound_ ? "the error bound" : "a pixel"));
     }
     if (min_share_) {
         notes.push_back(fmt::format(

@@ -76,8 +76,9 @@ private:
     // Of all frames that are over their error bound.
     struct FramesOver {
         double kept_error = 0.0; // the largest, pixels
-        double bound = 0.0;      // of that frame
+        ExpectedError expected;  // of that frame
         MemoryForBound memory;   // the largest
+        std::size_t triangles;   // that keep it, if all terrains are in memory; 0: not known
         bool misses_tiles = false;
         bool lacks_triangles = false;
         bool by_rounding = false; // that of the largest error
@@ -101,7 +102,8 @@ private:
     std::optional<FramesOver> over_;
     double max_of_fewer_vertices_ = 0.0; // pixels by which frames without all samples are off
     int megabytes_for_vertices_ = 0;     // that hold all samples as vertices; 0: they were drawn
-    int max_unproven_ = 0;               // tiles of a frame with an error bound
+    int max_unproven_ = 0;               // tiles of a frame with an expected error
+    bool names_bound_ = true;            // of the last frame with one
     std::optional<double> min_share_;    // of probes within the bound, by searches without a proof
     int frames_as_triangles_ = 0;        // whose technique could not be drawn
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame

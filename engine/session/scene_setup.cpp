@@ -403,6 +403,11 @@ int megabytes_for_every_sample(const scene::Scene& scene) {
     return static_cast<int>(bytes >> 20U) + (bytes > 0 ? 1 : 0);
 }
 
+int megabytes_for_triangles(std::size_t triangles) {
+    return static_cast<int>((triangles * scene::bytes_per_triangle * part_for_triangles) >> 20U) +
+           1;
+}
+
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const auto& georeference = surface.heightfield().georeference;

@@ -62,6 +62,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
 /// sample and their memory does not hold them (scene::triangle_bound), MiB; 0: all are drawn.
 int megabytes_for_every_sample(const scene::Scene& scene);
 
+/// The memory that allows a number of triangles in a view of terrains in memory, MiB.
+int megabytes_for_triangles(std::size_t triangles);
+
 /// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
 /// user, or if the geoid is not the one that they count from.
 std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);

@@ -17,7 +17,9 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/core/check.h"
 #include "engine/io/imagery/imagery_set.h"
+#include "engine/io/raster/raster.h"
 #include "engine/io/tree_tile.h"
 #include "engine/view/tile_selection.h"
 
@@ -177,6 +179,14 @@ int readings_of(const scene::Scene& scene) {
     return readings;
 }
 
+std::optional<ExpectedError> expected_of(const scene::Technique& technique) {
+    if (technique.id() == scene::TechniqueId::exact) {
+        return ExpectedError{scene::max_expected_error_of_rays, false};
+    }
+    const double bound = scene::error_bound(technique);
+    return bound > 0.0 ? std::optional(ExpectedError{bound, true}) : std::nullopt;
+}
+
 // From the file; for voids and after errors the mean of the overview's row.
 double pole_height(const io::HeightSample& answer, const Grid<float>& overview, int row) {
     const auto values = overview.row(row);
@@ -206,6 +216,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
         return nullptr;
     }
     return_freed_blocks();
+    std::vector<std::string> reported = overview->terrain().errors;
     const scene::ImageryDetail imagery = source.stream->imagery;
     const io::WrappedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
@@ -221,6 +232,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     options.read_heights = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
         return reader.heights(tile, stop);
     };
+    options.reported = std::move(reported);
     options.source_changes = [reader] { return reader.changes(); };
     if (source.proofs != nullptr) {
         options.find_proof = [proofs = source.proofs](terrain::TreeTile tile) {
@@ -294,14 +306,14 @@ void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token&
     });
 }
 
-std::optional<double> smallest_error_bound(const scene::Scene& scene) {
-    std::optional<double> smallest;
+std::optional<ExpectedError> expected_error(const scene::Scene& scene) {
+    std::optional<ExpectedError> smallest;
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
         const auto* terrain = node.get<scene::TerrainNode>();
-        const double bound =
-            terrain != nullptr ? scene::error_bound(terrain->material.technique) : 0.0;
-        if (bound > 0.0) {
-            smallest = std::min(bound, smallest.value_or(bound));
+        const auto expected =
+            terrain != nullptr ? expected_of(terrain->material.technique) : std::nullopt;
+        if (expected && (!smallest || expected->pixels < smallest->pixels)) {
+            smallest = expected;
         }
     });
     return smallest;
@@ -309,10 +321,12 @@ std::optional<double> smallest_error_bound(const scene::Scene& scene) {
 
 MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
     MemoryForBound needed;
+    std::size_t whole = 0; // bytes
+    bool has_images = false;
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& matrix) {
         const auto* terrain = node.get<scene::TerrainNode>();
         if (terrain == nullptr || terrain->stream == nullptr ||
-            scene::error_bound(terrain->material.technique) <= 0.0) {
+            !expected_of(terrain->material.technique)) {
             return;
         }
         const scene::TileStream& stream = *terrain->stream;
@@ -321,7 +335,16 @@ MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
             std::max(needed.growth, static_cast<double>(stream.budget_for(tiles)) /
                                         static_cast<double>(stream.options().memory_budget));
         needed.is_enough = needed.is_enough && tiles < view::max_tiles_counted;
+        has_images = has_images || stream.maker().has_images();
+        whole =
+            std::max(whole, io::bytes_per_sample * static_cast<std::size_t>(stream.tree().cols()) *
+                                static_cast<std::size_t>(stream.tree().rows()));
     });
+    if (whole > 0 && !has_images) {
+        constexpr int largest = 1 << 30;
+        needed.whole_megabytes =
+            clamped_int(std::ceil(static_cast<double>(whole) / (1U << 20U)), 1, largest);
+    }
     return needed;
 }
 

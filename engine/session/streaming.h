@@ -32,13 +32,21 @@ void wait_for_tiles(const scene::Scene& scene, glm::ivec2 size, view::FrameSelec
 /// for good, or `stop` is requested.
 void wait_for_ground_below_eye(const scene::Scene& scene, const std::stop_token& stop);
 
-/// The smallest error bound of the scene's terrains, pixels; empty if none has one.
-std::optional<double> smallest_error_bound(const scene::Scene& scene);
+/// What errors of pictures are compared with, pixels.
+struct ExpectedError {
+    double pixels = 0.0;
+    bool is_named = true; ///< an error bound; false: scene::max_expected_error_of_rays
+};
+/// The smallest of the scene's terrains; empty if none has one.
+std::optional<ExpectedError> expected_error(const scene::Scene& scene);
 
 /// The memory with which all streamed terrains keep their error bounds in a view.
 struct MemoryForBound {
     double growth = 1.0;   ///< relative to their memory
     bool is_enough = true; ///< false: counting ended there, and more is needed
+    /// With which all terrains are read whole and have no error but that of their triangles, MiB;
+    /// absent: tiles are needed for more than heights.
+    std::optional<int> whole_megabytes;
 };
 MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
 

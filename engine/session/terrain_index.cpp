@@ -91,7 +91,15 @@ Result<void> complete_index(const TerrainSource& source, const io::IndexSource& 
     if (!errors.empty()) {
         const std::string more =
             errors.size() > 1 ? fmt::format(" (and {} more files)", errors.size() - 1) : "";
-        log.note(unproven_note({errors.front().message + more}));
+        const FileError& first = errors.front();
+        const bool is_known =
+            std::any_of(source.terrain.errors.begin(), source.terrain.errors.end(),
+                        [&](const std::string& message) {
+                            return message.starts_with(first.file.string() + ":");
+                        });
+        const std::string reason =
+            is_known ? first.file.string() + " is not in the index" : first.message;
+        log.note(unproven_note({reason + more}));
     }
     return {};
 }

@@ -46,6 +46,13 @@ bool wait_until(BackOff::Clock::time_point time, const std::stop_token& stop) {
     return !stop.stop_requested();
 }
 
+// Whether the heights are what the stream shows of files that it cannot read.
+bool is_replaced_for_good(const scene::TileStream& stream, const scene::TileContent& content) {
+    return content.errors.empty() &&
+           std::all_of(content.picture_errors.begin(), content.picture_errors.end(),
+                       [&](const FileError& error) { return stream.has_given_up(error.file); });
+}
+
 } // namespace
 
 Result<scene::TileContent> read_surely(const scene::TileStream& stream,
@@ -58,7 +65,7 @@ Result<scene::TileContent> read_surely(const scene::TileStream& stream,
         if (stop.stop_requested()) {
             break;
         }
-        if (errors.empty()) {
+        if (errors.empty() || is_replaced_for_good(stream, content)) {
             return content;
         }
         back_off.fail(BackOff::Clock::now());

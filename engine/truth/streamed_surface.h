@@ -25,7 +25,8 @@ struct StreamedSurfaceStats {
 };
 
 /// Reads a tile, again after pauses if it fails. Fails with the file's error after the usual
-/// attempts, and when stopped. The notes of the files are added to `notes`.
+/// attempts, and when stopped. Of files that the stream has given up, takes what it shows instead.
+/// The notes of the files are added to `notes`.
 Result<scene::TileContent> read_surely(const scene::TileStream& stream,
                                        const scene::TileContentReader& read, terrain::TreeTile tile,
                                        const std::stop_token& stop);

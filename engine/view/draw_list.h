@@ -48,9 +48,7 @@ struct TileDraw {
     double triangle_error = 0.0;    ///< left for its triangles, pixels; 0 without an error bound
 
     /// Whether `error` is proven, of every pixel.
-    [[nodiscard]] bool is_proven() const {
-        return tile->borrows || (tile->is_proven && !(tile->has_voids && tile->id.level > 0));
-    }
+    [[nodiscard]] bool is_proven() const { return tile->borrows || tile->is_proven_everywhere(); }
 };
 
 /// Maximum of TerrainDraw::tiles.
@@ -66,6 +64,9 @@ struct TerrainDraw {
     /// and those above them. Where they overlap, the finest is the surface, so that rays find
     /// ground beside the picture, too. Empty: the samples of the terrain's surface.
     std::vector<std::shared_ptr<const scene::TerrainTile>> tiles = {};
+    /// How far the surfaces of the proven ones of `tiles` are off where exact rays show them, at
+    /// most, pixels; empty: no proven one is shown, or the technique is no exact search.
+    std::optional<double> tile_error = {};
     std::optional<RayCourse> course = {}; ///< of rays on the ellipsoid
     /// What draws it instead of the terrain's own technique.
     std::optional<scene::Technique> chosen = {};

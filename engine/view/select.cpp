@@ -37,11 +37,13 @@ constexpr int overview_levels = terrain::max_patch_levels + 1;
 std::optional<Coarseness> coarseness_of(const scene::TerrainNode& terrain, const DrawList& list,
                                         const glm::dmat4& world_from_local, bool stands_in) {
     const scene::Technique& technique = terrain.material.technique;
-    if (!scene::draws_triangles(technique.id())) {
+    const bool is_exact = technique.id() == scene::TechniqueId::exact; // its rays bend too much
+    if (!scene::draws_triangles(technique.id()) && !is_exact) {
         return std::nullopt;
     }
     const auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);
-    const double error = scene::triangle_bound(terrain, technique);
+    const double error =
+        is_exact ? scene::max_expected_error_of_rays : scene::triangle_bound(terrain, technique);
     const scene::TerrainSurface& surface = *terrain.surface;
     if (error > 0.0 && !stands_in) {
         terrain::ErrorView view =
@@ -218,8 +220,19 @@ private:
         if (is_on_ellipsoid(terrain)) {
             add_on_ellipsoid(std::move(draw), std::move(choice));
         } else {
-            list_.reliefs.push_back(std::move(draw));
+            add_rays(std::move(draw), choice);
         }
+    }
+
+    void add_rays(TerrainDraw draw, const std::optional<TileSelection>& choice) {
+        if (!draw.tiles.empty() && draw.technique().id() == scene::TechniqueId::exact) {
+            const auto errors =
+                error_of_ray_tiles(*draw.terrain, list_.camera, list_.size, draw.world_from_local,
+                                   choice->drawn, draw.tiles);
+            draw.tile_error = errors.proven;
+            list_.stats.tiles_unproven += errors.unproven;
+        }
+        list_.reliefs.push_back(std::move(draw));
     }
 
     void add_on_ellipsoid(TerrainDraw draw, std::optional<TileSelection> choice) {
@@ -236,7 +249,7 @@ private:
             ray_course(list_.camera, list_.size, draw.world_from_local,
                        terrain.surface->placement(), samples, sun_rays(terrain, list_.sun));
         if (draw.course) {
-            list_.reliefs.push_back(std::move(draw));
+            add_rays(std::move(draw), choice);
             return;
         }
         ++list_.stats.reliefs_as_triangles;

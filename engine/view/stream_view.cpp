@@ -24,7 +24,8 @@ constexpr double margin_of_range = 0.25;
 constexpr double errors_seen = 1.0;
 constexpr double errors_hidden = 16.0;
 
-constexpr double default_error = 1.0; // pixels, if the technique has no bound
+// Pixels, if the technique has no bound.
+constexpr double default_error = scene::max_expected_error_of_rays;
 
 // The tiles' share of the error bound; the rest is for fewer triangles.
 constexpr double share_of_tiles = 0.5;
@@ -212,6 +213,25 @@ double StreamView::error_of_blocks(const scene::TileSummary& tile) const {
             if (may_show(box)) {
                 const double share = terrain::share_of(tile.block_shares, terrain::block_at(first));
                 largest = std::max(largest, error_in(box, share * tile.error));
+            }
+        }
+    }
+    return largest;
+}
+
+std::optional<double> StreamView::error_beside(const scene::TerrainTile& tile,
+                                               const std::set<terrain::TreeTile>& known) const {
+    const auto is_hidden = [](const Box& /*box*/) { return false; };
+    std::optional<double> largest;
+    for (int row = 0; row < tile.blocks.rows(); ++row) {
+        for (int col = 0; col < tile.blocks.cols(); ++col) {
+            const glm::ivec2 half =
+                glm::ivec2(col, row) * scene::cells_per_block / (terrain::tree_tile_cells / 2);
+            const Part block = block_of(tile, {col, row});
+            if (!known.contains(
+                    {tile.id.level - 1, 2 * tile.id.col + half.x, 2 * tile.id.row + half.y}) &&
+                may_see(block.box)) {
+                largest = largest_error_in(tile, block, largest.value_or(0.0), is_hidden);
             }
         }
     }

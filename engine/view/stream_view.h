@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -79,6 +80,10 @@ public:
         }
         return largest;
     }
+    /// The same of the quarters of a tile below which no tile of `known` lies; empty: none of them
+    /// is seen.
+    [[nodiscard]] std::optional<double>
+    error_beside(const scene::TerrainTile& tile, const std::set<terrain::TreeTile>& known) const;
     /// The largest error of a tile in a frame that keeps the error bound, pixels.
     [[nodiscard]] double max_kept_error() const {
         return (1.0 - min_share_of_triangles) * max_error_;

@@ -409,6 +409,38 @@ TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camer
     return walk_until_complete(view, *root, options);
 }
 
+RayTilesError error_of_ray_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                                 glm::ivec2 size, const glm::dmat4& world_from_local,
+                                 std::span<const TileSelection::Drawn> drawn,
+                                 std::span<const std::shared_ptr<const scene::TerrainTile>> tiles) {
+    RayTilesError found;
+    const auto add = [&](const scene::TerrainTile& tile, double error) {
+        if (tile.is_proven_everywhere()) {
+            found.proven = std::max(found.proven.value_or(0.0), error);
+        } else {
+            ++found.unproven;
+        }
+    };
+    std::set<terrain::TreeTile> finest;
+    for (const TileSelection::Drawn& one : drawn) {
+        add(*one.tile, one.error);
+        finest.insert(one.tile->id);
+    }
+    std::set<terrain::TreeTile> known;
+    for (const auto& tile : tiles) {
+        known.insert(tile->id);
+    }
+    const StreamView view(terrain, camera, size, world_from_local);
+    for (const auto& tile : tiles) {
+        const auto error =
+            finest.contains(tile->id) ? std::nullopt : view.error_beside(*tile, known);
+        if (error) {
+            add(*tile, *error);
+        }
+    }
+    return found;
+}
+
 std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Camera& camera,
                             glm::ivec2 size, const glm::dmat4& world_from_local) {
     check(terrain.stream != nullptr, "a streamed terrain was expected");

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -58,6 +60,19 @@ struct TileSelectionOptions {
 TileSelection select_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                            glm::ivec2 size, const glm::dmat4& world_from_local,
                            const TileSelectionOptions& options = {});
+
+/// How far rays over tiles of a stream are off because of these, at most.
+struct RayTilesError {
+    std::optional<double> proven; ///< of proven tiles, pixels; empty: none is shown
+    int unproven = 0;             ///< shown tiles whose errors are estimates
+};
+
+/// Of a view's drawn tiles, and of what shows of the coarser ones in `tiles` (TerrainDraw::tiles)
+/// beside them.
+RayTilesError error_of_ray_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
+                                 glm::ivec2 size, const glm::dmat4& world_from_local,
+                                 std::span<const TileSelection::Drawn> drawn,
+                                 std::span<const std::shared_ptr<const scene::TerrainTile>> tiles);
 
 /// tiles_for_bound() counts no more: they would take gigabytes.
 inline constexpr std::size_t max_tiles_counted = 100'000;

@@ -55,6 +55,16 @@ TEST(InfoCommand, text_names_the_essentials) {
     }
 }
 
+TEST(InfoCommand, MillimetresAndLessHaveDigits) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write("a.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\n"
+                                           "cellsize 1e-06\n0 1e-05 2e-05\n0 1e-05 3e-05\n");
+    const auto result = test::reljef({"info", dem.string()});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.out.find("spacing  1e-06 x 1e-06 m"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("heights  0.00 to 3e-05 m"), std::string::npos) << result.out;
+}
+
 TEST(InfoCommand, the_gallery_names_its_models_and_their_tiles) {
     const auto mixed = nlohmann::json::parse(test::reljef({"info", "gallery", "--json"}).out);
     ASSERT_EQ(mixed["models"].size(), 8U);

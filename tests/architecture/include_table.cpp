@@ -45,7 +45,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/view/choice", {"engine/view/triangles"}},
         {"engine/cast", {"engine/view"}},
         {"engine/cast/mesh", {"engine/view"}},
-        {"engine/cast/frame", {"engine/cast", "engine/cast/mesh"}},
+        {"engine/cast/frame", {"engine/cast", "engine/cast/mesh", "engine/view/choice"}},
         {"engine/gl", {"engine/core"}},
         {"engine/platform", {"engine/gl"}},
         {"shaders/frame", {}},

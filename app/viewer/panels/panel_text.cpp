@@ -74,12 +74,14 @@ std::string error_summary(const view::FrameStats& stats, const scene::Technique&
     if (stats.reliefs_as_triangles > 0) {
         return "triangles: rays bend too much";
     }
-    if (technique.id() == scene::TechniqueId::exact) {
-        return "none";
-    }
-    const double bound = scene::error_bound(technique);
+    const bool is_exact = technique.id() == scene::TechniqueId::exact;
+    const double bound =
+        is_exact ? scene::max_expected_error_of_rays : scene::error_bound(technique);
     if (bound > 0.0 && stats.tiles_unproven > 0) {
         return "unproven";
+    }
+    if (is_exact && stats.kept_error.value_or(0.0) <= bound) {
+        return "none";
     }
     if (stats.kept_error) {
         return *stats.kept_error > bound ? fmt::format("up to {:.1f} px", *stats.kept_error)

@@ -62,6 +62,7 @@ StreamedList with_tiles_of_reliefs(view::DrawList list) {
             draw.terrain = relief.terrain;
             draw.tile = tile;
             draw.node = list.terrains.size();
+            draw.error = relief.tile_error.value_or(0.0);
         }
         list.terrains.push_back(
             {.terrain = relief.terrain, .world_from_local = relief.world_from_local});
@@ -85,15 +86,6 @@ std::size_t ray_count(const view::DrawList& list, const PlacedTiles& placed) {
 }
 
 } // namespace
-
-double rounding_error(const scene::Camera& camera, glm::ivec2 size) {
-    // Floats have errors of 2^-24 of the distance, and a place on a ray adds a few of them.
-    constexpr double of_distance = 0x1p-20;
-    const glm::vec2 pixel = view::metres_a_pixel(camera, size);
-    return camera.projection == scene::ProjectionKind::perspective
-               ? of_distance / pixel.y
-               : of_distance * (camera.orthographic_far - camera.orthographic_near) / pixel.x;
-}
 
 Driver::Driver(const DriverOptions& options) : options_(options) {}
 
@@ -239,9 +231,12 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     const scene::TerrainNode& node = *seen.node;
     const auto [rays, curve] = rays_over(list, seen, options_.threads);
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
-    if (scene::error_bound(node.material.technique) > 0.0 && !stands_in) {
-        stats.kept_error = kept_error(list, rounding_error(list.camera, list.size) +
-                                                (curve != nullptr ? curve->error() : 0.0));
+    const auto rounding = stands_in ? std::nullopt : rounding_of(list, seen);
+    if (rounding) {
+        const double of_rays = rounding->error + (curve != nullptr ? curve->error() : 0.0);
+        stats.kept_error = kept_error(list, of_rays);
+        stats.exceeded_by_rounding =
+            rounding->is_of_view && 2.0 * of_rays > stats.kept_error.value_or(0.0);
     }
     if (seen.has_tiles) {
         const bool in_parts = node.material.technique.options.shadow.has_value();
@@ -269,6 +264,14 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
         }
     }
     return placed;
+}
+
+// Of all rays at a terrain, pixels; empty: nothing is known.
+std::optional<view::PictureRounding::Found> Driver::rounding_of(const view::DrawList& list,
+                                                                const SeenTerrain& seen) {
+    const view::TerrainDraw draw{.terrain = seen.node, .world_from_local = seen.world_from_local};
+    return rounding_.of(list, draw, seen.has_tiles ? tiles_of(list) : seen.node->surface->tiles(),
+                        view::RayFloats::cpu);
 }
 
 // Of a terrain in memory.

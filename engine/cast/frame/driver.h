@@ -24,6 +24,7 @@
 #include "engine/core/color.h"
 #include "engine/core/hit.h"
 #include "engine/core/result.h"
+#include "engine/view/choice/ray_rounding.h"
 #include "engine/view/frame_stats.h"
 #include "engine/view/sample_count.h"
 #include "engine/view/select.h"
@@ -43,10 +44,6 @@ struct DriverOptions {
     /// Keeps what was made of terrains for the next frames. No influence on the picture.
     bool keeps_content = true;
 };
-
-/// How far rounding of floats moves a hit at most, pixels: what exact rays keep of an error bound
-/// (docs/cast.md).
-double rounding_error(const scene::Camera& camera, glm::ivec2 size);
 
 /// What a frame draws; of reliefs over streams, tiles.
 struct StreamedList {
@@ -104,6 +101,8 @@ private:
     const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
     const Light& light_of(const scene::TerrainNode& terrain,
                           const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
+    std::optional<view::PictureRounding::Found> rounding_of(const view::DrawList& list,
+                                                            const SeenTerrain& seen);
     void add_certain_sun(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile);
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
@@ -118,6 +117,7 @@ private:
     FirstSamples first_; // its picture becomes that of all samples
     Image picture_;      // while samples are drawn
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
+    view::PictureRounding rounding_;
     TileContents streamed_;
     MeshTrees mesh_trees_;
     MeshPictures mesh_pictures_;

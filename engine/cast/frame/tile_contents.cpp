@@ -9,8 +9,10 @@
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/tile_pieces.h"
 #include "engine/core/parallel_for.h"
 #include "engine/scene/streaming/tile_stream.h"
@@ -174,15 +176,17 @@ namespace {
 // Places the pieces of tiles.
 class Placer {
 public:
+    /// `lowest`: of all heights, true metres.
     Placer(const view::DrawList& list, const PictureRays& rays,
-           const TileContents::Options& options)
+           const TileContents::Options& options, float lowest)
         : list_(list), rays_(rays), options_(options), draw_(list.tiles.front()),
           builder_(draw_.terrain->stream->maker()), zero_(builder_.from_overview(glm::dvec2(0.0))),
           scale_(builder_.from_overview(glm::dvec2(1.0)) - zero_),
           last_(builder_.sample(builder_.tree().root(),
                                 builder_.tree().cells(builder_.tree().root()))),
           metres_(draw_.terrain->surface->placement().spacing() / scale_),
-          seen_(list, draw_.terrain->surface->placement(), list.world_from_local(draw_)) {}
+          seen_(list, draw_.terrain->surface->placement(), list.world_from_local(draw_)),
+          lowest_(lowest), is_outside_(is_outside()) {}
 
     [[nodiscard]] std::vector<TilePiece> pieces(const view::TileDraw& draw) const {
         return pieces_of(builder_.lattice(draw.tile->id), last_, from());
@@ -211,7 +215,7 @@ public:
         tile.walls = piece.walls;
         tile.first = piece.first;
         tile.step = piece.step;
-        tile.seen = options_.is_curved ? seen_.of_local(draw.tile->bounds)
+        tile.seen = options_.is_curved ? seen_.of_local(local_box(draw, piece, samples.total()))
                                        : seen_.of(box(piece, samples.total()));
         return tile;
     }
@@ -220,11 +224,13 @@ public:
         return longest_texels(list_, paint, metres_ * piece.step);
     }
 
-    // In samples of the overview.
+    // In samples of the overview. With all rays that come in from outside, below the surface: they
+    // must be known to be below it, or hit the walls of the next tiles.
     [[nodiscard]] Box box(const TilePiece& piece, terrain::MinMax total) const {
         const glm::dvec2 end = piece.first + piece.step * glm::dvec2(piece.cells);
         Box box;
-        box.add(glm::dvec3(builder_.on_overview(piece.first), total.low));
+        box.add(glm::dvec3(builder_.on_overview(piece.first),
+                           lets_in(piece) ? std::min(lowest_, total.low) : total.low));
         box.add(glm::dvec3(builder_.on_overview(end), total.high));
         return box;
     }
@@ -233,6 +239,34 @@ public:
     }
 
 private:
+    [[nodiscard]] bool is_outside() const {
+        if (list_.camera.projection == scene::ProjectionKind::orthographic) {
+            return true;
+        }
+        const glm::dvec3 eye(glm::inverse(list_.world_from_local(draw_)) *
+                             glm::dvec4(list_.camera.eye, 1.0));
+        const auto overview = draw_.terrain->surface->placement().sample_from_world(eye);
+        if (!overview) {
+            return true;
+        }
+        const glm::dvec2 sample = zero_ + scale_ * glm::dvec2(*overview);
+        return glm::clamp(sample, glm::dvec2(0.0), last_) != sample;
+    }
+    [[nodiscard]] bool lets_in(const TilePiece& piece) const {
+        return is_outside_ && piece.walls != (west_wall | east_wall | north_wall | south_wall);
+    }
+    // In local metres.
+    [[nodiscard]] Box local_box(const view::TileDraw& draw, const TilePiece& piece,
+                                terrain::MinMax total) const {
+        Box local = draw.tile->bounds;
+        if (lets_in(piece)) {
+            for (const glm::dvec3& corner : corners_of(box(piece, total))) {
+                local.add(draw_.terrain->surface->placement().world_from_sample(corner));
+            }
+        }
+        return local;
+    }
+
     const view::DrawList& list_;
     const PictureRays& rays_;
     const TileContents::Options& options_;
@@ -243,6 +277,8 @@ private:
     glm::dvec2 last_;   // sample of the terrain
     glm::dvec2 metres_; // of a sample of the terrain
     SeenPixels seen_;
+    float lowest_;
+    bool is_outside_;
 };
 
 // Where the pieces of a drawn tile meet, and their nodes.
@@ -272,11 +308,22 @@ int add_pieces(std::span<const TilePiece> pieces, const Placer& placer,
 
 } // namespace
 
+float TileContents::lowest_of(const view::DrawList& list) const {
+    float lowest = std::numeric_limits<float>::infinity();
+    for (const view::TileDraw& draw : list.tiles) {
+        for (const std::optional<RayTile>& piece : contents_.at(draw.tile.get()).pieces) {
+            lowest = piece ? std::min(lowest, piece->total().low) : lowest;
+        }
+    }
+    return lowest;
+}
+
 PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& rays,
                                 const Options& options, view::FrameStats& stats) {
     forget_unused();
     make(list, options, stats);
-    const Placer placer(list, rays, options);
+    const float lowest = lowest_of(list);
+    const Placer placer(list, rays, options, lowest);
     const scene::TileBuilder& builder = list.tiles.front().terrain->stream->maker();
     std::vector<terrain::TreeTile> ids;
     for (const view::TileDraw& draw : list.tiles) {
@@ -284,6 +331,7 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
     }
     PlacedTiles placed;
     placed.has_walls = true;
+    placed.wall_floor = lowest;
     const auto add = [&](std::size_t index) {
         const view::TileDraw& draw = list.tiles[index];
         const Content& content = contents_.at(draw.tile.get());

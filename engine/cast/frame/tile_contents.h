@@ -67,6 +67,8 @@ private:
     };
 
     void forget_unused();
+    /// The lowest height of the tiles of a list that are made.
+    [[nodiscard]] float lowest_of(const view::DrawList& list) const;
     std::vector<Missing> find_missing(const view::DrawList& list,
                                       const std::optional<scene::TerrainLight>& light,
                                       const Options& options, view::FrameStats& stats);

@@ -38,6 +38,11 @@ struct TileSummary {
     bool is_finest = false; ///< finer tiles would show nothing more, because files cannot be read
     bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off
     terrain::BlockShares block_shares = terrain::whole_shares; ///< of `error`, if proven
+
+    /// Whether `error` is proven at voids, too.
+    [[nodiscard]] bool is_proven_everywhere() const {
+        return is_proven && !(has_voids && id.level > 0);
+    }
 };
 
 /// A tile of a terrain's quadtree, ready to be drawn.

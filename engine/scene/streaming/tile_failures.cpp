@@ -1,6 +1,7 @@
 // The failures of a stream: bad files, and memory that is missing.
 #include "engine/scene/streaming/tile_stream.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace reljef::scene {
@@ -36,10 +37,23 @@ void TileStream::forget_failure(terrain::TreeTile tile) {
 
 void TileStream::record_errors(std::span<const FileError> errors) {
     for (const FileError& error : errors) {
-        if (failed_files_.insert(error.file).second) {
+        if (!was_reported(error.file) && failed_files_.insert(error.file).second) {
             new_errors_.push_back(error.message);
         }
     }
+}
+
+bool TileStream::was_reported(const std::filesystem::path& file) const {
+    const std::string start = file.string() + ":";
+    return std::any_of(options_.reported.begin(), options_.reported.end(),
+                       [&](const std::string& message) { return message.starts_with(start); });
+}
+
+bool TileStream::has_given_up(const std::filesystem::path& file) const {
+    const std::lock_guard lock(mutex_);
+    const auto failures = file_failures_.find(file);
+    return was_reported(file) ||
+           (failures != file_failures_.end() && failures->second.has_failed_for_good());
 }
 
 } // namespace reljef::scene

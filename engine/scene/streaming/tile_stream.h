@@ -57,6 +57,9 @@ struct TileStreamOptions {
     /// Grows when a reading finds that the source changed: tiles of earlier readings are outdated.
     /// Empty: it does not change.
     std::function<std::uint64_t()> source_changes = {};
+    /// What was said of files that could not be read before the stream began: each begins with the
+    /// name of its file. They are not reported again.
+    std::vector<std::string> reported = {};
     /// Pause after the first failure of a file; each further pause is four times as long.
     std::chrono::milliseconds first_pause = BackOff::usual_first_pause;
 };
@@ -118,6 +121,9 @@ public:
     /// use. `with_cones`: the view needs TerrainTile::cones; loaded tiles without them are missing.
     void request(std::span<const terrain::TreeTile> missing,
                  std::span<const terrain::TreeTile> used = {}, bool with_cones = false);
+    /// Whether a file was reported before the stream began, or has failed max_attempts times since
+    /// it was last read.
+    [[nodiscard]] bool has_given_up(const std::filesystem::path& file) const;
     /// Waits until all requested tiles are loaded or have failed max_attempts times; false after a
     /// stop request. Precondition: no other thread requests tiles.
     bool wait(const std::stop_token& stop);
@@ -170,6 +176,7 @@ private:
     void note_failure(terrain::TreeTile tile, std::span<const FileError> errors);
     void forget_failure(terrain::TreeTile tile);
     void record_errors(std::span<const FileError> errors);
+    [[nodiscard]] bool was_reported(const std::filesystem::path& file) const;
     void keep(terrain::TreeTile tile, Made made);
     void drop_proofs();
     [[nodiscard]] std::uint64_t changes_of_source() const;

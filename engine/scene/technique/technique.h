@@ -55,6 +55,10 @@ bool is_two_sided(const Technique& technique);
 /// The error bound of polygons and auto, pixels; 0 without a bound, and for other techniques.
 double error_bound(const Technique& technique);
 
+/// The tiles of a stream are fine enough for this error of `exact`, pixels, if memory suffices. A
+/// larger one is reported as one over an error bound is.
+inline constexpr double max_expected_error_of_rays = 1.0;
+
 /// The offset of the reference plane of the parallax techniques; null for others.
 const double* parallax_offset(const TechniqueParameters& parameters);
 double* parallax_offset(TechniqueParameters& parameters);

@@ -8,6 +8,7 @@
 #include "engine/session/comparing/scene_truth.h"
 #include "engine/session/comparing/wipe.h"
 #include "engine/session/prepared_maps.h"
+#include "engine/truth/geometric_error.h"
 
 namespace reljef::session {
 namespace {
@@ -61,6 +62,10 @@ public:
 
     // Adds the figures of a frame; returns its error map.
     Result<Image> add(const Image& picture, const HitBuffer& hits) {
+        if (!truth::has_terrain(hits) && !truth::has_terrain(exact_.hits)) {
+            figures_.emplace_back().has_terrain = false;
+            return exact_.image;
+        }
         const auto errors = truth_.errors(camera_, hits, exact_.hits, parallel_);
         if (!errors) {
             return errors.error();

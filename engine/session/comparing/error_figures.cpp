@@ -51,6 +51,9 @@ Result<ErrorFigures> error_figures(const truth::GeometricErrors& errors, const I
 }
 
 std::string to_string(const ErrorFigures& figures) {
+    if (!figures.has_terrain) {
+        return "no terrain in the view, true or shown: no pixel to compare";
+    }
     std::string text = fmt::format("{:.3g} % wrong", figures.wrong_percent);
     if (figures.hole_percent > 0.0) {
         text += fmt::format(" ({:.3g} % holes)", figures.hole_percent);

@@ -20,6 +20,7 @@ struct PixelQuantiles {
 
 /// The errors of a picture against the exact one.
 struct ErrorFigures {
+    bool has_terrain = true;    ///< false: neither the picture nor the exact one; nothing is wrong
     double wrong_percent = 0.0; ///< of all pixels: another surface, or none; see truth::Verdict
     double hole_percent = 0.0;  ///< of all pixels: no terrain where there is some
     /// Of the pixels that show terrain; absent if none has a finite error.

@@ -5,11 +5,9 @@
 
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/streaming/terrain_surface.h"
+#include "engine/view/choice/ray_rounding.h"
 
 namespace reljef::view {
-
-/// Metres of height per metre along the ground, exaggerated, at most.
-double steepest(const scene::TerrainSurface& surface);
 
 /// Bounds the error of `exact` on OpenGL over a plane in memory, which is that of rounding.
 class RayError {
@@ -28,10 +26,9 @@ private:
     [[nodiscard]] bool is_nearer(double distance, int level, glm::ivec2 block) const;
 
     const scene::TerrainSurface& surface_;
-    glm::dvec3 eye_;         // local metres
-    double rounding_ = 0.0;  // of a direction, pixels
-    double steepness_ = 0.0; // times the share of the operations along the ray
-    double lengths_ = 0.0;   // that are rounded, over the distance of a hit; metres
+    glm::dvec3 eye_; // local metres
+    RayRounding rounding_;
+    RayRounding::Part part_; // steepest and widest
 };
 
 } // namespace reljef::view

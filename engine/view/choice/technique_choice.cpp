@@ -57,16 +57,13 @@ RayError error_of_rays(const DrawList& list, const TerrainDraw& draw, double ste
             glm::dvec3(draw.world_from_local[3])};
 }
 
-// The smallest error from `bound` on that rays keep, within a tenth; none up to `limit`.
-std::optional<double> kept_by_rays(const RayError& rays, double bound, double limit) {
-    if (!rays.keeps(limit)) {
-        return std::nullopt;
+std::vector<std::shared_ptr<const scene::TerrainTile>> tiles_of(const DrawList& list) {
+    std::vector<std::shared_ptr<const scene::TerrainTile>> tiles;
+    tiles.reserve(list.tiles.size());
+    for (const TileDraw& draw : list.tiles) {
+        tiles.push_back(draw.tile);
     }
-    double error = bound;
-    while (error < limit && !rays.keeps(error)) {
-        error *= 1.1;
-    }
-    return std::min(error, limit);
+    return tiles;
 }
 
 // Metres by which triangles at a place may be off, or none if it is not visible.
@@ -190,7 +187,6 @@ void TechniqueChooser::know(const scene::TerrainNode& terrain) {
                       : TriangleCounts(terrain::Bisection(terrain.surface->heightfield(),
                                                           terrain.surface->placement()));
         probed_ = ProbedSurface(*terrain.surface);
-        steepness_ = steepest(*terrain.surface);
         surface_ = terrain.surface;
     }
 }
@@ -214,8 +210,9 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     // With fewer triangles than they need, they are off by more, about in proportion.
     const double by_triangles =
         triangle_error * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
-    const auto kept = kept_by_rays(error_of_rays(list, draw, steepness_), bound, by_triangles);
-    if (!kept) {
+    const auto rounding = rounding_.of(list, draw, tiles_of(list), RayFloats::opengl);
+    const double kept = std::max(bound, rounding ? rounding->error : max_lack * by_triangles);
+    if (kept > by_triangles) {
         decision.choice.estimated_ms = triangles.ms;
         decision.last_ring = last_ring;
         return decision;
@@ -228,8 +225,8 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     if (best.last_ring < last_ring) {
         decision.search = scene::make_technique(scene::TechniqueId::exact);
         decision.kept_error = kept;
-        decision.exceeded_by_rounding = *kept > bound && error_view.exceeded_by_rounding;
-        decision.lacks_triangles = *kept > triangle_error;
+        decision.exceeded_by_rounding = kept > bound && error_view.exceeded_by_rounding;
+        decision.lacks_triangles = kept > triangle_error;
     }
     return decision;
 }
@@ -237,10 +234,11 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
 // Rays alone: the pixels that triangles leave would be the worst ones, and between both there would
 // be cracks.
 void TechniqueChooser::consider_unproven(const DrawList& list, const ViewCosts& view,
-                                         Decision& decision) const {
+                                         Decision& decision) {
     const TerrainDraw& draw = list.terrains.front();
     const double bound = scene::error_bound(draw.terrain->material.technique);
-    if (!error_of_rays(list, draw, steepness_).keeps(bound)) {
+    const double steepness = rounding_.slopes_over(draw.terrain->surface).steepness;
+    if (!error_of_rays(list, draw, steepness).keeps(bound)) {
         return; // floats would round by more than the probes know
     }
     const double pixels = static_cast<double>(list.size.x) * list.size.y;
@@ -314,9 +312,37 @@ void TechniqueChooser::choose_for_parts(const DrawList& whole) {
     }
 }
 
+// Rays on the CPU state their own, and other searches none.
+void TechniqueChooser::state_error_of_rays(DrawList& list) {
+    const auto is_exact = [](const TerrainDraw& draw) {
+        return draw.technique().id() == scene::TechniqueId::exact;
+    };
+    if (std::none_of(list.reliefs.begin(), list.reliefs.end(), is_exact) ||
+        (options_.rays_draw && options_.rays_draw(list))) {
+        return;
+    }
+    for (const TerrainDraw& draw : list.reliefs) {
+        const bool has_tiles = !draw.tiles.empty();
+        if (!is_exact(draw) || (has_tiles ? !draw.tile_error : draw.terrain->stream != nullptr)) {
+            continue;
+        }
+        const auto& tiles = has_tiles ? draw.tiles : draw.terrain->surface->tiles();
+        if (const auto rounding = rounding_.of(list, draw, tiles, RayFloats::opengl)) {
+            const double of_tiles = draw.tile_error.value_or(0.0);
+            const double error = of_tiles + rounding->error;
+            if (error > list.stats.kept_error.value_or(0.0)) {
+                list.stats.exceeded_by_rounding =
+                    rounding->is_of_view && rounding->error > of_tiles;
+            }
+            list.stats.kept_error = std::max(list.stats.kept_error.value_or(0.0), error);
+        }
+    }
+}
+
 void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_hidden) {
     if (!is_chosen(list)) {
         drop_hidden();
+        state_error_of_rays(list);
         return;
     }
     if (options_.rays_draw && options_.rays_draw(list)) {

@@ -7,6 +7,7 @@
 
 #include "engine/scene/graph/scene.h"
 #include "engine/terrain/mesh/bisection.h"
+#include "engine/view/choice/ray_rounding.h"
 #include "engine/view/choice/technique_costs.h"
 #include "engine/view/choice/triangle_counts.h"
 #include "engine/view/choice/typical_search.h"
@@ -28,7 +29,8 @@ struct ChoiceOptions {
 /// the eye hide the others, but are hidden by none of them, so what is drawn first is in front. All
 /// candidates keep the error bound. With `typical`, unproven searches that show nine of ten
 /// probes within it may draw all of the view. Equal lists get equal choices. Parts of a picture
-/// (scene::Camera::whole) must show one choice, or edges jump between them.
+/// (scene::Camera::whole) must show one choice, or edges jump between them. Lists of `exact` on
+/// OpenGL get the error that their rays keep (FrameStats::kept_error).
 class TechniqueChooser {
 public:
     explicit TechniqueChooser(const ChoiceOptions& options) : options_(options) {}
@@ -63,7 +65,8 @@ private:
     Decision decide(const DrawList& list, Kinds kinds, const std::function<void()>& drop_hidden);
     [[nodiscard]] bool may_hidden_decide(const ViewCosts& view, const Decision& decision) const;
     Decision decide_proven(const DrawList& list, const ViewCosts& view, Kinds kinds);
-    void consider_unproven(const DrawList& list, const ViewCosts& view, Decision& decision) const;
+    void state_error_of_rays(DrawList& list);
+    void consider_unproven(const DrawList& list, const ViewCosts& view, Decision& decision);
 
     ChoiceOptions options_;
     int samples_ = 1;
@@ -72,7 +75,7 @@ private:
     std::weak_ptr<const scene::TerrainSurface> surface_; // the known one
     TriangleCounts counts_;
     ProbedSurface probed_;
-    double steepness_ = 0.0;
+    PictureRounding rounding_;
 };
 
 } // namespace reljef::view

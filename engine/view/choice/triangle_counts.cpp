@@ -1,12 +1,17 @@
 #include "engine/view/choice/triangle_counts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <variant>
 
 #include <glm/common.hpp>
 
+#include "engine/core/parallel_for.h"
 #include "engine/terrain/mesh/tile_layout.h"
+#include "engine/view/triangles/tile_cut.h"
 
 namespace reljef::view {
 
@@ -84,6 +89,38 @@ double TriangleCounts::triangles(glm::ivec2 block, double error) const {
     const std::size_t high = std::min(low + 1, counts.size() - 1);
     return 2.0 + 2.0 * std::lerp(static_cast<double>(counts[low]),
                                  static_cast<double>(counts[high]), at - static_cast<double>(low));
+}
+
+std::size_t triangles_for_bound(const DrawList& list) {
+    const auto has_bound = [&](const TileDraw& draw) {
+        const auto& coarseness = list.terrains[draw.node].coarseness;
+        return draw.tile->borrows && coarseness &&
+               std::holds_alternative<terrain::ErrorView>(*coarseness);
+    };
+    if (!std::all_of(list.tiles.begin(), list.tiles.end(), has_bound)) {
+        return 0;
+    }
+    std::map<const scene::TerrainNode*, terrain::Bisection> made;
+    for (const TileDraw& draw : list.tiles) {
+        if (draw.terrain->bisection == nullptr && !made.contains(draw.terrain)) {
+            const scene::TerrainSurface& surface = *draw.terrain->surface;
+            made.emplace(draw.terrain,
+                         terrain::Bisection(surface.heightfield(), surface.placement()));
+        }
+    }
+    std::atomic<std::size_t> indices = 0;
+    parallel_for(static_cast<int>(list.tiles.size()), [&](int i) {
+        const TileDraw& draw = list.tiles[static_cast<std::size_t>(i)];
+        const terrain::Bisection& bisection =
+            draw.terrain->bisection != nullptr ? *draw.terrain->bisection : made.at(draw.terrain);
+        const CutMesh mesh =
+            cut_tile(*list.terrains[draw.node].coarseness, surface_of(draw),
+                     {&bisection, draw.error, draw.triangle_error, {}, nullptr}, CutMesh{});
+        for (const terrain::Triangulation& part : mesh.parts) {
+            indices += part.indices.size();
+        }
+    });
+    return indices / 3;
 }
 
 } // namespace reljef::view

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
 #include "engine/terrain/mesh/bisection.h"
+#include "engine/view/draw_list.h"
 
 namespace reljef::view {
 
@@ -38,5 +40,9 @@ private:
 
     Grid<Counts> counts_;
 };
+
+/// How many triangles keep the error bounds of a list's tiles, by cutting all of them; 0 if one is
+/// a tile of a stream, or has no bound.
+std::size_t triangles_for_bound(const DrawList& list);
 
 } // namespace reljef::view

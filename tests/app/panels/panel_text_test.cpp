@@ -51,7 +51,13 @@ TEST(PanelText, ErrorsAreWhatTheFrameKept) {
     stats.tiles_unproven = 1;
     EXPECT_EQ(error_summary(stats, bounded), "unproven");
     EXPECT_EQ(error_summary({}, scene::Technique{scene::Texture{}}), "no bound");
-    EXPECT_EQ(error_summary({}, scene::Technique{scene::Exact{}}), "none");
+    const scene::Technique exact{scene::Exact{}};
+    EXPECT_EQ(error_summary({}, exact), "none");
+    EXPECT_EQ(error_summary(stats, exact), "unproven");
+    stats.tiles_unproven = 0;
+    EXPECT_EQ(error_summary(stats, exact), "up to 2.5 px");
+    stats.kept_error = 0.02;
+    EXPECT_EQ(error_summary(stats, exact), "none");
 }
 
 TEST(ScaleBar, HasARoundLengthNextToTheLongest) {

@@ -1,0 +1,312 @@
+#include "engine/view/choice/ray_rounding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/scene/streaming/tile_stream.h"
+#include "engine/terrain/mesh/tile_layout.h"
+
+// The shader computes a hit as start + part * span, all in floats. A ray has the direction of
+// its pixel, computed in a few steps. It starts at the eye, whose place is rounded to 2^-24 of a
+// cell and of the heights: the origin of the search is the sample next to the eye. From outside
+// of the box around the terrain it starts where it enters, which is computed from where it
+// leaves: both are off by the rounding of the box's diagonal. The hit's height on the surface
+// differs from that on the ray by the rounding of the heights, and of the hit's place along the
+// ray, times the steepness of the ground. The place is rounded to 2^-24 of its distance from the
+// start, and from the origin: from outside of the box, the diagonal. What is off by m metres at
+// a distance d is seen under an angle of m / d, which is at most focal / cos^2 of the corner's
+// angle times as many pixels.
+//
+// On the CPU, places are relative to where a ray may first meet the surface, and so are heights.
+// What is rounded is at most as long as the ray from there, or as a cell: over the box around the
+// surface, which a view axis crosses within its diagonal, and the other rays within twice that. Of
+// what is as long as a cell, or as high, four operations are: the cell at the base, the ray's t at
+// its lines, its place there, and its height. On the ellipsoid, only the first part is counted.
+//
+// Without perspective, what is off by m metres is off by m times the pixels per metre, and rays are
+// as long as the scene is deep, or as far from the eye as the scene. On the ellipsoid, the shader's
+// polynomials take about three times as many operations.
+
+namespace reljef::view {
+namespace {
+
+constexpr double operations = 16.0;        // that round, one after the other
+constexpr double operations_along = 8.0;   // of these for the place along the ray
+constexpr double operations_in_cell = 4.0; // on the CPU, of places and heights in a cell
+constexpr double unit = 0x1p-24;
+constexpr double more_on_ellipsoid = 3.0;
+// Pixels: tiles with smaller bounds are not looked at closely.
+constexpr double worth_a_look = 0.02;
+
+struct Extent {
+    glm::dvec2 first{0.0};
+    glm::dvec2 last{0.0};
+    Box box;
+    double distance = 0.0;
+};
+
+// Finds the smallest distance of an eye from what it sees of a surface: at most a fifth too small,
+// never too large.
+class NearestPlace {
+public:
+    struct Surface {
+        GridView<const float> heights;
+        const terrain::Placement& placement;
+    };
+    struct Eye {
+        glm::dvec3 place; // local metres
+        const Frustum& frustum;
+    };
+    NearestPlace(const Surface& surface, const Eye& eye)
+        : surface_(surface), eye_(eye.place), frustum_(eye.frustum) {}
+
+    /// Infinite if nothing is seen.
+    [[nodiscard]] double distance(glm::dvec2 first, glm::dvec2 last) const {
+        return (1.0 - precision) *
+               nearest(extent(first, last), std::numeric_limits<double>::infinity());
+    }
+
+private:
+    static constexpr double precision = 0.1;
+
+    // Bilinear cells are extreme at the corners of their parts.
+    [[nodiscard]] terrain::HeightRange range(glm::dvec2 first, glm::dvec2 last) const {
+        terrain::HeightRange range{std::numeric_limits<double>::infinity(),
+                                   -std::numeric_limits<double>::infinity()};
+        const glm::ivec2 corners = glm::ivec2(glm::ceil(last)) - glm::ivec2(glm::floor(first)) + 1;
+        for (int row = 0; row < corners.y; ++row) {
+            for (int col = 0; col < corners.x; ++col) {
+                const glm::dvec2 corner =
+                    glm::clamp(glm::floor(first) + glm::dvec2(col, row), first, last);
+                const double height = terrain::bilinear_height(surface_.heights, corner);
+                range = {std::min(range.low, height), std::max(range.high, height)};
+            }
+        }
+        return range;
+    }
+
+    [[nodiscard]] Extent extent(glm::dvec2 first, glm::dvec2 last) const {
+        Extent made{first, last, {}, 0.0};
+        made.box = terrain::placed_bounds(surface_.placement, first, last, range(first, last));
+        made.distance = glm::distance(eye_, glm::clamp(eye_, made.box.low, made.box.high));
+        return made;
+    }
+
+    [[nodiscard]] static double middle(double first, double last) {
+        const double half = 0.5 * (last - first);
+        return first + (half >= 1.0 ? std::floor(half) : half);
+    }
+
+    [[nodiscard]] double nearest(const Extent& part, double limit) const {
+        constexpr double smallest = 1.0 / 1024.0; // cells
+        const glm::dvec2 size = part.last - part.first;
+        if (part.distance >= (1.0 - precision) * limit || !frustum_.may_see(part.box)) {
+            return limit;
+        }
+        if (glm::length(part.box.size()) <= precision * part.distance ||
+            std::max(size.x, size.y) < smallest) {
+            return part.distance;
+        }
+        const glm::dvec2 mid(middle(part.first.x, part.last.x), middle(part.first.y, part.last.y));
+        std::array quarters{
+            extent(part.first, mid), extent({mid.x, part.first.y}, {part.last.x, mid.y}),
+            extent({part.first.x, mid.y}, {mid.x, part.last.y}), extent(mid, part.last)};
+        std::sort(quarters.begin(), quarters.end(),
+                  [](const Extent& a, const Extent& b) { return a.distance < b.distance; });
+        for (const Extent& quarter : quarters) {
+            limit = nearest(quarter, limit);
+        }
+        return limit;
+    }
+
+    Surface surface_;
+    glm::dvec3 eye_;
+    const Frustum& frustum_;
+};
+
+// Along rows and columns, in metres between neighbours.
+Slopes slopes_from(glm::dvec2 rises, glm::dvec2 cell, double exaggeration) {
+    return {exaggeration * glm::length(rises / cell), exaggeration * (rises.x + rises.y)};
+}
+
+Slopes slopes_in(GridView<const float> heights, glm::ivec2 first, glm::ivec2 last, glm::dvec2 cell,
+                 double exaggeration) {
+    glm::dvec2 rises(0.0);
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
+            const double here = heights(col, row);
+            rises.x = std::max(rises.x, std::abs(here - heights(std::min(col + 1, last.x), row)));
+            rises.y = std::max(rises.y, std::abs(here - heights(col, std::min(row + 1, last.y))));
+        }
+    }
+    return slopes_from(rises, cell, exaggeration);
+}
+
+// At most, of a tile with samples of its own.
+Slopes slopes_by_blocks(const scene::TerrainTile& tile, glm::dvec2 cell) {
+    float highest = 0.0F; // metres in a block
+    for (const terrain::MinMax& block : tile.blocks.samples()) {
+        highest = std::max(highest, block.high - block.low);
+    }
+    return slopes_from(glm::dvec2(highest), cell, tile.placement->exaggeration());
+}
+
+glm::dvec2 cell_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile) {
+    if (tile.borrows) {
+        return terrain.surface->placement().spacing();
+    }
+    const scene::TileBuilder& builder = terrain.stream->maker();
+    return terrain.surface->placement().spacing() *
+           (builder.spacing(tile.id.level) / std::max(terrain.surface->placement().spacing().x,
+                                                      terrain.surface->placement().spacing().y));
+}
+
+bool keeps_lengths(const glm::dmat4& transform) {
+    constexpr double rounding = 0x1p-40;
+    const glm::dmat3 axes(transform);
+    const glm::dmat3 deviation = glm::transpose(axes) * axes - glm::dmat3(1.0);
+    double largest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        largest = std::max(largest, glm::length(deviation[i]));
+    }
+    return largest <= rounding;
+}
+
+// The part again, as near and as steep as it is.
+RayRounding::Part looked_at(const RayRounding::Part& part, const scene::TerrainNode& terrain,
+                            const scene::TerrainTile& tile, const NearestPlace::Eye& eye) {
+    const bool borrows = tile.borrows;
+    const GridView<const float> heights =
+        borrows ? terrain.surface->heightfield().heights.view() : tile.heightfield.heights.view();
+    const terrain::Placement& placement = borrows ? terrain.surface->placement() : *tile.placement;
+    const glm::ivec2 first = borrows ? tile.first : glm::ivec2(0);
+    const glm::ivec2 last = first + tile.cells;
+    const NearestPlace place({heights, placement}, eye);
+    return {place.distance(glm::dvec2(first), glm::dvec2(last)),
+            slopes_in(heights, first, last, cell_of(terrain, tile), placement.exaggeration()),
+            part.cell};
+}
+
+} // namespace
+
+Slopes slopes_of(const scene::TerrainSurface& surface) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    return slopes_in(heights.view(), glm::ivec2(0), glm::ivec2(heights.cols(), heights.rows()) - 1,
+                     surface.placement().spacing(), surface.placement().exaggeration());
+}
+
+RayRounding::RayRounding(const scene::Camera& camera, glm::ivec2 size, const Box& bounds,
+                         glm::dvec3 eye, RayFloats floats)
+    : by_shader_(floats == RayFloats::opengl) {
+    const bool is_outside = glm::clamp(eye, bounds.low, bounds.high) != eye;
+    share_ = operations_along / operations * (by_shader_ && is_outside ? 2.0 : 1.0);
+    lengths_ = by_shader_ ? bounds.size().z + std::abs(eye.z - bounds.low.z) +
+                                (is_outside ? 2.0 * glm::length(bounds.size()) : 0.0)
+                          : 0.0;
+    longest_ray_ =
+        by_shader_ ? std::numeric_limits<double>::infinity() : 2.0 * glm::length(bounds.size());
+    if (camera.projection == scene::ProjectionKind::orthographic) {
+        per_metre_ = operations * unit * size.y / camera.view_height;
+        depth_ = by_shader_ ? std::max(std::abs(camera.orthographic_near),
+                                       std::abs(camera.orthographic_far))
+                            : camera.orthographic_far - camera.orthographic_near;
+        return;
+    }
+    const double half_height = std::tan(0.5 * glm::radians(camera.vertical_fov));
+    const double focal = 0.5 * size.y / half_height;
+    const double to_corner =
+        half_height * glm::length(glm::dvec2(scene::whole_picture(camera, size))) / size.y;
+    rounding_ = operations * unit * focal * (1.0 + to_corner * to_corner);
+}
+
+double RayRounding::along_ray(double steepness) const {
+    return share_ * steepness;
+}
+
+double RayRounding::lengths(const Part& part) const {
+    return by_shader_ ? (1.0 + along_ray(part.slopes.steepness)) * 2.0 * part.cell + lengths_
+                      : operations_in_cell / operations * (part.cell + part.slopes.rise);
+}
+
+double RayRounding::at(const Part& part) const {
+    const double steep = 1.0 + along_ray(part.slopes.steepness);
+    if (per_metre_ > 0.0) {
+        return per_metre_ * (depth_ * steep + lengths(part));
+    }
+    const double of_ray = std::min(1.0, longest_ray_ / part.distance); // 1 at the eye
+    const double near = lengths(part);
+    return rounding_ * (steep * of_ray + (near > 0.0 ? near / part.distance : 0.0));
+}
+
+double RayRounding::from_afar(double steepness) const {
+    const double steep = 1.0 + along_ray(steepness);
+    return per_metre_ > 0.0 ? per_metre_ * depth_ * steep : rounding_ * steep;
+}
+
+std::optional<double> RayRounding::distance_for(double error, const Part& part) const {
+    const double left = error / rounding_ - 1.0 - along_ray(part.slopes.steepness);
+    return left > 0.0 ? std::optional(lengths(part) / left) : std::nullopt;
+}
+
+std::optional<PictureRounding::Found>
+PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
+                    std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
+                    RayFloats floats) {
+    const scene::TerrainNode& terrain = *draw.terrain;
+    if (!keeps_lengths(draw.world_from_local)) {
+        return std::nullopt;
+    }
+    const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
+    const Frustum frustum =
+        Frustum(scene::clip_from_world(list.camera, list.size)).in_local(draw.world_from_local);
+    const RayRounding rounding(list.camera, list.size, terrain.surface->bounds(), eye, floats);
+    const bool counts_slopes = floats == RayFloats::opengl ||
+                               terrain.surface->placement().kind() == terrain::PlacementKind::plane;
+    Found found;
+    for (const auto& tile : tiles) {
+        if (!frustum.may_see(tile->bounds)) {
+            continue;
+        }
+        const glm::dvec2 cell = cell_of(terrain, *tile);
+        RayRounding::Part part{
+            glm::distance(eye, glm::clamp(eye, tile->bounds.low, tile->bounds.high)),
+            tile->borrows ? slopes_over(terrain.surface) : slopes_by_blocks(*tile, cell),
+            std::max(cell.x, cell.y)};
+        if (!counts_slopes) {
+            part = {part.distance, {}, 0.0};
+        }
+        double error = rounding.at(part);
+        if (counts_slopes && error > std::max(found.error, worth_a_look)) {
+            part = looked_at(part, terrain, *tile, {eye, frustum});
+            error = rounding.at(part);
+        }
+        if (error > found.error) {
+            found = {error, 2.0 * rounding.from_afar(part.slopes.steepness) > error};
+        }
+    }
+    if (floats == RayFloats::opengl && draw.course) {
+        const double pixel = metres_a_pixel(list.camera, list.size).y; // radians
+        found.error =
+            more_on_ellipsoid * found.error + draw.course->error / pixel + max_chord_error;
+    }
+    return found;
+}
+
+Slopes PictureRounding::slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface) {
+    if (surface_.lock() != surface) {
+        slopes_ = slopes_of(*surface);
+        surface_ = surface;
+    }
+    return slopes_;
+}
+
+} // namespace reljef::view
