@@ -230,9 +230,7 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
         over_ = {*stats_.kept_error,
                  *expected,
                  over_ ? over_->memory : MemoryForBound{},
-                 stats_.lacks_triangles
-                     ? view::triangles_for_bound(renderer.selector().selected().list)
-                     : 0,
+                 std::max(over_ ? over_->triangles : 0, triangles_needed()),
                  over_ && over_->misses_tiles,
                  over_ && over_->lacks_triangles,
                  is_over_by_rounding(stats_, scene.camera(), renderer.size(), expected->pixels)};
@@ -243,6 +241,16 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     }
     over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
     over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
+}
+
+// By the last frame; 0: it has all that it needs, or the number is not known.
+std::size_t DeviceFrames::triangles_needed() {
+    constexpr std::size_t counted = 4; // times as many as there may be
+    const view::DrawList& list = device_.renderer().selector().selected().list;
+    return stats_.lacks_triangles && !list.tiles.empty()
+               ? view::triangles_for_bound(list,
+                                           counted * list.tiles.front().terrain->max_triangles)
+               : 0;
 }
 
 void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
@@ -265,7 +273,9 @@ std::string DeviceFrames::remedy() const {
     megabytes = is_less_whole ? *memory.whole_megabytes : megabytes;
     if (over_->lacks_triangles) {
         return over_->triangles > 0
-                   ? fmt::format("--memory {} keeps it", megabytes_for_triangles(over_->triangles))
+                   ? fmt::format("--memory {:.0f} keeps it",
+                                 std::max(megabytes, static_cast<double>(megabytes_for_triangles(
+                                                         over_->triangles))))
                : megabytes > now
                    ? fmt::format(
                          "more than --memory {} is needed, about {:.0f} for its tiles alone", now,

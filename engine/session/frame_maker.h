@@ -85,6 +85,7 @@ private:
     };
     void take_stats(const view::FrameStats& stats, const scene::Scene& scene);
     void note_kept_error(const scene::Scene& scene);
+    std::size_t triangles_needed();
     void note_fewer_vertices(const scene::Scene& scene);
     Result<Image> tinted(Image picture);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.

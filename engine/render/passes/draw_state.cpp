@@ -26,8 +26,9 @@ Result<gl::Program*> DrawState::use(ShaderVariant variant) {
     }
     (*program)->use();
     ++stats_.state_changes;
-    set_sample_shading((variant.features & feature_multisampled) != 0 &&
-                       searches_for_surface(variant.kind));
+    set_sample_shading(
+        (variant.features & feature_multisampled) != 0 &&
+        (searches_for_surface(variant.kind) || (variant.features & feature_corner_depth) != 0));
     return *program;
 }
 

@@ -26,27 +26,6 @@ view::GridMesh whole_mesh(const view::TileDraw& draw) {
                      : view::full_mesh(surface.heightfield, surface.placement, surface.samples);
 }
 
-constexpr double larger_than_pictures = 1 << 17; // pixels
-constexpr int first_min_size = terrain::steps_per_sample / 64;
-constexpr int max_min_size = terrain::steps_per_sample * terrain::tree_tile_cells;
-
-bool is_coarsest(const view::Coarsening& coarsening) {
-    return coarsening.min_error > larger_than_pictures || coarsening.min_size > max_min_size;
-}
-
-// First all triangles get larger errors. That does not help where cliffs may reach the eye, because
-// they are split whatever the error. Then the smallest triangles get larger.
-view::Coarsening coarser(const terrain::ErrorView& view, const view::Coarsening& coarsening) {
-    constexpr double max_bounds = 16.0; // in perspective
-    if (coarsening.min_size > 0) {
-        return {view.max_error, 2 * coarsening.min_size};
-    }
-    const double min_error = std::max(2.0 * coarsening.min_error, view.max_error);
-    return view.perspective && min_error > max_bounds * view.max_error
-               ? view::Coarsening{view.max_error, first_min_size}
-               : view::Coarsening{min_error, 0};
-}
-
 // Of the tile's vertices, pixels. What is hidden by nearer ground shows where the triangles of that
 // ground are off by more than the bound.
 double tile_error(const view::TileDraw& draw, const view::Coarseness& coarseness,
@@ -95,13 +74,14 @@ TerrainMeshes::Entry::own_bisection(const std::shared_ptr<const scene::TerrainTi
     return bisection->bisection;
 }
 
-std::vector<TileTriangles> TerrainMeshes::triangles_of(const Entry& entry) {
-    std::vector<TileTriangles> parts;
+std::vector<view::SliverView::Triangles> TerrainMeshes::triangles_of(const Entry& entry) {
+    std::vector<view::SliverView::Triangles> parts;
     for (std::size_t i = 0; i < entry.last.parts.size(); ++i) {
-        parts.push_back({entry.last.vertices[i], entry.last.parts[i].indices});
+        const terrain::Triangulation& part = entry.last.parts[i];
+        parts.push_back({entry.last.vertices[i], part.indices, &part});
     }
     for (const view::SeamPart& part : entry.seam_parts) {
-        parts.push_back({part.vertices, part.indices});
+        parts.push_back({part.vertices, part.indices, nullptr});
     }
     return parts;
 }
@@ -283,28 +263,34 @@ void TerrainMeshes::forget_cuts() {
     }
 }
 
+// `shared`: the bisection of a terrain in memory.
+view::CutOptions TerrainMeshes::cut_options(const Group& group, const Outdated& tile,
+                                            const terrain::Bisection* shared) {
+    const auto& [draw, entry] = tile;
+    const bool has_own =
+        shared == nullptr && std::holds_alternative<terrain::ErrorView>(group.coarseness);
+    return {has_own ? &entry->own_bisection(draw->tile) : shared,
+            tile_error(*draw, group.coarseness, group.coarsening), draw->triangle_error,
+            group.coarsening, nullptr};
+}
+
 // The triangles of the tiles that need others. Empty if all tiles together have too many.
 std::optional<TerrainMeshes::Cuts> TerrainMeshes::try_to_cut(Group& group, const Draws& draws) {
     const bool by_error = std::holds_alternative<terrain::ErrorView>(group.coarseness);
-    const bool is_limited = by_error && !is_coarsest(group.coarsening);
+    const bool is_limited = by_error && !view::is_coarsest(group.coarsening);
     terrain::TriangleBudget budget(group.max_triangles);
     Cuts cuts;
     cuts.tiles = outdated_cuts(group, draws, budget);
     const terrain::Bisection* const shared =
-        by_error && draws.front()->tile->borrows && !cuts.tiles.empty()
-            ? &bisection_of(*draws.front()->terrain)
-            : nullptr;
+        by_error && !cuts.tiles.empty() ? shared_bisection(*draws.front()) : nullptr;
     cuts.meshes.resize(cuts.tiles.size());
     cuts.borders.resize(cuts.tiles.size());
     parallel_for(static_cast<int>(cuts.tiles.size()), [&](int i) {
         const auto at = static_cast<std::size_t>(i);
         const auto& [draw, entry] = cuts.tiles[at];
-        const terrain::Bisection* const bisection =
-            by_error && shared == nullptr ? &entry->own_bisection(draw->tile) : shared;
         const view::TileSurface surface = view::surface_of(*draw);
-        const view::CutOptions options{
-            bisection, tile_error(*draw, group.coarseness, group.coarsening), draw->triangle_error,
-            group.coarsening, is_limited ? &budget : nullptr};
+        view::CutOptions options = cut_options(group, cuts.tiles[at], shared);
+        options.budget = is_limited ? &budget : nullptr;
         cuts.meshes[at] = view::cut_tile(group.coarseness, surface, options, entry->last);
         if (has_seams(*draw)) {
             cuts.borders[at] = view::border_of(surface, cuts.meshes[at]);
@@ -318,7 +304,7 @@ TerrainMeshes::Cuts TerrainMeshes::cut_within_budget(Group& group, const Draws& 
     auto cuts = try_to_cut(group, draws);
     while (!cuts) {
         group.coarsening =
-            coarser(std::get<terrain::ErrorView>(group.coarseness), group.coarsening);
+            view::coarser(std::get<terrain::ErrorView>(group.coarseness), group.coarsening);
         cuts = try_to_cut(group, draws);
     }
     return std::move(*cuts);
@@ -329,23 +315,25 @@ Result<void> TerrainMeshes::keep(Cuts cuts, const Group& group, view::FrameStats
     for (std::size_t i = 0; i < cuts.tiles.size(); ++i) {
         const auto& [draw, entry] = cuts.tiles[i];
         view::CutMesh& mesh = cuts.meshes[i];
+        const double kept_error = mesh.error;
+        if (mesh.parts.empty()) {
+            ++stats.skipped.uploads_unchanged;
+        } else {
+            auto meshes = tile_meshes(mesh, stats);
+            if (!meshes) {
+                return meshes.error();
+            }
+            replace_meshes(*entry, std::move(*meshes));
+            entry->border = std::move(cuts.borders[i]);
+            entry->triangles = triangle_count(mesh);
+            entry->last = std::move(mesh);
+        }
         entry->version = group.version;
         entry->error = draw->error;
         entry->triangle_error = draw->triangle_error;
         entry->coarsening = group.coarsening;
-        entry->kept_error = mesh.error;
-        if (mesh.parts.empty()) {
-            ++stats.skipped.uploads_unchanged;
-            continue;
-        }
-        auto meshes = tile_meshes(mesh, stats);
-        if (!meshes) {
-            return meshes.error();
-        }
-        replace_meshes(*entry, std::move(*meshes));
-        entry->border = std::move(cuts.borders[i]);
-        entry->triangles = triangle_count(mesh);
-        entry->last = std::move(mesh);
+        entry->kept_error = kept_error;
+        entry->slivers_version = 0;
     }
     return {};
 }
@@ -437,24 +425,30 @@ Result<void> TerrainMeshes::close_seams(const view::DrawList& list, Group& group
 Result<void> TerrainMeshes::part_slivers(const view::DrawList& list, Group& group,
                                          const Draws& draws, view::FrameStats& stats) {
     std::vector<Outdated> tiles;
+    const PictureView picture{list.camera, list.size};
+    const bool is_same = group.slivers_of == picture; // not for each part of a large picture
+    group.slivers_of = picture;
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        if (entry.slivers_version != group.version) {
+        if (!is_same || entry.slivers_version != group.version) {
             tiles.push_back({draw, &entry});
         }
     }
+    if (tiles.empty()) {
+        return {};
+    }
+    const terrain::Bisection* const shared = shared_bisection(*draws.front());
     std::vector<std::vector<view::Slivers>> slivers(tiles.size());
     parallel_for(static_cast<int>(tiles.size()), [&](int i) {
-        const auto& [draw, entry] = tiles[static_cast<std::size_t>(i)];
-        const view::SliverView view(list, *draw);
-        for (const TileTriangles& part : triangles_of(*entry)) {
-            slivers[static_cast<std::size_t>(i)].push_back(
-                view.slivers(part.vertices, part.indices));
+        const Outdated& tile = tiles[static_cast<std::size_t>(i)];
+        const view::SliverView view(list, *tile.draw, cut_options(group, tile, shared));
+        for (const auto& part : triangles_of(*tile.entry)) {
+            slivers[static_cast<std::size_t>(i)].push_back(view.slivers(part));
         }
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         Entry& entry = *tiles[i].entry;
-        const std::vector<TileTriangles> parts = triangles_of(entry);
+        const auto parts = triangles_of(entry);
         for (std::size_t j = 0; j < parts.size(); ++j) {
             auto done = set_slivers(entry.meshes[j], parts[j], std::move(slivers[i][j]), stats);
             if (!done) {
@@ -474,6 +468,11 @@ void TerrainMeshes::add_kept_errors(const Group& group, const Draws& draws,
             stats.kept_error = std::max(stats.kept_error.value_or(0.0), error);
         }
     }
+}
+
+// Null: each tile has its own.
+const terrain::Bisection* TerrainMeshes::shared_bisection(const view::TileDraw& draw) {
+    return draw.tile->borrows ? &bisection_of(*draw.terrain) : nullptr;
 }
 
 const terrain::Bisection& TerrainMeshes::bisection_of(const scene::TerrainNode& terrain) {

@@ -75,6 +75,11 @@ private:
         const terrain::Bisection&
         own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile);
     };
+    struct PictureView {
+        scene::Camera camera;
+        glm::ivec2 size{0};
+        friend bool operator==(const PictureView&, const PictureView&) = default;
+    };
     // Tiles of one terrain that are drawn alike.
     struct Group {
         std::weak_ptr<const void> owner;
@@ -82,6 +87,7 @@ private:
         std::map<terrain::TreeTile, Entry> tiles;
         view::Coarseness coarseness;
         std::uint64_t version = 0; // of the coarseness, from 1
+        std::optional<PictureView> slivers_of;
         std::vector<std::tuple<terrain::TreeTile, double, double>> errors;
         std::size_t max_triangles = 0;
         view::Coarsening coarsening;
@@ -135,10 +141,13 @@ private:
     static Result<void> close_seams(const view::DrawList& list, Group& group, const Draws& draws,
                                     view::FrameStats& stats);
     /// In the order of the entry's meshes. Precondition: the tile is cut.
-    static std::vector<TileTriangles> triangles_of(const Entry& entry);
-    static Result<void> part_slivers(const view::DrawList& list, Group& group, const Draws& draws,
-                                     view::FrameStats& stats);
+    static std::vector<view::SliverView::Triangles> triangles_of(const Entry& entry);
+    Result<void> part_slivers(const view::DrawList& list, Group& group, const Draws& draws,
+                              view::FrameStats& stats);
     static void add_kept_errors(const Group& group, const Draws& draws, view::FrameStats& stats);
+    static view::CutOptions cut_options(const Group& group, const Outdated& tile,
+                                        const terrain::Bisection* shared);
+    const terrain::Bisection* shared_bisection(const view::TileDraw& draw);
     const terrain::Bisection& bisection_of(const scene::TerrainNode& terrain);
 
     std::uint64_t frame_ = 0;

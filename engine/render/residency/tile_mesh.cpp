@@ -5,7 +5,7 @@
 namespace reljef::render {
 namespace {
 
-Result<ResidentMesh> upload_corners(const TileTriangles& all,
+Result<ResidentMesh> upload_corners(const view::SliverView::Triangles& all,
                                     std::span<const std::uint32_t> triangles,
                                     view::FrameStats& stats) {
     return triangles.empty()
@@ -36,8 +36,8 @@ Result<std::vector<TileMesh>> tile_meshes(const view::CutMesh& cut, view::FrameS
     return meshes;
 }
 
-Result<void> set_slivers(TileMesh& mesh, const TileTriangles& all, view::Slivers slivers,
-                         view::FrameStats& stats) {
+Result<void> set_slivers(TileMesh& mesh, const view::SliverView::Triangles& all,
+                         view::Slivers slivers, view::FrameStats& stats) {
     if (mesh.slivers == slivers) {
         return {};
     }

@@ -22,12 +22,6 @@ struct TileMesh {
     ResidentMesh narrow;
 };
 
-/// Triangles in the memory of the CPU.
-struct TileTriangles {
-    std::span<const view::GridVertex> vertices;
-    std::span<const std::uint16_t> indices;
-};
-
 // All of these fail when GL has no memory.
 
 /// A mesh without slivers.
@@ -38,7 +32,7 @@ Result<TileMesh> tile_mesh(const std::vector<view::GridVertex>& vertices,
 Result<std::vector<TileMesh>> tile_meshes(const view::CutMesh& cut, view::FrameStats& stats);
 
 /// Draws these triangles as slivers and all others not.
-Result<void> set_slivers(TileMesh& mesh, const TileTriangles& all, view::Slivers slivers,
-                         view::FrameStats& stats);
+Result<void> set_slivers(TileMesh& mesh, const view::SliverView::Triangles& all,
+                         view::Slivers slivers, view::FrameStats& stats);
 
 } // namespace reljef::render

@@ -375,6 +375,19 @@ bool exceeds(const ErrorView& view, const Split& split) {
            (visibility_of(view, split) != Visibility::none && exceeds_bound(view, split));
 }
 
+double triangle_error_in(const ErrorView& view, const Bisection& bisection,
+                         const std::array<Steps, 3>& corners) {
+    const auto& [apex, left, right] = corners;
+    const Steps edge = glm::abs(right - left);
+    const bool on_side = edge.x == 0 || edge.y == 0;
+    const Split split = bisection.split((left + right) / std::int64_t{2},
+                                        static_cast<int>(std::max(edge.x, edge.y)), on_side);
+    if (view.morph_from < 1.0 || std::isinf(split.error)) {
+        return view.max_error;
+    }
+    return visibility_of(view, split) == Visibility::none ? 0.0 : visible_error(view, split);
+}
+
 TileTriangles triangulate(const Bisection& bisection, const TileCells& tile, const ErrorView& view,
                           TriangleBudget* budget) {
     return TileBisector(bisection, tile, view, budget).bisect(tile);

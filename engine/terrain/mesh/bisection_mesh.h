@@ -71,6 +71,7 @@ public:
     explicit TriangleBudget(std::size_t max) : max_(max) {}
 
     void add(std::size_t count) { count_ += count; }
+    [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] bool is_exceeded() const { return count_ > max_; }
 
 private:
@@ -90,5 +91,10 @@ struct TileTriangles {
 /// some of the triangles, once the budget is exceeded.
 TileTriangles triangulate(const Bisection& bisection, const TileCells& tile, const ErrorView& view,
                           TriangleBudget* budget = nullptr);
+
+/// Bounds the error of a triangle of triangulate() in the view, pixels; the view's bound with
+/// geomorphing. `corners`: in the triangle's order.
+double triangle_error_in(const ErrorView& view, const Bisection& bisection,
+                         const std::array<Steps, 3>& corners);
 
 } // namespace reljef::terrain

@@ -1,7 +1,6 @@
 #include "engine/view/choice/triangle_counts.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -91,7 +90,7 @@ double TriangleCounts::triangles(glm::ivec2 block, double error) const {
                                  static_cast<double>(counts[high]), at - static_cast<double>(low));
 }
 
-std::size_t triangles_for_bound(const DrawList& list) {
+std::size_t triangles_for_bound(const DrawList& list, std::size_t max) {
     const auto has_bound = [&](const TileDraw& draw) {
         const auto& coarseness = list.terrains[draw.node].coarseness;
         return draw.tile->borrows && coarseness &&
@@ -108,19 +107,18 @@ std::size_t triangles_for_bound(const DrawList& list) {
                          terrain::Bisection(surface.heightfield(), surface.placement()));
         }
     }
-    std::atomic<std::size_t> indices = 0;
+    terrain::TriangleBudget budget(max);
     parallel_for(static_cast<int>(list.tiles.size()), [&](int i) {
         const TileDraw& draw = list.tiles[static_cast<std::size_t>(i)];
         const terrain::Bisection& bisection =
             draw.terrain->bisection != nullptr ? *draw.terrain->bisection : made.at(draw.terrain);
-        const CutMesh mesh =
-            cut_tile(*list.terrains[draw.node].coarseness, surface_of(draw),
-                     {&bisection, draw.error, draw.triangle_error, {}, nullptr}, CutMesh{});
-        for (const terrain::Triangulation& part : mesh.parts) {
-            indices += part.indices.size();
-        }
+        const auto& bound = std::get<terrain::ErrorView>(*list.terrains[draw.node].coarseness);
+        CutOptions options;
+        options.triangle_error = draw.triangle_error;
+        terrain::triangulate(bisection, surface_of(draw).samples, triangle_view(bound, options),
+                             &budget);
     });
-    return indices / 3;
+    return budget.is_exceeded() ? 0 : budget.count();
 }
 
 } // namespace reljef::view

@@ -41,8 +41,8 @@ private:
     Grid<Counts> counts_;
 };
 
-/// How many triangles keep the error bounds of a list's tiles, by cutting all of them; 0 if one is
-/// a tile of a stream, or has no bound.
-std::size_t triangles_for_bound(const DrawList& list);
+/// How many triangles keep the error bounds of a list's tiles, by cutting all of them; 0 if there
+/// are more than `max`, or a tile is one of a stream or has no bound.
+std::size_t triangles_for_bound(const DrawList& list, std::size_t max);
 
 } // namespace reljef::view

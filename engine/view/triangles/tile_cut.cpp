@@ -25,7 +25,28 @@ std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Tria
     return vertices;
 }
 
+constexpr double larger_than_pictures = 1 << 17; // pixels
+constexpr int first_min_size = terrain::steps_per_sample / 64;
+constexpr int max_min_size = terrain::steps_per_sample * terrain::tree_tile_cells;
+
 } // namespace
+
+bool is_coarsest(const Coarsening& coarsening) {
+    return coarsening.min_error > larger_than_pictures || coarsening.min_size > max_min_size;
+}
+
+// First all triangles get larger errors. That does not help where cliffs may reach the eye, because
+// they are split whatever the error. Then the smallest triangles get larger.
+Coarsening coarser(const terrain::ErrorView& view, const Coarsening& coarsening) {
+    constexpr double max_bounds = 16.0; // in perspective
+    if (coarsening.min_size > 0) {
+        return {view.max_error, 2 * coarsening.min_size};
+    }
+    const double min_error = std::max(2.0 * coarsening.min_error, view.max_error);
+    return view.perspective && min_error > max_bounds * view.max_error
+               ? Coarsening{view.max_error, first_min_size}
+               : Coarsening{min_error, 0};
+}
 
 TileSurface surface_of(const TileDraw& draw) {
     const scene::TerrainTile& tile = *draw.tile;
@@ -35,13 +56,18 @@ TileSurface surface_of(const TileDraw& draw) {
             {tile.first, tile.cells}};
 }
 
+terrain::ErrorView triangle_view(const terrain::ErrorView& bound, const CutOptions& options) {
+    terrain::ErrorView view = bound;
+    view.max_error = std::max(options.triangle_error, options.coarsening.min_error);
+    view.min_size = options.coarsening.min_size;
+    return view;
+}
+
 CutMesh cut_tile(const Coarseness& coarseness, const TileSurface& surface,
                  const CutOptions& options, const CutMesh& last) {
     CutMesh cut;
     if (const auto* bound = std::get_if<terrain::ErrorView>(&coarseness)) {
-        terrain::ErrorView view = *bound;
-        view.max_error = std::max(options.triangle_error, options.coarsening.min_error);
-        view.min_size = options.coarsening.min_size;
+        const terrain::ErrorView view = triangle_view(*bound, options);
         terrain::TileTriangles triangles =
             terrain::triangulate(*options.bisection, surface.samples, view, options.budget);
         if (options.budget != nullptr && options.budget->is_exceeded()) {

@@ -32,6 +32,11 @@ struct Coarsening {
     friend bool operator==(const Coarsening&, const Coarsening&) = default;
 };
 
+/// Whether coarser triangles would not be fewer.
+bool is_coarsest(const Coarsening& coarsening);
+/// The next coarsening in a view.
+Coarsening coarser(const terrain::ErrorView& view, const Coarsening& coarsening);
+
 /// How to draw a tile with fewer triangles.
 struct CutOptions {
     const terrain::Bisection* bisection = nullptr; ///< of its heightfield; null for patches
@@ -40,6 +45,9 @@ struct CutOptions {
     Coarsening coarsening;
     terrain::TriangleBudget* budget = nullptr; ///< of the tiles that are cut; null: none
 };
+
+/// The bound of a tile's triangles.
+terrain::ErrorView triangle_view(const terrain::ErrorView& bound, const CutOptions& options);
 
 /// The triangles of a tile. `last`: the tile's triangles before, whose vertices are used again.
 /// Without parts if the triangles are still those of `last`.

@@ -262,6 +262,26 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanTheViewAllows) {
     }
 }
 
+TEST(Bisection, NoVisiblePointIsSeenFartherOffThanItsTrianglesError) {
+    test::Chance chance(11);
+    int small = 0;
+    for (MadeTerrain& made : hard_terrains()) {
+        const PlacedTerrain terrain(std::move(made));
+        for (int i = 0; i < 20; ++i) {
+            const ErrorView view = random_view(chance, terrain.heightfield);
+            const auto triangles = all_triangles(terrain, view);
+            for (int j = 0; view.perspective && j < 10; ++j) {
+                const auto index = static_cast<std::size_t>(
+                    chance.whole(0, static_cast<int>(triangles.size()) - 1));
+                const double error = triangle_error_in(view, terrain.bisection, triangles[index]);
+                small += error < 0.5 * view.max_error ? 1 : 0;
+                expect_seen_within(error, view, terrain, {triangles[index]}, chance);
+            }
+        }
+    }
+    EXPECT_GT(small, 300);
+}
+
 TEST(Bisection, StatesTheErrorOfTheSmallestSquares) {
     RELJEF_RELEASE_ONLY("thousands of covers by the same few lines");
     test::Chance chance(7);

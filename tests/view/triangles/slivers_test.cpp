@@ -49,7 +49,7 @@ protected:
             vertices.push_back(grid_vertex({metres, 0.0}, 0.0, places[i]));
         }
         const std::array<std::uint16_t, 3> indices{0, 1, 2};
-        return SliverView(list_, list_.tiles.front()).slivers(vertices, indices);
+        return SliverView(list_, list_.tiles.front(), {}).slivers({vertices, indices, nullptr});
     }
     [[nodiscard]] bool is_sliver(std::array<glm::dvec2, 3> pixels, double place = 10.0) const {
         return !slivers_of(pixels, place).all().empty();
@@ -66,7 +66,7 @@ TEST_F(SliverViewTest, LongAndNarrowTrianglesAreSlivers) {
             const glm::dvec2 along = length * glm::dvec2(std::cos(turn), std::sin(turn));
             const glm::dvec2 across = glm::dvec2(-along.y, along.x);
             EXPECT_FALSE(is_sliver({-0.5 * along, 0.5 * along, 0.5 * across}));
-            EXPECT_FALSE(is_sliver({-0.5 * along, 0.5 * along, 0.05 * across}));
+            EXPECT_FALSE(is_sliver({-0.5 * along, 0.5 * along, 0.2 * across}));
             EXPECT_TRUE(is_sliver({-0.5 * along, 0.5 * along, 1e-3 * across}));
             EXPECT_TRUE(is_sliver({-0.5 * along, 0.5 * along, 0.1 * along})) << "no area";
         }
@@ -84,6 +84,27 @@ TEST_F(SliverViewTest, TheDepthOfTheNarrowestComesFromTheirCornersToo) {
     EXPECT_EQ(narrow_of(1e-2), 1);
 }
 
+TEST_F(SliverViewTest, TrianglesWithoutAnErrorMayBeNarrower) {
+    const terrain::Bisection bisection(node_->get<scene::TerrainNode>()->surface->heightfield(),
+                                       node_->get<scene::TerrainNode>()->surface->placement());
+    const terrain::Triangulation part{
+        {terrain::Steps(0, 0), terrain::steps_of({0, 4}), terrain::steps_of({4, 0})}, {0, 1, 2}};
+    const auto is_wide = [&](double triangle_error, double width) { // pixels
+        CutOptions cut;
+        cut.bisection = &bisection;
+        cut.triangle_error = triangle_error;
+        const double metre = pixels_a_metre();
+        const std::vector vertices{grid_vertex({-50.0 / metre, 0.0, 0.0}, 0.0, {10.0, 10.0}),
+                                   grid_vertex({50.0 / metre, 0.0, 0.0}, 0.0, {11.0, 10.0}),
+                                   grid_vertex({0.0, width / metre, 0.0}, 0.0, {10.0, 11.0})};
+        const SliverView view(list_, list_.tiles.front(), cut);
+        return view.slivers({vertices, part.indices, &part}).all().empty();
+    };
+    EXPECT_FALSE(is_wide(0.01, 0.7)) << "little is left";
+    EXPECT_TRUE(is_wide(1.0, 0.7)) << "level ground";
+    EXPECT_FALSE(is_wide(1.0, 1e-2)) << "its depth";
+}
+
 TEST_F(SliverViewTest, SoAreLargeOnesFarFromTheTilesFirstSample) {
     const std::array large{glm::dvec2(-200.0, -200.0), glm::dvec2(200.0, -200.0),
                            glm::dvec2(0.0, 200.0)};
@@ -99,14 +120,14 @@ TEST_F(SliverViewTest, TrianglesBesideThePictureAreNone) {
 
 TEST_F(SliverViewTest, TrianglesThatTheNearPlaneCutsAre) {
     const std::array<std::uint16_t, 3> indices{0, 1, 2};
-    const SliverView view(list_, list_.tiles.front());
+    const SliverView view(list_, list_.tiles.front(), {});
     const auto triangle = [](double top) {
         return std::vector{grid_vertex({-1.0, 0.0, 0.0}, 0.0, {0.0, 0.0}),
                            grid_vertex({1.0, 0.0, 0.0}, 0.0, {1.0, 0.0}),
                            grid_vertex({0.0, 1.0, top}, top, {0.0, 1.0})};
     };
-    EXPECT_TRUE(view.slivers(triangle(0.9 * distance), indices).all().empty());
-    EXPECT_FALSE(view.slivers(triangle(1.1 * distance), indices).all().empty());
+    EXPECT_TRUE(view.slivers({triangle(0.9 * distance), indices, nullptr}).all().empty());
+    EXPECT_FALSE(view.slivers({triangle(1.1 * distance), indices, nullptr}).all().empty());
 }
 
 TEST(Slivers, AndTheOthersAreAllTriangles) {
