@@ -225,22 +225,21 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     if (stats_.kept_error.value_or(0.0) <= expected->pixels) {
         return;
     }
-    if (!over_ || *stats_.kept_error > over_->kept_error) {
-        SceneRenderer& renderer = device_.renderer();
-        over_ = {*stats_.kept_error,
-                 *expected,
-                 over_ ? over_->memory : MemoryForBound{},
-                 std::max(over_ ? over_->triangles : 0, triangles_needed()),
-                 over_ && over_->misses_tiles,
-                 over_ && over_->lacks_triangles,
-                 is_over_by_rounding(stats_, scene.camera(), renderer.size(), expected->pixels)};
+    const glm::ivec2 size = device_.renderer().size();
+    FramesOver over = over_.value_or(FramesOver());
+    if (*stats_.kept_error > over.kept_error) {
+        over.kept_error = *stats_.kept_error;
+        over.expected = *expected;
+        over.triangles = std::max(over.triangles, triangles_needed());
+        over.by_rounding = is_over_by_rounding(stats_, scene.camera(), size, expected->pixels);
     }
-    const MemoryForBound needed = memory_for_bound(scene, device_.renderer().size());
-    if (needed.growth >= over_->memory.growth) {
-        over_->memory = needed;
+    const MemoryForBound needed = memory_for_bound(scene, size);
+    if (needed.growth >= over.memory.growth) {
+        over.memory = needed;
     }
-    over_->misses_tiles = over_->misses_tiles || stats_.tiles_missing > 0;
-    over_->lacks_triangles = over_->lacks_triangles || stats_.lacks_triangles;
+    over.misses_tiles = over.misses_tiles || stats_.tiles_missing > 0;
+    over.lacks_triangles = over.lacks_triangles || stats_.lacks_triangles;
+    over_ = over;
 }
 
 // By the last frame; 0: it has all that it needs, or the number is not known.

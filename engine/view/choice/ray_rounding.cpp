@@ -276,14 +276,7 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
         if (!frustum.may_see(tile->bounds)) {
             continue;
         }
-        const glm::dvec2 cell = cell_of(terrain, *tile);
-        RayRounding::Part part{
-            glm::distance(eye, glm::clamp(eye, tile->bounds.low, tile->bounds.high)),
-            tile->borrows ? slopes_over(terrain.surface) : slopes_by_blocks(*tile, cell),
-            std::max(cell.x, cell.y)};
-        if (!counts_slopes) {
-            part = {part.distance, {}, 0.0};
-        }
+        RayRounding::Part part = part_of(terrain, *tile, eye, counts_slopes);
         double error = rounding.at(part);
         if (counts_slopes && error > std::max(found.error, worth_a_look)) {
             part = looked_at(part, terrain, *tile, {eye, frustum});
@@ -299,6 +292,19 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
             more_on_ellipsoid * found.error + draw.course->error / pixel + max_chord_error;
     }
     return found;
+}
+
+// As far as the tile's box tells.
+RayRounding::Part PictureRounding::part_of(const scene::TerrainNode& terrain,
+                                           const scene::TerrainTile& tile, glm::dvec3 eye,
+                                           bool counts_slopes) {
+    const double distance = glm::distance(eye, glm::clamp(eye, tile.bounds.low, tile.bounds.high));
+    if (!counts_slopes) {
+        return {distance, {}, 0.0};
+    }
+    const glm::dvec2 cell = cell_of(terrain, tile);
+    return {distance, tile.borrows ? slopes_over(terrain.surface) : slopes_by_blocks(tile, cell),
+            std::max(cell.x, cell.y)};
 }
 
 Slopes PictureRounding::slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface) {

@@ -77,6 +77,9 @@ public:
     Slopes slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface);
 
 private:
+    RayRounding::Part part_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile,
+                              glm::dvec3 eye, bool counts_slopes);
+
     std::weak_ptr<const scene::TerrainSurface> surface_;
     Slopes slopes_;
 };

@@ -322,20 +322,28 @@ void TechniqueChooser::state_error_of_rays(DrawList& list) {
         return;
     }
     for (const TerrainDraw& draw : list.reliefs) {
-        const bool has_tiles = !draw.tiles.empty();
-        if (!is_exact(draw) || (has_tiles ? !draw.tile_error : draw.terrain->stream != nullptr)) {
-            continue;
+        if (is_exact(draw)) {
+            state_error_of_rays(list, draw);
         }
-        const auto& tiles = has_tiles ? draw.tiles : draw.terrain->surface->tiles();
-        if (const auto rounding = rounding_.of(list, draw, tiles, RayFloats::opengl)) {
-            const double of_tiles = draw.tile_error.value_or(0.0);
-            const double error = of_tiles + rounding->error;
-            if (error > list.stats.kept_error.value_or(0.0)) {
-                list.stats.exceeded_by_rounding =
-                    rounding->is_of_view && rounding->error > of_tiles;
-            }
-            list.stats.kept_error = std::max(list.stats.kept_error.value_or(0.0), error);
-        }
+    }
+}
+
+void TechniqueChooser::state_error_of_rays(DrawList& list, const TerrainDraw& draw) {
+    const bool has_tiles = !draw.tiles.empty();
+    const bool is_proven =
+        has_tiles ? draw.tile_error.has_value() : draw.terrain->stream == nullptr;
+    if (!is_proven) {
+        return;
+    }
+    const auto& tiles = has_tiles ? draw.tiles : draw.terrain->surface->tiles();
+    const auto rounding = rounding_.of(list, draw, tiles, RayFloats::opengl);
+    const double of_tiles = draw.tile_error.value_or(0.0);
+    const double before = list.stats.kept_error.value_or(0.0);
+    if (rounding && of_tiles + rounding->error > before) {
+        list.stats.exceeded_by_rounding = rounding->is_of_view && rounding->error > of_tiles;
+    }
+    if (rounding) {
+        list.stats.kept_error = std::max(before, of_tiles + rounding->error);
     }
 }
 

@@ -66,6 +66,7 @@ private:
     [[nodiscard]] bool may_hidden_decide(const ViewCosts& view, const Decision& decision) const;
     Decision decide_proven(const DrawList& list, const ViewCosts& view, Kinds kinds);
     void state_error_of_rays(DrawList& list);
+    void state_error_of_rays(DrawList& list, const TerrainDraw& draw);
     void consider_unproven(const DrawList& list, const ViewCosts& view, Decision& decision);
 
     ChoiceOptions options_;
