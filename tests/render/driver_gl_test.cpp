@@ -392,5 +392,34 @@ TEST_F(DriverGlTest, CamerasThatAreNowhereDrawNothingAndDoNoHarm) {
     }
 }
 
+// Those of one part were kept for the next, where other triangles are seen.
+TEST_F(DriverGlTest, SliversOfAPartOfAPictureDoNotDependOnThePartBefore) {
+    Scene scene;
+    const Grid<float> blocks = test::random_heights(16, 16, -2.0F, 1.0F, 17);
+    const auto walls = test::made_heights(125, 125, [&](int col, int row) {
+        return 60.0 * std::max(0.0F, blocks(col / 8, row / 8));
+    });
+    Node& terrain = test::add_terrain(scene, test::plane_heightfield(walls, {0.5, 0.5}));
+    terrain.get<scene::TerrainNode>()->material.technique =
+        scene::parse_technique("polygons:error=1").value();
+    Node& camera = scene.add_camera();
+    const Camera whole = camera_at({-30.0, -30.0, 40.0}, {0.0, 0.0, 20.0});
+    const auto look_at_part = [&](glm::ivec2 first) {
+        *camera.get<Camera>() = scene::part_camera(whole, 2 * size, {first, size});
+    };
+    session::SceneRenderer kept = driver();
+    int slivers = 0;
+    for (const glm::ivec2 first : {glm::ivec2(0, 0), {size.x, 0}, {0, size.y}, size}) {
+        look_at_part(first);
+        session::SceneRenderer fresh = driver();
+        const view::FrameStats found = test::must(fresh.draw(scene));
+        const auto expected = found.slivers;
+        EXPECT_EQ(test::must(kept.draw(scene)).slivers, expected);
+        EXPECT_EQ(kept.read_color(), fresh.read_color());
+        slivers += static_cast<int>(expected);
+    }
+    EXPECT_GT(slivers, 50);
+}
+
 } // namespace
 } // namespace reljef::render
