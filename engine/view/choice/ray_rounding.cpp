@@ -242,9 +242,12 @@ double RayRounding::at(const Part& part) const {
     if (per_metre_ > 0.0) {
         return per_metre_ * (depth_ * steep + lengths(part));
     }
-    const double of_ray = std::min(1.0, longest_ray_ / part.distance); // 1 at the eye
     const double near = lengths(part);
-    return rounding_ * (steep * of_ray + (near > 0.0 ? near / part.distance : 0.0));
+    if (part.distance <= 0.0) {
+        return near > 0.0 ? std::numeric_limits<double>::infinity() : rounding_ * steep;
+    }
+    const double of_ray = std::min(1.0, longest_ray_ / part.distance); // 1 at the eye
+    return rounding_ * (steep * of_ray + near / part.distance);
 }
 
 double RayRounding::from_afar(double steepness) const {

@@ -84,7 +84,9 @@ SliverView::SliverView(const DrawList& list, const TileDraw& draw, const CutOpti
 SliverView::Corner SliverView::corner(const GridVertex& vertex) const {
     const glm::dvec3 offset = (glm::dvec3(vertex.position) - eye_) + glm::dvec3(vertex.rest);
     const glm::dvec4 clip = clip_from_offset_ * glm::dvec4(offset, 1.0);
-    return {0.5 * size_ * (glm::dvec2(clip) / clip.w + 1.0), clip.w, glm::dvec2(vertex.place)};
+    const glm::dvec2 place(vertex.place);
+    return clip.w > 0.0 ? Corner{0.5 * size_ * (glm::dvec2(clip) / clip.w + 1.0), clip.w, place}
+                        : Corner{glm::dvec2(0.0), clip.w, place};
 }
 
 SliverView::Rounding SliverView::rounding_in(const Corner& a, const Corner& b,
@@ -124,10 +126,15 @@ SliverView::Rounding SliverView::rounding_in(const Corner& a, const Corner& b,
         const double divided = error_of(places.x / a.depth, places.y / b.depth, places.z / c.depth);
         return depth * (divided + place * inverse) + rounded_place * place;
     };
+    const double error_of_depth =
+        rounded_sum * 2.0 * (farthest + length) * length * length / std::abs(area);
     const double samples = std::max(max_part(b.place - a.place), max_part(c.place - a.place));
+    if (samples == 0.0) {
+        return {infinity, error_of_depth};
+    }
     const double pixels_a_sample = std::sqrt(2.0) * length / samples;
     return {pixels_a_sample * glm::length(glm::dvec2(error_along(0), error_along(1))),
-            rounded_sum * 2.0 * (farthest + length) * length * length / std::abs(area)};
+            error_of_depth};
 }
 
 // Of the triangle's bound by its own error, pixels. `first`: its first index.
