@@ -22,8 +22,8 @@ public:
     /// `software`: a renderer on the CPU, which is waited for so often that its memory is limited.
     DrawState(ShaderLibrary& shaders, BlockBuffers& blocks, bool software, view::FrameStats& stats);
 
-    /// Binds the variant's program. Programs that search a surface, or find depth by
-    /// corners, run per sample. Fails as
+    /// Binds the variant's program. Programs that search a surface, or take depth from corners, run
+    /// per sample. Fails as
     /// ShaderLibrary::program.
     Result<gl::Program*> use(ShaderVariant variant);
     template <class Block> Result<void> set(const Block& block) {

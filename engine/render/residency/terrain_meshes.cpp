@@ -421,16 +421,24 @@ Result<void> TerrainMeshes::close_seams(const view::DrawList& list, Group& group
     return {};
 }
 
+// Parts of a large picture have one version.
+void TerrainMeshes::forget_slivers_of_others(Group& group, const PictureView& picture) {
+    if (group.slivers_of != picture) {
+        for (auto& [id, entry] : group.tiles) {
+            entry.slivers_version = 0;
+        }
+        group.slivers_of = picture;
+    }
+}
+
 // Draws the slivers of the view apart.
 Result<void> TerrainMeshes::part_slivers(const view::DrawList& list, Group& group,
                                          const Draws& draws, view::FrameStats& stats) {
     std::vector<Outdated> tiles;
-    const PictureView picture{list.camera, list.size};
-    const bool is_same = group.slivers_of == picture; // not for each part of a large picture
-    group.slivers_of = picture;
+    forget_slivers_of_others(group, {list.camera, list.size});
     for (const view::TileDraw* const draw : draws) {
         Entry& entry = group.tiles.at(draw->tile->id);
-        if (!is_same || entry.slivers_version != group.version) {
+        if (entry.slivers_version != group.version) {
             tiles.push_back({draw, &entry});
         }
     }

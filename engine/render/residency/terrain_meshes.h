@@ -142,6 +142,7 @@ private:
                                     view::FrameStats& stats);
     /// In the order of the entry's meshes. Precondition: the tile is cut.
     static std::vector<view::SliverView::Triangles> triangles_of(const Entry& entry);
+    static void forget_slivers_of_others(Group& group, const PictureView& picture);
     Result<void> part_slivers(const view::DrawList& list, Group& group, const Draws& draws,
                               view::FrameStats& stats);
     static void add_kept_errors(const Group& group, const Draws& draws, view::FrameStats& stats);
