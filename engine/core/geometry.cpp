@@ -7,6 +7,24 @@
 #include <glm/matrix.hpp>
 
 namespace reljef {
+namespace {
+
+// At most; exact for orthogonal columns.
+double stretch_along_columns(const glm::dmat3& map) {
+    const glm::dvec3 squares(glm::dot(map[0], map[0]), glm::dot(map[1], map[1]),
+                             glm::dot(map[2], map[2]));
+    const double sum = squares.x + squares.y + squares.z;
+    const double skew =
+        std::max({std::abs(glm::dot(map[0], map[1])), std::abs(glm::dot(map[1], map[2])),
+                  std::abs(glm::dot(map[2], map[0]))});
+    constexpr double rounding = 0x1p-40; // orthogonal columns up to the rounding of doubles
+    return skew <= rounding * sum
+               ? std::sqrt(std::max({squares.x, squares.y, squares.z}) + 2.0 * skew)
+               : std::sqrt(sum); // the Frobenius norm
+}
+
+} // namespace
+
 SplitPoint split_into_floats(glm::dvec3 point) {
     const glm::dvec3 rounded(rounded_to_float(point.x), rounded_to_float(point.y),
                              rounded_to_float(point.z));
@@ -38,6 +56,11 @@ Box transformed(const glm::dmat4& to_from_local, const Box& box) {
     const glm::dvec3 origin(to_from_local[3]);
     return {(moved[0].low + moved[1].low) + (moved[2].low + origin),
             (moved[0].high + moved[1].high) + (moved[2].high + origin)};
+}
+
+double max_stretch(const glm::dmat3& map) {
+    // Of a map and of its transpose the largest factor is the same.
+    return std::min(stretch_along_columns(map), stretch_along_columns(glm::transpose(map)));
 }
 
 bool is_finite(const Ray& ray) {

@@ -43,6 +43,10 @@ struct Box {
 /// Bounding box of a box under an affine transform.
 Box transformed(const glm::dmat4& to_from_local, const Box& box);
 
+/// Bounds the factor by which a linear map lengthens a vector; exact where it scales along
+/// orthogonal axes.
+double max_stretch(const glm::dmat3& map);
+
 /// Points origin + t·direction, t >= 0; the direction may have any length.
 struct Ray {
     glm::dvec3 origin{0.0};

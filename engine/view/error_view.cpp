@@ -41,20 +41,6 @@ constexpr double corner_share = 1.0 / 64.0;
 // For triangles, at least: better ones would hardly change the picture.
 constexpr double min_left = 0.5;
 
-// Bounds the factor by which a transform lengthens a vector.
-double max_stretch(const glm::dmat3& axes) {
-    const std::array squares{glm::dot(axes[0], axes[0]), glm::dot(axes[1], axes[1]),
-                             glm::dot(axes[2], axes[2])};
-    const double sum = squares[0] + squares[1] + squares[2];
-    const double skew =
-        std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
-                  std::abs(glm::dot(axes[2], axes[0]))});
-    constexpr double rounding = 0x1p-40; // orthogonal columns up to the rounding of doubles
-    return skew <= rounding * sum
-               ? std::sqrt(*std::max_element(squares.begin(), squares.end()) + 2.0 * skew)
-               : std::sqrt(sum); // the Frobenius norm
-}
-
 glm::dmat3 cross_with(glm::dvec3 v) {
     return {0.0, v.z, -v.y, -v.z, 0.0, v.x, v.y, -v.x, 0.0};
 }

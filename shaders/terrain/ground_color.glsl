@@ -70,8 +70,13 @@ void main() {
     vec3 albedo = looked_up(albedo_map, ground_from_sample).rgb;
     vec4 ground = looked_up(ground_map, ground_from_sample);
     from_eye = INSIDE(local_from_eye);
+#ifdef SLIVER
+    vec3 across = local_per_pixel[0];
+    vec3 down = local_per_pixel[1];
+#else
     vec3 across = dFdx(FROM_PIXEL_TO_PIXEL(local_from_eye));
     vec3 down = dFdy(FROM_PIXEL_TO_PIXEL(local_from_eye));
+#endif
     relative = world_from_local * from_eye;
     float pixel = metres_a_pixel.x + metres_a_pixel.y * length(relative);
     float share = smoothstep(seen_pixels.x, seen_pixels.y, tile_width / pixel);

@@ -1,5 +1,25 @@
 // In slivers (view::SliverView) rasterizers interpolate wrongly, so values come from the corners.
-#include "terrain/corners.glsl"
+layout(std430, binding = corners_binding) readonly buffer Corners {
+    float corners[]; // view::GridVertex, three a triangle
+};
+
+uniform vec3 eye;      // local metres
+uniform vec3 eye_rest; // local metres, to be added
+uniform mat3 world_from_local;
+
+struct Vertex {
+    vec3 position; // local metres
+    float height;  // true metres
+    vec2 place;    // samples from the tile's first
+    vec3 rest;     // local metres, to be added to the position
+};
+
+Vertex vertex_of(int corner) {
+    int at = 9 * corner;
+    return Vertex(vec3(corners[at], corners[at + 1], corners[at + 2]), corners[at + 3],
+                  vec2(corners[at + 4], corners[at + 5]),
+                  vec3(corners[at + 6], corners[at + 7], corners[at + 8]));
+}
 
 flat in int first_corner;
 
@@ -17,7 +37,9 @@ float true_height = 0.0;         // metres
 vec2 corner_place = vec2(0.0);   // of a corner, samples from the tile's first
 vec2 from_corner = vec2(0.0);    // samples
 vec2 tile_place = vec2(0.0);     // samples from the tile's first
-mat2 place_per_pixel = mat2(0.0); // its changes along and across the triangle; at most all of it
+// Changes along and across the triangle; at most all of it.
+mat2 place_per_pixel = mat2(0.0);
+mat2x3 local_per_pixel = mat2x3(0.0);
 
 Corner corner_of(Vertex vertex) {
     precise vec3 from_eye = (vertex.position - eye) + (vertex.rest - eye_rest);
@@ -67,7 +89,10 @@ void set_between(Corner a, Corner b, Corner c) {
 #endif
     float pixels_long = length(b.off - a.off) / clip.w;
     float pixels_wide = abs(cross_product(b.off - a.off, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
-    place_per_pixel = mat2(to_b / max(pixels_long, 1.0), to_c / max(pixels_wide, 1.0));
+    float share_along = 1.0 / max(pixels_long, 1.0);
+    float share_across = 1.0 / max(pixels_wide, 1.0);
+    place_per_pixel = mat2(to_b * share_along, to_c * share_across);
+    local_per_pixel = mat2x3((b.from_eye - a.from_eye) * share_along, (c.from_eye - a.from_eye) * share_across);
 }
 
 void set_from_corners() {

@@ -161,6 +161,31 @@ TEST(Box, TransformedEmptyStaysEmpty) {
     EXPECT_TRUE(transformed(glm::dmat4(2.0), Box{}).empty());
 }
 
+TEST(MaxStretch, NoVectorIsStretchedMore) {
+    Random random;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dmat3 map(random.point(1.0), random.point(10.0), random.point(0.1));
+        const double most = max_stretch(map);
+        for (int j = 0; j < 20; ++j) {
+            const glm::dvec3 v = random.point(1.0);
+            ASSERT_LE(glm::length(map * v), (1.0 + 1e-12) * most * glm::length(v));
+        }
+    }
+}
+
+TEST(MaxStretch, IsTheLargestScaleBeforeOrAfterATurn) {
+    Random random;
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec3 scale = random.point(3.0);
+        const double largest = std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+        const glm::dmat3 turn(
+            glm::rotate(glm::dmat4(1.0), random.number(-3.0, 3.0), random.point(1.0) + 2.0));
+        const glm::dmat3 scaled(glm::scale(glm::dmat4(1.0), scale));
+        ASSERT_NEAR(max_stretch(turn * scaled), largest, 1e-9 * largest);
+        ASSERT_NEAR(max_stretch(scaled * turn), largest, 1e-9 * largest);
+    }
+}
+
 TEST(RayBox, HitsWhatItIsAimedAtAndIsInsideJustThere) {
     Random random;
     for (int i = 0; i < 20000; ++i) {

@@ -231,12 +231,12 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     const scene::TerrainNode& node = *seen.node;
     const auto [rays, curve] = rays_over(list, seen, options_.threads);
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
-    const auto rounding = stands_in ? std::nullopt : rounding_of(list, seen);
-    if (rounding) {
-        const double of_rays = rounding->error + (curve != nullptr ? curve->error() : 0.0);
+    if (!stands_in) {
+        const view::PictureRounding::Found rounding = rounding_of(list, seen);
+        const double of_rays = rounding.error + (curve != nullptr ? curve->error() : 0.0);
         stats.kept_error = kept_error(list, of_rays);
         stats.exceeded_by_rounding =
-            rounding->is_of_view && 2.0 * of_rays > stats.kept_error.value_or(0.0);
+            rounding.is_of_view && 2.0 * of_rays > stats.kept_error.value_or(0.0);
     }
     if (seen.has_tiles) {
         const bool in_parts = node.material.technique.options.shadow.has_value();
@@ -266,9 +266,9 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     return placed;
 }
 
-// Of all rays at a terrain, pixels; empty: nothing is known.
-std::optional<view::PictureRounding::Found> Driver::rounding_of(const view::DrawList& list,
-                                                                const SeenTerrain& seen) {
+// Of all rays at a terrain, pixels.
+view::PictureRounding::Found Driver::rounding_of(const view::DrawList& list,
+                                                 const SeenTerrain& seen) {
     const view::TerrainDraw draw{.terrain = seen.node, .world_from_local = seen.world_from_local};
     return rounding_.of(list, draw, seen.has_tiles ? tiles_of(list) : seen.node->surface->tiles(),
                         view::RayFloats::cpu);

@@ -101,8 +101,7 @@ private:
     const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
     const Light& light_of(const scene::TerrainNode& terrain,
                           const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
-    std::optional<view::PictureRounding::Found> rounding_of(const view::DrawList& list,
-                                                            const SeenTerrain& seen);
+    view::PictureRounding::Found rounding_of(const view::DrawList& list, const SeenTerrain& seen);
     void add_certain_sun(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile);
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);

@@ -32,6 +32,9 @@
 // what is as long as a cell, or as high, four operations are: the cell at the base, the ray's t at
 // its lines, its place there, and its height. On the ellipsoid, only the first part is counted.
 //
+// A node that is scaled maps rays to rays. What is off by an angle beside one is off by at most
+// that times the longest over the shortest scale in the picture.
+//
 // Without perspective, what is off by m metres is off by m times the pixels per metre, and rays are
 // as long as the scene is deep, or as far from the eye as the scene. On the ellipsoid, the shader's
 // polynomials take about three times as many operations.
@@ -170,17 +173,6 @@ glm::dvec2 cell_of(const scene::TerrainNode& terrain, const scene::TerrainTile& 
                                                       terrain.surface->placement().spacing().y));
 }
 
-bool keeps_lengths(const glm::dmat4& transform) {
-    constexpr double rounding = 0x1p-40;
-    const glm::dmat3 axes(transform);
-    const glm::dmat3 deviation = glm::transpose(axes) * axes - glm::dmat3(1.0);
-    double largest = 0.0;
-    for (int i = 0; i < 3; ++i) {
-        largest = std::max(largest, glm::length(deviation[i]));
-    }
-    return largest <= rounding;
-}
-
 // The part again, as near and as steep as it is.
 RayRounding::Part looked_at(const RayRounding::Part& part, const scene::TerrainNode& terrain,
                             const scene::TerrainTile& tile, const NearestPlace::Eye& eye) {
@@ -228,6 +220,12 @@ RayRounding::RayRounding(const scene::Camera& camera, glm::ivec2 size, const Box
     rounding_ = operations * unit * focal * (1.0 + to_corner * to_corner);
 }
 
+void RayRounding::stretch(double world_metres, double local_metres) {
+    rounding_ *= world_metres * local_metres;
+    per_metre_ *= world_metres;
+    depth_ *= local_metres;
+}
+
 double RayRounding::along_ray(double steepness) const {
     return share_ * steepness;
 }
@@ -260,18 +258,18 @@ std::optional<double> RayRounding::distance_for(double error, const Part& part) 
     return left > 0.0 ? std::optional(lengths(part) / left) : std::nullopt;
 }
 
-std::optional<PictureRounding::Found>
+PictureRounding::Found
 PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
                     std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
                     RayFloats floats) {
     const scene::TerrainNode& terrain = *draw.terrain;
-    if (!keeps_lengths(draw.world_from_local)) {
-        return std::nullopt;
-    }
-    const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
+    const glm::dmat4 local_from_world = glm::inverse(draw.world_from_local);
+    const glm::dvec3 eye(local_from_world * glm::dvec4(list.camera.eye, 1.0));
     const Frustum frustum =
         Frustum(scene::clip_from_world(list.camera, list.size)).in_local(draw.world_from_local);
-    const RayRounding rounding(list.camera, list.size, terrain.surface->bounds(), eye, floats);
+    RayRounding rounding(list.camera, list.size, terrain.surface->bounds(), eye, floats);
+    rounding.stretch(max_stretch(glm::dmat3(draw.world_from_local)),
+                     max_stretch(glm::dmat3(local_from_world)));
     const bool counts_slopes = floats == RayFloats::opengl ||
                                terrain.surface->placement().kind() == terrain::PlacementKind::plane;
     Found found;

@@ -47,6 +47,10 @@ public:
     /// Preconditions: perspective, OpenGL.
     [[nodiscard]] std::optional<double> distance_for(double error, const Part& part) const;
 
+    /// The surface's node scales it. A local metre has at most so many `world_metres`, a metre of
+    /// the world so many `local_metres`.
+    void stretch(double world_metres, double local_metres);
+
 private:
     [[nodiscard]] double along_ray(double steepness) const;
     [[nodiscard]] double lengths(const Part& part) const; // that are rounded, metres
@@ -68,11 +72,9 @@ public:
         bool is_of_view = false; ///< most of it comes with the angle of a pixel, however near
     };
     /// At most, of what the list's camera sees of a terrain's tiles, the bends of rays on
-    /// OpenGL included. Infinite if the surface may be at the eye. Empty: nothing is known of nodes
-    /// that are scaled.
-    std::optional<Found> of(const DrawList& list, const TerrainDraw& draw,
-                            std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
-                            RayFloats floats);
+    /// OpenGL included. Infinite if the surface may be at the eye.
+    Found of(const DrawList& list, const TerrainDraw& draw,
+             std::span<const std::shared_ptr<const scene::TerrainTile>> tiles, RayFloats floats);
 
     Slopes slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface);
 

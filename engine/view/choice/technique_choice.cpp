@@ -210,8 +210,8 @@ TechniqueChooser::Decision TechniqueChooser::decide_proven(const DrawList& list,
     // With fewer triangles than they need, they are off by more, about in proportion.
     const double by_triangles =
         triangle_error * std::clamp(triangles.triangles / view.max_triangles, 1.0, max_lack);
-    const auto rounding = rounding_.of(list, draw, tiles_of(list), RayFloats::opengl);
-    const double kept = std::max(bound, rounding ? rounding->error : max_lack * by_triangles);
+    const double of_rays = rounding_.of(list, draw, tiles_of(list), RayFloats::opengl).error;
+    const double kept = std::max(bound, of_rays);
     if (kept > by_triangles) {
         decision.choice.estimated_ms = triangles.ms;
         decision.last_ring = last_ring;
@@ -339,12 +339,10 @@ void TechniqueChooser::state_error_of_rays(DrawList& list, const TerrainDraw& dr
     const auto rounding = rounding_.of(list, draw, tiles, RayFloats::opengl);
     const double of_tiles = draw.tile_error.value_or(0.0);
     const double before = list.stats.kept_error.value_or(0.0);
-    if (rounding && of_tiles + rounding->error > before) {
-        list.stats.exceeded_by_rounding = rounding->is_of_view && rounding->error > of_tiles;
+    if (of_tiles + rounding.error > before) {
+        list.stats.exceeded_by_rounding = rounding.is_of_view && rounding.error > of_tiles;
     }
-    if (rounding) {
-        list.stats.kept_error = std::max(before, of_tiles + rounding->error);
-    }
+    list.stats.kept_error = std::max(before, of_tiles + rounding.error);
 }
 
 void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_hidden) {

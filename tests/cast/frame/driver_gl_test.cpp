@@ -254,7 +254,8 @@ TEST(CastDriver, KeepsErrorBoundsWithoutError) {
     EXPECT_EQ(driver.read_color(), exact);
 }
 
-// 0.00 px were stated beside steep ground, which turns what floats round of a place into a height.
+// 0.00 px were stated beside steep ground, which turns what floats round of a place into a height,
+// and nothing over nodes that are scaled.
 TEST(CastDriver, StatesWhatFloatsRoundBesideSteepGround) {
     test::Chance chance(2);
     Grid<float> heights(2, 2);
@@ -266,10 +267,13 @@ TEST(CastDriver, StatesWhatFloatsRoundBesideSteepGround) {
     stage.terrain->get<scene::TerrainNode>()->material.technique = {scene::Exact{}};
     Driver driver = test::must(Driver::create({.size = small_picture}));
     double largest = 0.0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 120; ++i) {
+        const glm::dvec3 scale = i % 2 == 0 ? glm::dvec3(1.0) : glm::dvec3(30.0, 0.5, 7.0);
+        stage.terrain->set_parent_from_local(glm::scale(glm::dmat4(1.0), scale));
         const glm::dvec2 below(chance.between(-4.9, 4.9), chance.between(-4.9, 4.9));
         const double ground = stage.surface().height_at(below.x, below.y).value();
-        const glm::dvec3 eye(below, ground + std::exp(chance.between(0.0, 6.0)));
+        const glm::dvec3 eye =
+            scale * glm::dvec3(below, ground + std::exp(chance.between(0.0, 6.0)));
         scene::Camera camera = test::camera_at(
             eye, eye + glm::dvec3(chance.between(-0.1, 0.1), chance.between(-0.1, 0.1), -1.0));
         camera.vertical_fov = 100.0;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/view/choice/ray_error.h"
@@ -438,6 +439,23 @@ TEST(TechniqueChooserTest, AllPartsOfAPictureShowOneKind) {
         }
         EXPECT_EQ(kinds.size(), 1U);
     }
+}
+
+// A node that is scaled, seen from as many times farther away, shows the same picture.
+TEST(TechniqueChooserTest, RaysOverAScaledNodeStateTheErrorOfTheSamePicture) {
+    ChosenView view("exact");
+    const scene::Camera before = view.scene.camera();
+    const auto error_of = [&](glm::dvec3 scale) {
+        view.node->set_parent_from_local(glm::scale(glm::dmat4(1.0), scale));
+        *view.camera->get<scene::Camera>() =
+            test::camera_at(scale.x * before.eye, scale.x * before.target);
+        return view.chosen({}).stats.kept_error.value();
+    };
+    const double unscaled = error_of({1.0, 1.0, 1.0});
+    EXPECT_GT(unscaled, 0.0);
+    EXPECT_NEAR(error_of({8.0, 8.0, 8.0}) / unscaled, 1.0, 1e-6);
+    EXPECT_NEAR(error_of({0.125, 0.125, 0.125}) / unscaled, 1.0, 1e-6);
+    EXPECT_GT(error_of({1.0, 1.0, 4.0}), 2.0 * unscaled);
 }
 
 // A part in the corner of a picture is as far from its middle as the corner is.
