@@ -8,7 +8,7 @@
 #include "engine/gl/program.h"
 #include "engine/gl/state.h"
 #include "engine/render/residency/block_buffers.h"
-#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/triangles/resident_mesh.h"
 #include "engine/render/shaders/shader_library.h"
 #include "engine/view/frame_stats.h"
 

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/triangles/resident_mesh.h"
 
 namespace reljef::render {
 

@@ -5,7 +5,7 @@
 
 #include <glm/common.hpp>
 
-#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/triangles/resident_mesh.h"
 
 namespace reljef::render {
 

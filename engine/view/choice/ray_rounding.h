@@ -47,8 +47,8 @@ public:
     /// Preconditions: perspective, OpenGL.
     [[nodiscard]] std::optional<double> distance_for(double error, const Part& part) const;
 
-    /// The surface's node scales it. A local metre has at most so many `world_metres`, a metre of
-    /// the world so many `local_metres`.
+    /// For a surface whose node scales it: metres of the world a local metre, and local metres a
+    /// metre of the world, at most.
     void stretch(double world_metres, double local_metres);
 
 private:

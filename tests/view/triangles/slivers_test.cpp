@@ -30,7 +30,7 @@ protected:
         node_ = &test::add_terrain(scene_, test::plane_heightfield(Grid<float>(65, 65, 0.0F)));
         node_->get<scene::TerrainNode>()->material.technique =
             scene::parse_technique("polygons:error=1").value();
-        scene_.add_camera(test::camera_at({0.0, 0.0, distance}, {0.0, 0.0, 0.0}));
+        camera_ = &scene_.add_camera(test::camera_at({0.0, 0.0, distance}, {0.0, 0.0, 0.0}));
         list_ = select(scene_, seen_size).list;
     }
 
@@ -57,6 +57,7 @@ protected:
 
     scene::Scene scene_;
     scene::Node* node_ = nullptr;
+    scene::Node* camera_ = nullptr;
     DrawList list_;
 };
 
@@ -110,6 +111,25 @@ TEST_F(SliverViewTest, SoAreLargeOnesFarFromTheTilesFirstSample) {
                            glm::dvec2(0.0, 200.0)};
     EXPECT_FALSE(is_sliver(large, 1.0));
     EXPECT_TRUE(is_sliver(large, 5000.0));
+}
+
+TEST_F(SliverViewTest, WithoutPerspectiveAsWell) {
+    scene::Camera level = test::camera_at({0.0, 0.0, distance}, {0.0, 0.0, 0.0});
+    level.projection = scene::ProjectionKind::orthographic;
+    level.view_height = seen_size.y / pixels_a_metre();
+    *camera_->get<scene::Camera>() = level;
+    list_ = select(scene_, seen_size).list;
+    EXPECT_FALSE(is_sliver({glm::dvec2(-50.0, 0.0), glm::dvec2(50.0, 0.0), glm::dvec2(0.0, 20.0)}));
+    EXPECT_TRUE(is_sliver({glm::dvec2(-50.0, 0.0), glm::dvec2(50.0, 0.0), glm::dvec2(0.0, 0.1)}));
+    EXPECT_FALSE(
+        is_sliver({glm::dvec2(400.0, 0.0), glm::dvec2(500.0, 0.0), glm::dvec2(450.0, 1e-3)}));
+    // No depth divides what is interpolated: nothing cuts a triangle, however near.
+    const std::vector near{grid_vertex({-1.0, 0.0, 0.0}, 0.0, {0.0, 0.0}),
+                           grid_vertex({1.0, 0.0, 0.0}, 0.0, {1.0, 0.0}),
+                           grid_vertex({0.0, 1.0, 1.1 * distance}, 0.0, {0.0, 1.0})};
+    const std::array<std::uint16_t, 3> indices{0, 1, 2};
+    const SliverView view(list_, list_.tiles.front(), {});
+    EXPECT_TRUE(view.slivers({near, indices, nullptr}).all().empty());
 }
 
 TEST_F(SliverViewTest, TrianglesBesideThePictureAreNone) {

@@ -1,8 +1,9 @@
-#include "engine/render/residency/terrain_meshes.h"
+#include "engine/render/triangles/terrain_meshes.h"
 
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <thread>
 
 #include <fmt/format.h>
@@ -12,167 +13,13 @@
 #include "engine/view/tile_selection.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/made_stream.h"
+#include "tests/render/triangles/streamed_world.h"
 #include "tests/session/made_session.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_tiles.h"
 
 namespace reljef::render {
 namespace {
-
-using terrain::TreeTile;
-
-constexpr int side = 1500; // samples: the last tiles are cut
-constexpr int reduction = 8;
-
-Grid<float> rough_hills(int samples, double step, double offset) {
-    return test::made_heights(samples, samples, [&](int col, int row) {
-        const glm::dvec2 at = glm::dvec2(col, row) * step + offset;
-        return 40.0 * std::sin(0.013 * at.x) * std::cos(0.011 * at.y) +
-               6.0 * std::sin(0.21 * at.x + 0.17 * at.y) + 2.0 * std::sin(0.9 * at.y);
-    });
-}
-
-scene::TileContent read_hills(const Grid<float>& all, TreeTile tile) {
-    const terrain::TileTree tree(side, side);
-    scene::TileContent reading;
-    reading.heights = test::tile_heights(tree.cells(tile), [&](glm::ivec2 vertex) {
-        const glm::ivec2 sample = tree.sample(tile, vertex);
-        // Coarser levels are higher: where two meet without their borders joined is a step.
-        return all(sample.x, sample.y) + static_cast<float>(tile.level);
-    });
-    return reading;
-}
-
-// A rough square a kilometre and a half wide, of which an overview is in the scene.
-struct StreamedWorld {
-    Scene scene;
-    Node* terrain = nullptr;
-    Node* camera = nullptr;
-    Node* sun = nullptr;
-    std::shared_ptr<scene::TileStream> stream;
-
-    explicit StreamedWorld(std::size_t tiles = 1600, const Image& picture = {}) {
-        auto heightfield =
-            test::plane_heightfield(rough_hills(side / reduction, reduction, 0.5 * (reduction - 1)),
-                                    glm::dvec2(static_cast<double>(reduction)));
-        terrain = &test::add_terrain(scene, std::move(heightfield), picture);
-        camera = &scene.add_camera(pose(scene::Pose::overview, *terrain));
-        sun = &scene.add_light();
-        auto& node = *terrain->get<scene::TerrainNode>();
-        const auto all = std::make_shared<const Grid<float>>(rough_hills(side, 1.0, 0.0));
-        stream = std::make_shared<scene::TileStream>(
-            scene::TileBuilder(node.surface, terrain::TileTree(side, side), reduction),
-            [all](TreeTile tile, const std::stop_token&) { return read_hills(*all, tile); },
-            scene::TileStreamOptions{.memory_budget = tiles * scene::bytes_per_tile, .threads = 2});
-        node.stream = stream;
-    }
-    [[nodiscard]] view::TileSelection choice(glm::ivec2 picture = size) const {
-        return view::select_tiles(*terrain->get<scene::TerrainNode>(), scene.camera(), picture,
-                                  glm::dmat4(1.0));
-    }
-    // Requests what the view needs, and does not wait.
-    view::TileSelection request() const {
-        view::TileSelection chosen = choice();
-        stream->request(chosen.requested, chosen.used);
-        return chosen;
-    }
-    void bring() const { bring_tiles(scene); }
-    void look(glm::dvec3 eye, glm::dvec3 at) { *camera->get<Camera>() = camera_at(eye, at); }
-};
-
-TEST(TileChoices, DrawTheRootUntilFinerTilesAreThere) {
-    const StreamedWorld world;
-    EXPECT_TRUE(world.choice().drawn.empty());
-    EXPECT_EQ(world.choice().requested, std::vector{world.stream->tree().root()});
-    world.request();
-    world.stream->wait({});
-    ASSERT_EQ(world.choice().drawn.size(), 1U);
-    EXPECT_EQ(world.choice().drawn.front().tile->id, world.stream->tree().root());
-    EXPECT_FALSE(world.choice().requested.empty());
-}
-
-TEST(TileChoices, NoneOverlapsAndNoneIsSeenCoarserThanTheErrorAllows) {
-    StreamedWorld world;
-    test::Chance chance(3);
-    for (int round = 0; round < 25; ++round) {
-        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700),
-                             chance.between(60, 900));
-        world.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
-        world.bring();
-        std::set<TreeTile> drawn;
-        const view::TileSelection choice = world.choice();
-        for (const auto& [tile, distance, error, error_with_hidden] : choice.drawn) {
-            drawn.insert(tile->id);
-            const double pixels = 0.5 * size.y / std::tan(glm::radians(0.5 * 57.3));
-            const double spacing = world.stream->maker().spacing(tile->id.level);
-            if (tile->id.level > 0) {
-                ASSERT_LE(spacing / view::samples_apart_in_errors * pixels / distance, 1.0 + 1e-9);
-                ASSERT_LE(tile->error * pixels / distance, 0.5 + 1e-9);
-            }
-        }
-        for (TreeTile tile : drawn) {
-            while (tile.level < world.stream->tree().root().level) {
-                tile = {tile.level + 1, tile.col / 2, tile.row / 2};
-                ASSERT_FALSE(drawn.contains(tile));
-            }
-        }
-    }
-}
-
-TEST(TileChoices, DrawNoMoreThanMemoryHolds) {
-    StreamedWorld world(160);
-    test::Chance chance(4);
-    for (int round = 0; round < 20; ++round) {
-        world.look({chance.between(-700, 700), chance.between(-700, 700), 50.0},
-                   {chance.between(-700, 700), chance.between(-700, 700), 0.0});
-        world.bring();
-        ASSERT_LE(world.choice().drawn.size(), world.stream->max_drawn());
-        ASSERT_LE(world.stream->stats().bytes, 176 * scene::bytes_per_tile);
-    }
-}
-
-// Tiles that turned out to be too many go, and are not read again to find that out.
-TEST(TileChoices, WhereMemoryLimitsAStillViewReadsNothingMore) {
-    for (const std::size_t tiles : {1U, 12U, 24U, 40U}) {
-        StreamedWorld world(tiles);
-        world.look({0.0, -200.0, 120.0}, {0.0, 0.0, 0.0});
-        const auto look_on = [&](int frames) {
-            for (int i = 0; i < frames; ++i) {
-                world.request();
-                world.stream->wait({});
-            }
-            return world.stream->stats().read;
-        };
-        const int read = look_on(30);
-        EXPECT_EQ(look_on(10), read) << tiles;
-        EXPECT_TRUE(world.choice().requested.empty()) << tiles;
-        EXPECT_LE(read, 100) << tiles;
-    }
-}
-
-TEST(TileChoices, WhereMemoryLimitsTheChoiceIsTheSameWhateverCameBefore) {
-    test::Chance chance(5);
-    StreamedWorld flown(24);
-    for (int round = 0; round < 8; ++round) {
-        const StreamedWorld fresh(24);
-        const glm::dvec3 eye(chance.between(-700, 700), chance.between(-700, 700), 60.0);
-        flown.look(eye, {chance.between(-700, 700), chance.between(-700, 700), 0.0});
-        *fresh.camera->get<Camera>() = *flown.camera->get<Camera>();
-        flown.bring();
-        fresh.bring();
-        std::vector<TreeTile> expected;
-        for (const view::TileSelection::Drawn& drawn : fresh.choice().drawn) {
-            expected.push_back(drawn.tile->id);
-        }
-        std::vector<TreeTile> found;
-        for (const view::TileSelection::Drawn& drawn : flown.choice().drawn) {
-            found.push_back(drawn.tile->id);
-        }
-        ASSERT_EQ(found, expected) << round;
-        ASSERT_GT(expected.size(), 4U);
-    }
-    EXPECT_GT(flown.stream->stats().evicted, 0);
-}
 
 class TerrainMeshesGlTest : public DriverGlTest {};
 
@@ -262,6 +109,38 @@ TEST_F(TerrainMeshesGlTest, TheSameViewGivesTheSamePictureWhateverCameBefore) {
     const Image first = picture({});
     EXPECT_EQ(first, picture(std::array{glm::dvec3(500.0, 500.0, 70.0),
                                         glm::dvec3(-600.0, 300.0, 400.0)}));
+}
+
+// Other neighbours, seams, coarsenings and errors of tiles.
+TEST_F(TerrainMeshesGlTest, SliversAreThoseOfTheTrianglesThatAreDrawnNow) {
+    StreamedWorld world;
+    auto& node = *world.terrain->get<scene::TerrainNode>();
+    node.material.technique = scene::parse_technique("polygons:error=1").value();
+    const std::size_t enough = node.max_triangles;
+    session::SceneRenderer kept = driver();
+    test::Chance chance(8);
+    glm::dvec3 eye(0.0);
+    std::int64_t slivers = 0;
+    for (int round = 0; round < 20; ++round) {
+        if (round % 4 == 0) { // else the same view, with more tiles or fewer triangles
+            eye = {chance.between(-700, 700), chance.between(-700, 700), chance.between(46, 60)};
+            world.look(eye, eye + glm::dvec3(chance.between(-9, 9), 10.0, -1.0));
+        }
+        world.request();
+        world.stream->wait({});
+        node.max_triangles = round % 4 == 3 ? 3000 : enough;
+        session::SceneRenderer fresh = driver();
+        const view::FrameStats expected = test::must(fresh.draw(world.scene));
+        ASSERT_EQ(test::must(kept.draw(world.scene)).slivers, expected.slivers) << round;
+        const HitBuffer hits = test::must(kept.draw_hits(world.scene));
+        const HitBuffer fresh_hits = test::must(fresh.draw_hits(world.scene));
+        ASSERT_EQ(std::memcmp(hits.samples().data(), fresh_hits.samples().data(),
+                              hits.size() * sizeof(Hit)),
+                  0)
+            << round;
+        slivers += static_cast<std::int64_t>(expected.slivers);
+    }
+    EXPECT_GT(slivers, 500);
 }
 
 TEST_F(TerrainMeshesGlTest, WhatIsNotDrawnForLongLeavesTheDriversMemory) {

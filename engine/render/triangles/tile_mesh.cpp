@@ -1,4 +1,4 @@
-#include "engine/render/residency/tile_mesh.h"
+#include "engine/render/triangles/tile_mesh.h"
 
 #include <utility>
 

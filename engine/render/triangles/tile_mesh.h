@@ -6,7 +6,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gl/buffer.h"
-#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/triangles/resident_mesh.h"
 #include "engine/view/frame_stats.h"
 #include "engine/view/grid_mesh.h"
 #include "engine/view/triangles/slivers.h"

@@ -1,4 +1,4 @@
-#include "engine/render/residency/resident_mesh.h"
+#include "engine/render/triangles/resident_mesh.h"
 
 #include <array>
 #include <cstdint>
