@@ -105,12 +105,8 @@ std::string choice_text(const std::optional<view::Choice>& choice) {
 
 // Of tiles whose errors are estimates nothing is kept.
 std::string kept_error_text(const view::FrameStats& stats) {
-    if (!stats.kept_error) {
-        return "none";
-    }
-    const bool is_partial = stats.tiles_unproven > 0;
-    return fmt::format("{:.2f} px{}", *stats.kept_error,
-                       is_partial ? " where tiles are proven" : "");
+    const char* const part = stats.tiles_unproven > 0 ? " where tiles are proven" : "";
+    return stats.kept_error ? fmt::format("{:.2f} px{}", *stats.kept_error, part) : "none";
 }
 
 // Triangles may be off by far more for other reasons, also in views that are too narrow.
@@ -221,6 +217,7 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
         min_share_ = std::min(min_share_.value_or(1.0), stats_.choice->typical->share);
     } else {
         max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
+        megabytes_for_all_samples_ = megabytes_for_all_samples(scene);
     }
     if (stats_.kept_error.value_or(0.0) <= expected->pixels) {
         return;
@@ -289,6 +286,17 @@ std::string DeviceFrames::remedy() const {
     return over_->misses_tiles ? "tiles cannot be read" : "the eye is too near to the ground";
 }
 
+std::string DeviceFrames::unproven_note() const {
+    const char* const bound = names_bound_ ? "the error bound" : "a pixel";
+    return megabytes_for_all_samples_
+               ? fmt::format("averages of the samples are drawn, and pixels may be farther off "
+                             "than {}: --memory {} reads all samples",
+                             bound, *megabytes_for_all_samples_)
+               : fmt::format("the errors of {} tiles are estimates, and pixels may be farther off "
+                             "than {}: 'reljef index' proves them, except near voids",
+                             max_unproven_, bound);
+}
+
 std::vector<std::string> DeviceFrames::error_notes() const {
     std::vector<std::string> notes;
     if (over_) {
@@ -311,10 +319,7 @@ std::vector<std::string> DeviceFrames::error_notes() const {
                         max_of_fewer_vertices_, megabytes_for_vertices_));
     }
     if (max_unproven_ > 0) {
-        notes.push_back(fmt::format(
-            "the errors of {} tiles are estimates, and pixels may be farther off than {}: 'reljef "
-            "index' proves them, except near voids",
-            max_unproven_, names_bound_ ? "the error bound" : "a pixel"));
+        notes.push_back(unproven_note());
     }
     if (min_share_) {
         notes.push_back(fmt::format(

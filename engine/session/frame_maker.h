@@ -90,6 +90,7 @@ private:
     Result<Image> tinted(Image picture);
     /// How to keep the bound of the frames that are over it. Precondition: there are some.
     [[nodiscard]] std::string remedy() const;
+    [[nodiscard]] std::string unproven_note() const;
 
     Device device_;
     Log& log_;
@@ -104,9 +105,10 @@ private:
     double max_of_fewer_vertices_ = 0.0; // pixels by which frames without all samples are off
     int megabytes_for_vertices_ = 0;     // that hold all samples as vertices; 0: they were drawn
     int max_unproven_ = 0;               // tiles of a frame with an expected error
-    bool names_bound_ = true;            // of the last frame with one
-    std::optional<double> min_share_;    // of probes within the bound, by searches without a proof
-    int frames_as_triangles_ = 0;        // whose technique could not be drawn
+    std::optional<int> megabytes_for_all_samples_;
+    bool names_bound_ = true;         // of the last frame with one
+    std::optional<double> min_share_; // of probes within the bound, by searches without a proof
+    int frames_as_triangles_ = 0;     // whose technique could not be drawn
     std::vector<scene::TileStreamStats> stream_stats_; // after the last frame
 };
 

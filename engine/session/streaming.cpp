@@ -348,6 +348,23 @@ MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
     return needed;
 }
 
+std::optional<int> megabytes_for_all_samples(const scene::Scene& scene) {
+    double largest = 0.0; // bytes
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        if (terrain == nullptr || terrain->stream != nullptr ||
+            terrain->surface->has_all_samples()) {
+            return;
+        }
+        const terrain::Heightfield& read = terrain->surface->heightfield();
+        const double samples =
+            static_cast<double>(read.heights.size()) * read.reduction * read.reduction;
+        largest = std::max(largest, static_cast<double>(io::bytes_per_sample) * samples);
+    });
+    return largest > 0.0 ? std::optional(clamped_int(std::ceil(largest / (1U << 20U)), 1, 1 << 30))
+                         : std::nullopt;
+}
+
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,
                            double ahead) {
     scene::Camera later = now;

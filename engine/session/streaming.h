@@ -49,6 +49,8 @@ struct MemoryForBound {
     std::optional<int> whole_megabytes;
 };
 MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
+/// With which terrains in memory would not be averages of their samples, MiB; empty: they are none.
+std::optional<int> megabytes_for_all_samples(const scene::Scene& scene);
 
 /// Loads the tiles of the scene's view into another stream of a terrain. Returns whether they are
 /// in memory or have failed for good; call it until then.

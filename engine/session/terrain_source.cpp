@@ -205,6 +205,11 @@ Result<terrain::Terrain> read(const SourceOptions& choice, const io::SceneDescri
     return io::read_terrain(description.heights, options);
 }
 
+// Half of the memory for what is read; streams leave less.
+void limit_block_cache(const SourceOptions& choice) {
+    io::limit_block_cache((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / 2);
+}
+
 bool has_many_files(const io::SceneDescription& description) {
     std::error_code ignored;
     return fs::is_directory(description.heights, ignored) || io::is_web_tiles(description.heights);
@@ -370,6 +375,7 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Sourc
                         *choice.textures, description.name));
     }
     io::allow_external(choice.allow_external);
+    limit_block_cache(choice);
     auto source = read_source(choice, std::move(description), log, stop);
     if (!source) {
         return source.error();
@@ -398,7 +404,7 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
         }
     }
     io::allow_external(choice.allow_external);
-    io::limit_block_cache((static_cast<std::size_t>(choice.memory_megabytes) << 20U) / 2);
+    limit_block_cache(choice);
     auto tiles = open_set(choice, *description, stop);
     if (!tiles) {
         return tiles.error();

@@ -53,11 +53,6 @@ FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions
 std::vector<TileRequests> tile_requests(const scene::Scene& scene, const scene::Camera& camera,
                                         glm::ivec2 size);
 
-/// Drops tiles behind nearer ground of the same terrain (terrain/field/horizon.h), or behind the
-/// curved Earth (terrain/field/earth_horizon.h), and hidden streamed tiles. Keeps tiles with levels
-/// by distance, and wireframes.
-void drop_occluded(DrawList& list);
-
 /// Selects a scene's frames one after the other: a view that has not changed keeps its frame. Holds
 /// on to the content of the last view until it selects another one or forget() is called.
 class FrameSelector {

@@ -56,10 +56,11 @@ float squared(vec2 v) {
     return dot(v, v);
 }
 
+const float tiny = 1e-30;
+
 // Shares of three corners in the fragment, which is at 0. `a` to `b` is the longest edge. Along it the shares
 // are exact; across it, where floats may not tell the corners apart, they are in the triangle.
 vec3 shares_of(vec2 a, vec2 b, vec2 c) {
-    const float tiny = 1e-30;
     vec2 edge = b - a;
     vec2 to_c = c - a;
     float length_squared = max(squared(edge), tiny);
@@ -87,12 +88,17 @@ void set_between(Corner a, Corner b, Corner c) {
 #ifdef CORNER_DEPTH
     gl_FragDepth = clip.z / clip.w;
 #endif
-    float pixels_long = length(b.off - a.off) / clip.w;
-    float pixels_wide = abs(cross_product(b.off - a.off, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
+    vec2 edge = b.off - a.off;
+    float length_squared = max(squared(edge), tiny);
+    float pixels_long = sqrt(length_squared) / clip.w;
+    float pixels_wide = abs(cross_product(edge, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
+    float foot = dot(c.off - a.off, edge) / length_squared; // of c on the edge
     float share_along = 1.0 / max(pixels_long, 1.0);
     float share_across = 1.0 / max(pixels_wide, 1.0);
-    place_per_pixel = mat2(to_b * share_along, to_c * share_across);
-    local_per_pixel = mat2x3((b.from_eye - a.from_eye) * share_along, (c.from_eye - a.from_eye) * share_across);
+    vec3 edge_from_eye = b.from_eye - a.from_eye;
+    place_per_pixel = mat2(to_b * share_along, (to_c - foot * to_b) * share_across);
+    local_per_pixel = mat2x3(edge_from_eye * share_along,
+                             (c.from_eye - a.from_eye - foot * edge_from_eye) * share_across);
 }
 
 void set_from_corners() {

@@ -231,7 +231,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     const scene::TerrainNode& node = *seen.node;
     const auto [rays, curve] = rays_over(list, seen, options_.threads);
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
-    if (!stands_in) {
+    if (!stands_in && (seen.has_tiles || node.surface->has_all_samples())) {
         const view::PictureRounding::Found rounding = rounding_of(list, seen);
         const double of_rays = rounding.error + (curve != nullptr ? curve->error() : 0.0);
         stats.kept_error = kept_error(list, of_rays);

@@ -326,6 +326,7 @@ terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     result.void_count = static_cast<std::size_t>(std::count(
         result.void_mask.samples().begin(), result.void_mask.samples().end(), std::uint8_t{1}));
     result.spacing = place.spacing;
+    result.reduction = std::max({1.0, place.grid.step.x, place.grid.step.y});
     result.georeference = std::move(place.georeference);
     return result;
 }

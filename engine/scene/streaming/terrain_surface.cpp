@@ -7,8 +7,9 @@ namespace reljef::scene {
 namespace {
 
 std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::TileCells& cells,
-                                                  const Box& bounds) {
+                                                  const Box& bounds, bool is_proven) {
     TerrainTile tile;
+    tile.is_proven = is_proven;
     const glm::ivec2 place = cells.first / terrain::tile_cells;
     tile.id = {0, place.x, place.y};
     tile.bounds = bounds;
@@ -34,7 +35,7 @@ TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
         };
         const terrain::MinMax range = pyramid_.bounds(cells.first, cells.last() - 1);
         const Box bounds = bounds_at({range.low, range.high});
-        tiles_.push_back(borrowing_tile(cells, bounds));
+        tiles_.push_back(borrowing_tile(cells, bounds, has_all_samples()));
         bounds_.add(bounds);
         flat_bounds_.push_back(bounds_at({flat, flat}));
     }

@@ -36,6 +36,8 @@ public:
 
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
+    /// Otherwise its samples are averages, and the error of the surface is not known.
+    [[nodiscard]] bool has_all_samples() const { return heightfield().reduction <= 1.0; }
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
     [[nodiscard]] const terrain::ColorRamp& ramp() const { return ramp_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }

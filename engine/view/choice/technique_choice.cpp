@@ -331,7 +331,8 @@ void TechniqueChooser::state_error_of_rays(DrawList& list) {
 void TechniqueChooser::state_error_of_rays(DrawList& list, const TerrainDraw& draw) {
     const bool has_tiles = !draw.tiles.empty();
     const bool is_proven =
-        has_tiles ? draw.tile_error.has_value() : draw.terrain->stream == nullptr;
+        has_tiles ? draw.tile_error.has_value()
+                  : draw.terrain->stream == nullptr && draw.terrain->surface->has_all_samples();
     if (!is_proven) {
         return;
     }
@@ -372,7 +373,9 @@ void TechniqueChooser::choose(DrawList& list, const std::function<void()>& drop_
     const auto tiles = static_cast<int>(list.tiles.size());
     if (decision.search) {
         split_at(list, decision.last_ring, *decision.search);
-        list.stats.kept_error = decision.kept_error; // by rays; triangles state their own
+        if (list.terrains.front().terrain->surface->has_all_samples()) {
+            list.stats.kept_error = decision.kept_error; // by rays; triangles state their own
+        }
         list.stats.lacks_triangles = decision.lacks_triangles;
         list.stats.exceeded_by_rounding = decision.exceeded_by_rounding;
     }

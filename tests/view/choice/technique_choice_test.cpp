@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/view/choice/ray_error.h"
+#include "engine/view/occlusion.h"
 #include "engine/view/select.h"
 #include "tests/render/made_scene.h"
 #include "tests/terrain/chance.h"
