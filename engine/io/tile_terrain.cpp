@@ -107,6 +107,42 @@ struct SetSamples {
     std::vector<FileError> errors;
 };
 
+std::vector<GridBlock> quarters_of(const GridBlock& block) {
+    const int half = (std::max(block.grid.cols, block.grid.rows) + 1) / 2;
+    std::vector<GridBlock> quarters = blocks_of_grid(block.grid, half);
+    for (GridBlock& quarter : quarters) {
+        quarter.col += block.col;
+        quarter.row += block.row;
+    }
+    return quarters;
+}
+
+// A file that cannot be read at one place loses only what is around that place: a block with an
+// error is read again in quarters, and so are these, unless all of them fail.
+std::vector<FileError> read_around_errors(const TileSet& tiles, const GridBlock& block,
+                                          const TileTerrainOptions& options, Samples& samples) {
+    constexpr int smallest = 8; // samples a side
+    const TileWindow window = tiles.read(block.grid, options.gaps, options.raster.stop);
+    store_block(block, window.heights, samples);
+    std::vector<FileError> errors = window.errors;
+    const bool is_divided = !errors.empty() && !options.raster.stop.stop_requested() &&
+                            std::max(block.grid.cols, block.grid.rows) > smallest;
+    std::vector<GridBlock> failed = is_divided ? quarters_of(block) : std::vector<GridBlock>();
+    const std::size_t count = failed.size();
+    std::erase_if(failed, [&](const GridBlock& quarter) {
+        const TileWindow read = tiles.read(quarter.grid, options.gaps, options.raster.stop);
+        store_block(quarter, read.heights, samples);
+        return read.errors.empty();
+    });
+    if (failed.size() < count) {
+        for (const GridBlock& quarter : failed) {
+            const auto more = read_around_errors(tiles, quarter, options, samples);
+            errors.insert(errors.end(), more.begin(), more.end());
+        }
+    }
+    return errors;
+}
+
 Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int reduction,
                             const TileTerrainOptions& options) {
     SetSamples result;
@@ -117,10 +153,9 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
     std::mutex mutex;
     const auto read_one = [&](int number) {
         const GridBlock& block = blocks[static_cast<std::size_t>(number)];
-        const TileWindow window = tiles.read(block.grid, options.gaps, options.raster.stop);
-        store_block(block, window.heights, result.samples);
+        const auto errors = read_around_errors(tiles, block, options, result.samples);
         const std::lock_guard lock(mutex);
-        result.errors.insert(result.errors.end(), window.errors.begin(), window.errors.end());
+        result.errors.insert(result.errors.end(), errors.begin(), errors.end());
     };
     if (!parallel_for(static_cast<int>(blocks.size()), read_one,
                       {.threads = options.threads,
@@ -218,6 +253,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     }
     note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
     result.heightfield = heightfield_of(std::move(read->samples), *place);
+    result.heightfield.reduction = planned->reduction;
     if (!options.raster.imagery.empty()) {
         // Images without a place are stretched over all samples, also those that the reduction
         // leaves out.
