@@ -139,6 +139,9 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
     }
     const double focal = pixels_per_radian(camera, size);
     view.scale = focal * (is_vertical ? glm::length(metre_up) : view.stretch);
+    const double to_corner = // of the picture, over the focal length
+        0.5 * glm::length(glm::dvec2(scene::whole_picture(camera, size))) / focal;
+    view.distance_per_depth = std::sqrt(1.0 + to_corner * to_corner);
     view.rounding_between = 2.0 * rounding_of_vertices(camera, size);
     view.max_rounding = left.corner_rounding;
     const glm::dmat3 lateral = is_vertical ? cross_with(glm::normalize(metre_up)) : glm::dmat3(1.0);

@@ -119,6 +119,14 @@ double rounding_of(const ErrorView& view, const Split& split, double depth) {
     return view.rounding_between * view.stretch * split.radius / std::max(depth, view.near);
 }
 
+// Bounds the screen-space error of a visible split by where the picture may show it, pixels: the
+// only bound for what reaches the eye. Preconditions: perspective; an error > 0.
+double error_in_picture(const ErrorView& view, const Split& split) {
+    const double depth = std::max(depth_of(view, split), view.near) - view.stretch * split.error;
+    return depth > 0.0 ? view.scale * split.error * view.distance_per_depth / depth
+                       : std::numeric_limits<double>::infinity();
+}
+
 // Whether the screen-space error of a visible split may exceed the bound. Precondition: its error
 // is finite.
 bool exceeds_bound(const ErrorView& view, const Split& split) {
@@ -133,8 +141,9 @@ bool exceeds_bound(const ErrorView& view, const Split& split) {
     // scaled * (lateral + reach) > max_error * depth², without a root.
     const double room = view.max_error * depth * depth - scaled * (view.stretch * split.radius);
     const glm::dvec3 lateral = view.lateral_axes * split.center + view.lateral_origin;
-    return split.error > 0.0 && (depth <= 0.0 || room < 0.0 ||
-                                 scaled * scaled * glm::dot(lateral, lateral) > room * room);
+    const bool may_exceed =
+        depth <= 0.0 || room < 0.0 || scaled * scaled * glm::dot(lateral, lateral) > room * room;
+    return split.error > 0.0 && may_exceed && !(error_in_picture(view, split) <= view.max_error);
 }
 
 // Screen-space error over max_error. Precondition: visible, with a finite error.
@@ -145,8 +154,13 @@ double relative_error(const ErrorView& view, const Split& split) {
     const double depth = depth_of(view, split);
     const double lateral = glm::length(view.lateral_axes * split.center + view.lateral_origin) +
                            view.stretch * split.radius;
-    return depth <= 0.0 ? std::numeric_limits<double>::infinity()
-                        : view.scale * split.error * lateral / (view.max_error * depth * depth);
+    if (split.error == 0.0) {
+        return 0.0;
+    }
+    const double in_picture = error_in_picture(view, split) / view.max_error;
+    return depth <= 0.0 ? in_picture
+                        : std::min(in_picture, view.scale * split.error * lateral /
+                                                   (view.max_error * depth * depth));
 }
 
 // Bounds the screen-space error in the visible part of a split, pixels. Precondition: a finite
@@ -163,9 +177,10 @@ double visible_error(const ErrorView& view, const Split& split) {
     if (split.error == 0.0) {
         return rounding;
     }
-    return depth_of_true_place > 0.0
-               ? rounding + view.scale * split.error * lateral / (depth * depth_of_true_place)
-               : std::numeric_limits<double>::infinity();
+    return depth_of_true_place > 0.0 ? rounding + std::min(error_in_picture(view, split),
+                                                           view.scale * split.error * lateral /
+                                                               (depth * depth_of_true_place))
+                                     : std::numeric_limits<double>::infinity();
 }
 
 // The vertices of a tile that are not at their own positions.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -18,7 +19,9 @@ namespace reljef::terrain {
 
 /// The screen-space error of a view, and its bound. Lengths are metres of the placement's scene
 /// frame. In perspective a displacement is at most scale · error · lateral / depth² pixels (the
-/// smallest depth and largest lateral distance of both positions), else scale · error.
+/// smallest depth and largest lateral distance of both positions), and, because what is visible is
+/// in the picture, scale · error · distance_per_depth / depth of the other position; else
+/// scale · error.
 struct ErrorView {
     double max_error = 1.0; ///< pixels, > 0
     double scale = 1.0;
@@ -26,6 +29,8 @@ struct ErrorView {
     std::array<glm::dvec4, 5> sides{}; ///< of the frustum: dot(xyz, p) + w >= 0, |xyz| = 1
     glm::dvec4 depth{0.0};             ///< dot(xyz, p) + w
     double near = 0.0;                 ///< smallest depth of what is visible; > 0 in perspective
+    /// Largest distance from the eye of what is visible, per metre of its depth; >= 1.
+    double distance_per_depth = std::numeric_limits<double>::infinity();
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
     double interpolation = 0.0;        ///< allowed to places within triangles, pixels
     bool exceeded_by_rounding = false; ///< it leaves too little of the bound: max_error is larger
