@@ -7,7 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/terrain/mesh/bisection.h"
 #include "tests/terrain/chance.h"
+#include "tests/terrain/made_heightfield.h"
 
 namespace reljef::render {
 namespace {
@@ -62,8 +64,12 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
             chance.one_in(2) ? terrain::PlacementKind::plane : terrain::PlacementKind::ellipsoid;
         const double max_error = std::exp(chance.between(-1.0, 4.0));
         const auto view = view::error_view(camera, picture, world_from_local, kind, max_error);
-        const double error = std::exp(chance.between(-7.0, 2.0));
-        const glm::dvec3 shown = chance_point(chance, 100.0);
+        // Next to the near plane, or anywhere.
+        const bool is_near = chance.one_in(2);
+        const double error = (is_near ? camera.near : 1.0) * std::exp(chance.between(-7.0, 2.0));
+        const glm::dvec3 eye(glm::inverse(world_from_local) * glm::dvec4(camera.eye, 1.0));
+        const glm::dvec3 shown =
+            is_near ? eye + chance_point(chance, 10.0 * camera.near) : chance_point(chance, 100.0);
         const glm::dvec3 way = kind == terrain::PlacementKind::plane
                                    ? glm::dvec3(0.0, 0.0, chance.one_in(2) ? 1.0 : -1.0)
                                    : glm::normalize(chance_point(chance, 1.0));
@@ -88,6 +94,33 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
 }
 
 // The bound is no more than what is seen, for a vertical error seen level in the middle.
+// Next to the eye the bound was left by up to 91,000 px, because cells were cut to a centimetre.
+TEST(ErrorView, CellsBesideTheEyeAreCutAsFarAsTheBoundAsks) {
+    const auto heightfield = test::plane_heightfield(
+        test::made_heights(33, 33,
+                           [](int col, int row) { return row < 16 ? 12.0 + 0.01 * col : 0.0; }),
+        {0.5, 0.5});
+    const auto placement =
+        terrain::Placement::create(heightfield, terrain::PlacementKind::plane, 1.0).value();
+    const terrain::Bisection bisection(heightfield, placement);
+    test::Chance chance(12);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dvec2 sample(chance.between(8.0, 24.0), chance.between(15.1, 15.9));
+        const double height = terrain::bilinear_height(heightfield.heights.view(), sample);
+        const double away = std::exp(chance.between(-12.0, -2.0));
+        scene::Camera camera;
+        camera.eye =
+            glm::dvec3(placement.world_from_sample({sample, height})) + glm::dvec3(0.0, -away, 0.0);
+        camera.target = camera.eye + chance_point(chance, 1.0);
+        camera.near = 0.05 * away;
+        const auto view =
+            view::error_view(camera, picture, glm::dmat4(1.0), terrain::PlacementKind::plane, 1.0);
+        const auto triangles =
+            terrain::triangulate(bisection, {glm::ivec2(0), glm::ivec2(32)}, view);
+        ASSERT_LE(triangles.error, view.max_error) << away << " m away";
+    }
+}
+
 TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
     scene::Camera camera;
     camera.eye = {0.0, 0.0, 0.0};

@@ -262,24 +262,14 @@ bool Bisection::is_valid(std::uint32_t seed, const ParallelOptions& parallel) co
     return valid;
 }
 
-// Squares are cut until they are a centimetre or two wide, or a thousandth of a short cell. Floats
-// from the eye hold 2^-24 of their length: of ground that is 2^20 samples high, finer triangles
-// would have lost their shape.
+// Squares are cut as far as a bound asks for. Floats from the eye hold 2^-24 of their length: of
+// ground that is 2^20 samples high, finer triangles would have lost their shape.
 int Bisection::min_size_for(const Heightfield& heightfield) const {
     constexpr double max_height = 0x1p20; // samples
-    constexpr double narrow = 0x1p-6;     // metres
-    constexpr int max_parts = steps_per_sample / 2;
     const double height = placement_->exaggeration() *
                           (static_cast<double>(heightfield.range.high) - heightfield.range.low);
     const double spacing = std::min(heightfield.spacing.x, heightfield.spacing.y);
-    if (height > max_height * spacing) {
-        return steps_per_sample / 64;
-    }
-    int parts = 2048; // of a sample
-    while (parts < max_parts && spacing > parts * narrow) {
-        parts *= 2;
-    }
-    return steps_per_sample / parts;
+    return height > max_height * spacing ? steps_per_sample / 64 : 2;
 }
 
 void Bisection::store_cell_rows(int first, int last) {
