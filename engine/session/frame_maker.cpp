@@ -227,9 +227,11 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     if (*stats_.kept_error > over.kept_error) {
         over.kept_error = *stats_.kept_error;
         over.expected = *expected;
-        over.triangles = std::max(over.triangles, triangles_needed());
         over.by_rounding = is_over_by_rounding(stats_, scene.camera(), size, expected->pixels);
     }
+    const std::size_t triangles = triangles_needed();
+    over.triangles = std::max(over.triangles, triangles);
+    over.counts_triangles = over.counts_triangles && (triangles > 0 || !stats_.lacks_triangles);
     const MemoryForBound needed = memory_for_bound(scene, size);
     if (needed.growth >= over.memory.growth) {
         over.memory = needed;
@@ -267,12 +269,13 @@ std::string DeviceFrames::remedy() const {
     const bool is_less_whole =
         memory.whole_megabytes && (!memory.is_enough || *memory.whole_megabytes < megabytes);
     megabytes = is_less_whole ? *memory.whole_megabytes : megabytes;
+    if (over_->lacks_triangles && over_->counts_triangles) {
+        const int for_triangles = megabytes_for_triangles(over_->triangles);
+        return fmt::format("--memory {:.0f} keeps it",
+                           std::max(megabytes, static_cast<double>(for_triangles)));
+    }
     if (over_->lacks_triangles) {
-        return over_->triangles > 0
-                   ? fmt::format("--memory {:.0f} keeps it",
-                                 std::max(megabytes, static_cast<double>(megabytes_for_triangles(
-                                                         over_->triangles))))
-               : megabytes > now
+        return megabytes > now
                    ? fmt::format(
                          "more than --memory {} is needed, about {:.0f} for its tiles alone", now,
                          megabytes)

@@ -75,10 +75,11 @@ public:
 private:
     // Of all frames that are over their error bound.
     struct FramesOver {
-        double kept_error = 0.0;   // the largest, pixels
-        ExpectedError expected;    // of that frame
-        MemoryForBound memory;     // the largest
-        std::size_t triangles = 0; // that keep it, if all terrains are in memory; 0: not known
+        double kept_error = 0.0;      // the largest, pixels
+        ExpectedError expected;       // of that frame
+        MemoryForBound memory;        // the largest
+        std::size_t triangles = 0;    // that keep it, if all terrains are in memory
+        bool counts_triangles = true; // false: of a frame they are not known
         bool misses_tiles = false;
         bool lacks_triangles = false;
         bool by_rounding = false; // that of the largest error

@@ -26,7 +26,7 @@ std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Tria
 }
 
 constexpr double larger_than_pictures = 1 << 17; // pixels
-constexpr int first_min_size = terrain::steps_per_sample / 64;
+constexpr int first_min_size = 4; // steps
 constexpr int max_min_size = terrain::steps_per_sample * terrain::tree_tile_cells;
 
 } // namespace
