@@ -135,6 +135,20 @@ bool ErrorIndex::has_all_parts() const {
                        [](const Level& level) { return level.unproven == 0; });
 }
 
+bool ErrorIndex::has_all_heights() const {
+    for (int level = first_stored_level; has_level(level); ++level) {
+        const glm::ivec2 tiles = level_tiles(tree_, level);
+        for (int row = 0; row < tiles.y; ++row) {
+            for (int col = 0; col < tiles.x; ++col) {
+                if (!read_block(tile_at({level, col, row}), floats_of_tile)) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
 bool ErrorIndex::has_level(int level) const {
     return level >= 0 && level <= tree_.root().level;
 }

@@ -116,6 +116,8 @@ private:
     [[nodiscard]] bool has_begun();
     /// Of a complete index: whether it has its size, and all proofs are good.
     [[nodiscard]] bool has_all_parts() const;
+    /// Whether all stored heights are good. Reads them.
+    [[nodiscard]] bool has_all_heights() const;
     /// Empties a damaged file, and one of another state of the source.
     Result<void> begin();
     /// False if another process has the lock.

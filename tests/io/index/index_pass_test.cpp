@@ -331,6 +331,23 @@ TEST_F(IndexPass, AnIndexThatWasCutIsMadeAnew) {
     expect_complete(terrain);
 }
 
+// All proofs are good: 'index' said so, and left the damage.
+TEST_F(IndexPass, AnIndexWithDamagedHeightsIsMadeAnew) {
+    const IndexSource terrain = source();
+    ASSERT_TRUE(make_index(terrain, {}));
+    const auto bytes_of_index = [&] {
+        std::ifstream file(terrain.file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const std::string made = bytes_of_index();
+    std::fstream(terrain.file, std::ios::in | std::ios::out | std::ios::binary)
+        .seekp(static_cast<std::streamoff>(made.size() - 1000))
+        .write("damage", 6);
+    ASSERT_NE(bytes_of_index(), made);
+    ASSERT_TRUE(make_index(terrain, {}));
+    EXPECT_EQ(bytes_of_index(), made);
+}
+
 TEST_F(IndexPass, OfAFileIsTheSameHoweverItsPathIsWritten) {
     const IndexSource by_name = source();
     const fs::path folder = raster().parent_path();
