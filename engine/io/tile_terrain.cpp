@@ -118,30 +118,56 @@ std::vector<GridBlock> quarters_of(const GridBlock& block) {
 }
 
 // A file that cannot be read at one place loses only what is around that place: a block with an
-// error is read again in quarters, and so are these, unless all of them fail.
-std::vector<FileError> read_around_errors(const TileSet& tiles, const GridBlock& block,
-                                          const TileTerrainOptions& options, Samples& samples) {
-    constexpr int smallest = 8; // samples a side
-    const TileWindow window = tiles.read(block.grid, options.gaps, options.raster.stop);
-    store_block(block, window.heights, samples);
-    std::vector<FileError> errors = window.errors;
-    const bool is_divided = !errors.empty() && !options.raster.stop.stop_requested() &&
-                            std::max(block.grid.cols, block.grid.rows) > smallest;
-    std::vector<GridBlock> failed = is_divided ? quarters_of(block) : std::vector<GridBlock>();
-    const std::size_t count = failed.size();
-    std::erase_if(failed, [&](const GridBlock& quarter) {
-        const TileWindow read = tiles.read(quarter.grid, options.gaps, options.raster.stop);
-        store_block(quarter, read.heights, samples);
-        return read.errors.empty();
-    });
-    if (failed.size() < count) {
-        for (const GridBlock& quarter : failed) {
-            const auto more = read_around_errors(tiles, quarter, options, samples);
-            errors.insert(errors.end(), more.begin(), more.end());
-        }
+// error is read again in quarters, and so are these.
+class BlockReader {
+public:
+    BlockReader(const TileSet& tiles, const TileTerrainOptions& options, Samples& samples)
+        : tiles_(tiles), options_(options), samples_(samples) {}
+
+    [[nodiscard]] std::vector<FileError> read(const GridBlock& block) const {
+        std::vector<FileError> errors = read_once(block);
+        return is_worth_quarters(block, errors, 0) ? read_quarters(block, 0) : std::move(errors);
     }
-    return errors;
-}
+
+private:
+    [[nodiscard]] std::vector<FileError> read_once(const GridBlock& block) const {
+        TileWindow window = tiles_.read(block.grid, options_.gaps, options_.raster.stop);
+        store_block(block, window.heights, samples_);
+        return std::move(window.errors);
+    }
+
+    // `vain`: how often in turn no quarter could be read.
+    [[nodiscard]] bool is_worth_quarters(const GridBlock& block,
+                                         const std::vector<FileError>& errors, int vain) const {
+        constexpr int smallest = 8; // samples a side
+        constexpr int max_vain = 3; // then it is the file that cannot be read
+        return !errors.empty() && vain < max_vain && !options_.raster.stop.stop_requested() &&
+               std::max(block.grid.cols, block.grid.rows) > smallest;
+    }
+
+    [[nodiscard]] std::vector<FileError> read_quarters(const GridBlock& block, int vain) const {
+        const std::vector<GridBlock> quarters = quarters_of(block);
+        std::vector<std::vector<FileError>> found;
+        std::transform(quarters.begin(), quarters.end(), std::back_inserter(found),
+                       [&](const GridBlock& quarter) { return read_once(quarter); });
+        const bool is_vain = std::none_of(found.begin(), found.end(),
+                                          [](const auto& errors) { return errors.empty(); });
+        const int vain_below = is_vain ? vain + 1 : 0;
+        std::vector<FileError> all;
+        for (std::size_t i = 0; i < quarters.size(); ++i) {
+            if (is_worth_quarters(quarters[i], found[i], vain_below)) {
+                found[i] = read_quarters(quarters[i], vain_below);
+            }
+            all.insert(all.end(), found[i].begin(), found[i].end());
+        }
+        keep_each_once(all);
+        return all;
+    }
+
+    const TileSet& tiles_;
+    const TileTerrainOptions& options_;
+    Samples& samples_;
+};
 
 Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int reduction,
                             const TileTerrainOptions& options) {
@@ -150,10 +176,11 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
     result.samples.void_mask = Grid<std::uint8_t>(grid.cols, grid.rows);
     const std::vector<GridBlock> blocks =
         blocks_of_grid(grid, reduction > 1 ? reduced_block : read_block);
+    const BlockReader reader(tiles, options, result.samples);
     std::mutex mutex;
     const auto read_one = [&](int number) {
         const GridBlock& block = blocks[static_cast<std::size_t>(number)];
-        const auto errors = read_around_errors(tiles, block, options, result.samples);
+        const auto errors = reader.read(block);
         const std::lock_guard lock(mutex);
         result.errors.insert(result.errors.end(), errors.begin(), errors.end());
     };

@@ -213,11 +213,11 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
         return;
     }
     names_bound_ = expected->is_named;
+    megabytes_for_all_samples_ = megabytes_for_all_samples(scene);
     if (stats_.choice && stats_.choice->typical) {
         min_share_ = std::min(min_share_.value_or(1.0), stats_.choice->typical->share);
     } else {
         max_unproven_ = std::max(max_unproven_, stats_.tiles_unproven);
-        megabytes_for_all_samples_ = megabytes_for_all_samples(scene);
     }
     if (stats_.kept_error.value_or(0.0) <= expected->pixels) {
         return;
@@ -229,10 +229,10 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
         over.expected = *expected;
         over.by_rounding = is_over_by_rounding(stats_, scene.camera(), size, expected->pixels);
     }
-    const std::size_t triangles = triangles_needed();
-    over.triangles = std::max(over.triangles, triangles);
-    over.counts_triangles = over.counts_triangles && (triangles > 0 || !stats_.lacks_triangles);
     const MemoryForBound needed = memory_for_bound(scene, size);
+    const std::size_t triangles = over.counts_triangles ? triangles_needed() : 0;
+    over.triangles = std::max(over.triangles, triangles);
+    over.counts_triangles = triangles > 0 || (over.counts_triangles && needed.growth > 1.0);
     if (needed.growth >= over.memory.growth) {
         over.memory = needed;
     }
@@ -321,7 +321,7 @@ std::vector<std::string> DeviceFrames::error_notes() const {
                         "--memory {} holds all triangles",
                         max_of_fewer_vertices_, megabytes_for_vertices_));
     }
-    if (max_unproven_ > 0) {
+    if (max_unproven_ > 0 || megabytes_for_all_samples_) {
         notes.push_back(unproven_note());
     }
     if (min_share_) {

@@ -79,7 +79,7 @@ private:
         ExpectedError expected;       // of that frame
         MemoryForBound memory;        // the largest
         std::size_t triangles = 0;    // that keep it, if all terrains are in memory
-        bool counts_triangles = true; // false: of a frame they are not known
+        bool counts_triangles = true; // false: of a frame they are not known, or not enough
         bool misses_tiles = false;
         bool lacks_triangles = false;
         bool by_rounding = false; // that of the largest error

@@ -357,8 +357,9 @@ std::optional<int> megabytes_for_all_samples(const scene::Scene& scene) {
             return;
         }
         const terrain::Heightfield& read = terrain->surface->heightfield();
-        const double samples =
-            static_cast<double>(read.heights.size()) * read.reduction * read.reduction;
+        // Rows and columns that fill no average are left out.
+        const double samples = (read.heights.cols() + 1.0) * (read.heights.rows() + 1.0) *
+                               read.reduction * read.reduction;
         largest = std::max(largest, static_cast<double>(io::bytes_per_sample) * samples);
     });
     return largest > 0.0 ? std::optional(clamped_int(std::ceil(largest / (1U << 20U)), 1, 1 << 30))

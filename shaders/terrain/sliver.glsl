@@ -37,7 +37,7 @@ float true_height = 0.0;         // metres
 vec2 corner_place = vec2(0.0);   // of a corner, samples from the tile's first
 vec2 from_corner = vec2(0.0);    // samples
 vec2 tile_place = vec2(0.0);     // samples from the tile's first
-// Changes along and across the triangle; at most all of it.
+// Changes per pixel, along and across the triangle.
 mat2 place_per_pixel = mat2(0.0);
 mat2x3 local_per_pixel = mat2x3(0.0);
 
@@ -93,8 +93,9 @@ void set_between(Corner a, Corner b, Corner c) {
     float pixels_long = sqrt(length_squared) / clip.w;
     float pixels_wide = abs(cross_product(edge, c.off - a.off)) / (clip.w * clip.w) / pixels_long;
     float foot = dot(c.off - a.off, edge) / length_squared; // of c on the edge
-    float share_along = 1.0 / max(pixels_long, 1.0);
-    float share_across = 1.0 / max(pixels_wide, 1.0);
+    const float narrowest = 1.0 / 64.0; // pixels: below, floats do not tell the width
+    float share_along = 1.0 / max(pixels_long, narrowest);
+    float share_across = 1.0 / max(pixels_wide, narrowest);
     vec3 edge_from_eye = b.from_eye - a.from_eye;
     place_per_pixel = mat2(to_b * share_along, (to_c - foot * to_b) * share_across);
     local_per_pixel = mat2x3(edge_from_eye * share_along,

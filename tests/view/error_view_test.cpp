@@ -93,7 +93,6 @@ TEST(ErrorView, WhatIsLeftUnsplitIsSeenWithinTheErrorEverywhereOnThePicture) {
     EXPECT_GT(refused, 5000);
 }
 
-// The bound is no more than what is seen, for a vertical error seen level in the middle.
 // Next to the eye the bound was left by up to 91,000 px, because cells were cut to a centimetre.
 TEST(ErrorView, CellsBesideTheEyeAreCutAsFarAsTheBoundAsks) {
     const auto heightfield = test::plane_heightfield(
@@ -121,6 +120,7 @@ TEST(ErrorView, CellsBesideTheEyeAreCutAsFarAsTheBoundAsks) {
     }
 }
 
+// The bound is no more than what is seen, for a vertical error seen level in the middle.
 TEST(ErrorView, IsTightInTheMiddleOfALevelView) {
     scene::Camera camera;
     camera.eye = {0.0, 0.0, 0.0};

@@ -233,7 +233,8 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
     if (!stands_in && (seen.has_tiles || node.surface->has_all_samples())) {
         const view::PictureRounding::Found rounding = rounding_of(list, seen);
-        const double of_rays = rounding.error + (curve != nullptr ? curve->error() : 0.0);
+        const double stretch = max_stretch(glm::dmat3(seen.world_from_local));
+        const double of_rays = rounding.error + (curve != nullptr ? stretch * curve->error() : 0.0);
         stats.kept_error = kept_error(list, of_rays);
         stats.exceeded_by_rounding =
             rounding.is_of_view && 2.0 * of_rays > stats.kept_error.value_or(0.0);

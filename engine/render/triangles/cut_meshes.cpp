@@ -57,7 +57,7 @@ void note_errors(const DrawnGroup& drawn) {
 std::vector<OutdatedTile> outdated_cuts(const DrawnGroup& drawn, terrain::TriangleBudget& budget) {
     std::vector<OutdatedTile> outdated;
     for (const view::TileDraw* const draw : drawn.draws) {
-        TileTriangles& tile = drawn.triangles_of(*draw);
+        ResidentTriangles& tile = drawn.triangles_of(*draw);
         if (tile.version == drawn.group.version && tile.error == draw->error &&
             tile.triangle_error == draw->triangle_error &&
             tile.coarsening == drawn.group.coarsening) {

@@ -19,19 +19,19 @@ double tile_error(const view::TileDraw& draw, const MeshGroup& group) {
 
 } // namespace
 
-bool TileTriangles::is_held_elsewhere() const {
+bool ResidentTriangles::is_held_elsewhere() const {
     return owner.use_count() > (bisection != nullptr ? 1 : 0);
 }
 
 const terrain::Bisection&
-TileTriangles::own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile) {
+ResidentTriangles::own_bisection(const std::shared_ptr<const scene::TerrainTile>& tile) {
     if (bisection == nullptr) {
         bisection = std::make_unique<const TileBisection>(tile);
     }
     return bisection->bisection;
 }
 
-void MeshGroup::replace_meshes(TileTriangles& tile, std::vector<TileMesh> meshes) {
+void MeshGroup::replace_meshes(ResidentTriangles& tile, std::vector<TileMesh> meshes) {
     std::move(tile.meshes.end() - static_cast<std::ptrdiff_t>(tile.seam_count), tile.meshes.end(),
               std::back_inserter(meshes));
     tile.meshes = std::move(meshes);

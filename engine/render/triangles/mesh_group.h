@@ -26,7 +26,7 @@ struct Seam {
 };
 
 /// A tile's triangles in GPU memory, and what they were made for.
-struct TileTriangles {
+struct ResidentTriangles {
     std::weak_ptr<const scene::TerrainTile> owner;
     std::uint64_t drawn = 0;      ///< last frame
     std::vector<TileMesh> meshes; ///< of the tile, then of its seams
@@ -67,7 +67,7 @@ struct SeenPicture {
 struct MeshGroup {
     std::weak_ptr<const void> owner;
     std::uint64_t kept_frames = 0; ///< of unused tiles
-    std::map<terrain::TreeTile, TileTriangles> tiles;
+    std::map<terrain::TreeTile, ResidentTriangles> tiles;
     std::uint64_t last_shape = 0;
     view::Coarseness coarseness;
     std::uint64_t version = 0; ///< of the coarseness, from 1
@@ -77,7 +77,7 @@ struct MeshGroup {
     view::Coarsening coarsening;
 
     /// Keeps the seams.
-    void replace_meshes(TileTriangles& tile, std::vector<TileMesh> meshes);
+    void replace_meshes(ResidentTriangles& tile, std::vector<TileMesh> meshes);
 };
 
 /// A group in a frame.
@@ -86,7 +86,7 @@ struct DrawnGroup {
     const view::DrawList& list;
     std::vector<const view::TileDraw*> draws;
 
-    [[nodiscard]] TileTriangles& triangles_of(const view::TileDraw& draw) const {
+    [[nodiscard]] ResidentTriangles& triangles_of(const view::TileDraw& draw) const {
         return group.tiles.at(draw.tile->id);
     }
 };
@@ -94,7 +94,7 @@ struct DrawnGroup {
 /// A tile that needs other triangles, seams or slivers.
 struct OutdatedTile {
     const view::TileDraw* draw = nullptr;
-    TileTriangles* triangles = nullptr;
+    ResidentTriangles* triangles = nullptr;
 };
 
 /// Whether seams join the tile with its neighbours. Tiles in memory have one border with them; flat

@@ -10,7 +10,7 @@ namespace {
 
 struct UnseamedTile {
     const view::TileDraw* draw = nullptr;
-    TileTriangles* triangles = nullptr;
+    ResidentTriangles* triangles = nullptr;
     std::vector<Seam> seams;
 };
 
@@ -24,7 +24,7 @@ std::vector<UnseamedTile> unseamed(const DrawnGroup& drawn) {
     const view::DrawnTiles beside(drawn.draws.front()->terrain->stream->tree(), tiles);
     std::vector<UnseamedTile> changed;
     for (const view::TileDraw* const draw : drawn.draws) {
-        TileTriangles& tile = drawn.triangles_of(*draw);
+        ResidentTriangles& tile = drawn.triangles_of(*draw);
         std::vector<Seam> seams;
         for (const view::OpenSide& open : beside.open_sides(draw->tile->id)) {
             Seam& seam = seams.emplace_back(Seam{open, 0, {}});
@@ -55,7 +55,7 @@ std::vector<view::SeamPart> seam_parts(const MeshGroup& group, const UnseamedTil
 }
 
 Result<void> keep(UnseamedTile& made, std::vector<view::SeamPart> parts, view::FrameStats& stats) {
-    TileTriangles& tile = *made.triangles;
+    ResidentTriangles& tile = *made.triangles;
     tile.meshes.resize(tile.meshes.size() - tile.seam_count);
     tile.seam_count = 0;
     for (const view::SeamPart& part : parts) {

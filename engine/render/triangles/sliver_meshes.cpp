@@ -8,7 +8,7 @@ namespace reljef::render {
 namespace {
 
 // In the order of the tile's meshes.
-std::vector<view::SliverView::Triangles> triangles_of(const TileTriangles& tile) {
+std::vector<view::SliverView::Triangles> parts_of(const ResidentTriangles& tile) {
     std::vector<view::SliverView::Triangles> parts;
     for (std::size_t i = 0; i < tile.last.parts.size(); ++i) {
         const terrain::Triangulation& part = tile.last.parts[i];
@@ -33,7 +33,7 @@ void forget_slivers_of_others(MeshGroup& group, const SeenPicture& picture) {
 std::vector<OutdatedTile> tiles_of_unknown_slivers(const DrawnGroup& drawn) {
     std::vector<OutdatedTile> tiles;
     for (const view::TileDraw* const draw : drawn.draws) {
-        TileTriangles& tile = drawn.triangles_of(*draw);
+        ResidentTriangles& tile = drawn.triangles_of(*draw);
         if (tile.slivers_version != drawn.group.version) {
             tiles.push_back({draw, &tile});
         }
@@ -41,9 +41,9 @@ std::vector<OutdatedTile> tiles_of_unknown_slivers(const DrawnGroup& drawn) {
     return tiles;
 }
 
-Result<void> keep(TileTriangles& tile, std::vector<view::Slivers> slivers,
+Result<void> keep(ResidentTriangles& tile, std::vector<view::Slivers> slivers,
                   view::FrameStats& stats) {
-    const auto parts = triangles_of(tile);
+    const auto parts = parts_of(tile);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         auto done = set_slivers(tile.meshes[i], parts[i], std::move(slivers[i]), stats);
         if (!done) {
@@ -69,12 +69,12 @@ Result<void> sliver_meshes(const DrawnGroup& drawn, Bisections& bisections,
         const auto at = static_cast<std::size_t>(i);
         const auto& [draw, tile] = tiles[at];
         const view::SliverView view(drawn.list, *draw, cut_options(group, tiles[at], shared));
-        for (const auto& part : triangles_of(*tile)) {
+        for (const auto& part : parts_of(*tile)) {
             slivers[at].push_back(view.slivers(part));
         }
     });
     for (std::size_t i = 0; i < tiles.size(); ++i) {
-        TileTriangles& tile = *tiles[i].triangles;
+        ResidentTriangles& tile = *tiles[i].triangles;
         if (auto done = keep(tile, std::move(slivers[i]), stats); !done) {
             return done;
         }

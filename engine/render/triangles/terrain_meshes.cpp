@@ -57,8 +57,8 @@ MeshGroup& TerrainMeshes::group_of(const view::TileDraw& draw) {
     return group;
 }
 
-TileTriangles& TerrainMeshes::triangles_of(MeshGroup& group, const view::TileDraw& draw) const {
-    TileTriangles& tile = group.tiles[draw.tile->id];
+ResidentTriangles& TerrainMeshes::entry_of(MeshGroup& group, const view::TileDraw& draw) const {
+    ResidentTriangles& tile = group.tiles[draw.tile->id];
     if (tile.owner.lock() != draw.tile) {
         tile = {};
         tile.owner = draw.tile;
@@ -74,7 +74,7 @@ std::vector<DrawnGroup> TerrainMeshes::drawn_groups(const view::DrawList& list) 
     drawn_.reserve(list.tiles.size());
     for (const view::TileDraw& draw : list.tiles) {
         MeshGroup& group = group_of(draw);
-        drawn_.push_back(&triangles_of(group, draw));
+        drawn_.push_back(&entry_of(group, draw));
         auto found = std::find_if(groups.begin(), groups.end(),
                                   [&](const DrawnGroup& drawn) { return &drawn.group == &group; });
         if (found == groups.end()) {
@@ -133,7 +133,7 @@ Result<void> TerrainMeshes::prepare(const DrawnGroup& drawn, view::FrameStats& s
 Result<void> TerrainMeshes::upload_whole(const DrawnGroup& drawn, view::FrameStats& stats) {
     std::vector<OutdatedTile> outdated;
     for (const view::TileDraw* const draw : drawn.draws) {
-        TileTriangles& tile = drawn.triangles_of(*draw);
+        ResidentTriangles& tile = drawn.triangles_of(*draw);
         if (!tile.meshes.empty()) {
             ++stats.skipped.uploads_unchanged;
         } else {

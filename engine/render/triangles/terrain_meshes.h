@@ -39,7 +39,7 @@ private:
                            std::optional<scene::TechniqueParameters>>;
     static Key key_of(const view::TileDraw& draw);
     MeshGroup& group_of(const view::TileDraw& draw);
-    TileTriangles& triangles_of(MeshGroup& group, const view::TileDraw& draw) const;
+    ResidentTriangles& entry_of(MeshGroup& group, const view::TileDraw& draw) const;
     std::vector<DrawnGroup> drawn_groups(const view::DrawList& list);
     void forget_unused();
 
@@ -52,7 +52,7 @@ private:
     std::map<Key, MeshGroup> groups_;
     Bisections bisections_;
     GridUploader grids_;
-    std::vector<const TileTriangles*> drawn_; // as in the prepared list
+    std::vector<const ResidentTriangles*> drawn_; // as in the prepared list
 };
 
 } // namespace reljef::render

@@ -120,7 +120,9 @@ double rounding_of(const ErrorView& view, const Split& split, double depth) {
 }
 
 // Bounds the screen-space error of a visible split by where the picture may show it, pixels: the
-// only bound for what reaches the eye. Preconditions: perspective; an error > 0.
+// only bound for what reaches the eye. For a place p that is shown and a displacement d, the error
+// is the focal length times |p x d| / (depths of both places), and |p| is at most
+// distance_per_depth times its depth. Preconditions: perspective; an error > 0.
 double error_in_picture(const ErrorView& view, const Split& split) {
     const double depth = std::max(depth_of(view, split), view.near) - view.stretch * split.error;
     return depth > 0.0 ? view.scale * split.error * view.distance_per_depth / depth

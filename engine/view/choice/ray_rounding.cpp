@@ -268,8 +268,9 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
     const Frustum frustum =
         Frustum(scene::clip_from_world(list.camera, list.size)).in_local(draw.world_from_local);
     RayRounding rounding(list.camera, list.size, terrain.surface->bounds(), eye, floats);
-    rounding.stretch(max_stretch(glm::dmat3(draw.world_from_local)),
-                     max_stretch(glm::dmat3(local_from_world)));
+    const double world_metres = max_stretch(glm::dmat3(draw.world_from_local)); // a local one
+    const double local_metres = max_stretch(glm::dmat3(local_from_world));
+    rounding.stretch(world_metres, local_metres);
     const bool counts_slopes = floats == RayFloats::opengl ||
                                terrain.surface->placement().kind() == terrain::PlacementKind::plane;
     Found found;
@@ -283,14 +284,15 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
             part = looked_at(part, terrain, *tile, {eye, frustum});
             error = rounding.at(part);
         }
-        if (error > found.error) {
-            found = {error, 2.0 * rounding.from_afar(part.slopes.steepness) > error};
+        if (!(error <= found.error)) {
+            found = {std::isnan(error) ? std::numeric_limits<double>::infinity() : error,
+                     2.0 * rounding.from_afar(part.slopes.steepness) > error};
         }
     }
     if (floats == RayFloats::opengl && draw.course) {
         const double pixel = metres_a_pixel(list.camera, list.size).y; // radians
-        found.error =
-            more_on_ellipsoid * found.error + draw.course->error / pixel + max_chord_error;
+        found.error = more_on_ellipsoid * found.error +
+                      world_metres * (local_metres * draw.course->error / pixel + max_chord_error);
     }
     return found;
 }

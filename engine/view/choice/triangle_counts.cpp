@@ -1,6 +1,7 @@
 #include "engine/view/choice/triangle_counts.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -108,6 +109,7 @@ std::size_t triangles_for_bound(const DrawList& list, std::size_t max) {
         }
     }
     terrain::TriangleBudget budget(max);
+    std::atomic<bool> are_enough = true;
     parallel_for(static_cast<int>(list.tiles.size()), [&](int i) {
         const TileDraw& draw = list.tiles[static_cast<std::size_t>(i)];
         const terrain::Bisection& bisection =
@@ -115,10 +117,13 @@ std::size_t triangles_for_bound(const DrawList& list, std::size_t max) {
         const auto& bound = std::get<terrain::ErrorView>(*list.terrains[draw.node].coarseness);
         CutOptions options;
         options.triangle_error = draw.triangle_error;
-        terrain::triangulate(bisection, surface_of(draw).samples, triangle_view(bound, options),
-                             &budget);
+        const terrain::ErrorView view = triangle_view(bound, options);
+        const auto cut = terrain::triangulate(bisection, surface_of(draw).samples, view, &budget);
+        if (cut.error > view.max_error || view.exceeded_by_rounding) {
+            are_enough = false;
+        }
     });
-    return budget.is_exceeded() ? 0 : budget.count();
+    return budget.is_exceeded() || !are_enough ? 0 : budget.count();
 }
 
 } // namespace reljef::view

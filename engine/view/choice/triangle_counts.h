@@ -42,7 +42,8 @@ private:
 };
 
 /// How many triangles keep the error bounds of a list's tiles, by cutting all of them; 0 if there
-/// are more than `max`, or a tile is one of a stream or has no bound.
+/// are more than `max`, if no number of them keeps a bound, or if a tile is one of a stream or has
+/// none.
 std::size_t triangles_for_bound(const DrawList& list, std::size_t max);
 
 } // namespace reljef::view

@@ -26,7 +26,7 @@ std::vector<std::vector<GridVertex>> vertices_of(const std::vector<terrain::Tria
 }
 
 constexpr double larger_than_pictures = 1 << 17; // pixels
-constexpr int first_min_size = 4; // steps
+constexpr int first_min_size = 4;                // steps
 constexpr int max_min_size = terrain::steps_per_sample * terrain::tree_tile_cells;
 
 } // namespace
@@ -35,12 +35,13 @@ bool is_coarsest(const Coarsening& coarsening) {
     return coarsening.min_error > larger_than_pictures || coarsening.min_size > max_min_size;
 }
 
-// First all triangles get larger errors. That does not help where cliffs may reach the eye, because
+// First all triangles get larger errors. That helps little where cliffs may reach the eye: there
 // they are split whatever the error. Then the smallest triangles get larger.
 Coarsening coarser(const terrain::ErrorView& view, const Coarsening& coarsening) {
     constexpr double max_bounds = 16.0; // in perspective
     if (coarsening.min_size > 0) {
-        return {view.max_error, 2 * coarsening.min_size};
+        const int growth = coarsening.min_size < terrain::steps_per_sample / 64 ? 8 : 2;
+        return {view.max_error, growth * coarsening.min_size};
     }
     const double min_error = std::max(2.0 * coarsening.min_error, view.max_error);
     return view.perspective && min_error > max_bounds * view.max_error

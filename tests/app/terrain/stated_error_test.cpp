@@ -141,7 +141,7 @@ TEST_F(StatedError, BesideASteepWallHasTheReasonOfTheWall) {
                          "0.05", "--exaggeration", "100", "--eye=9.7023,-1.0392,77.416",
                          "--look=0.76958,1.2349,53.494"});
     EXPECT_THAT(drawn.err, HasSubstr("pixels are off by more than the picture's size"));
-    EXPECT_THAT(drawn.err, HasSubstr("the eye is too near to the ground"));
+    EXPECT_THAT(drawn.err, HasSubstr("more than --memory 512 is needed"));
 }
 
 // It was counted when the terrain was opened, and again when its tiles were read; then the exact
