@@ -83,6 +83,11 @@ Result<scene::Camera> geodetic_camera(const scene::TerrainSurface& surface,
                                       const GeodeticView& view) {
     const terrain::Placement& placement = surface.placement();
     const auto eye = placement.world_from_geodetic({view.latitude, view.longitude, view.height});
+    if (!eye && surface.heightfield().georeference) {
+        return Error{fmt::format("--camera: {},{} found, which is too far away for {} on a plane; "
+                                 "a nearer place was expected, or --placement ellipsoid",
+                                 view.latitude, view.longitude, surface.terrain().name)};
+    }
     if (!eye) {
         return Error{
             fmt::format("--camera: {} is not georeferenced, --eye and --look were expected",

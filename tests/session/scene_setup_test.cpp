@@ -126,6 +126,25 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
     }
 }
 
+// "is not georeferenced" was said of the terrain.
+TEST_F(GeodeticCamera, TooFarFromAPlaneIsSaidSo) {
+    folder_.write("utm.prj", utm_32_prj);
+    session::SourceOptions choice;
+    choice.terrain = folder_
+                         .write("utm.asc", "ncols 3\nnrows 3\nxllcenter 660720.751\n"
+                                           "yllcenter 6653956.720\ncellsize 0.2\n"
+                                           "5 5 5 5 5 5 5 5 5 ")
+                         .string();
+    choice.placement = terrain::PlacementKind::plane;
+    auto source = test::open_terrain(choice);
+    ASSERT_TRUE(source) << source.error().message;
+    const auto scene =
+        test::make_scene(std::move(*source), choice, view_of({-60.0, -170.0, 500.0, 0.0, 0.0}));
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("too far away for utm.asc on a plane"), std::string::npos)
+        << scene.error().message;
+}
+
 TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
     folder_.write("utm.prj", utm_32_prj);
     session::SourceOptions choice;

@@ -45,9 +45,8 @@ bool ErrorIndex::has_begun() {
 
 // A complete index with damaged parts lacks what its coarser levels were made of.
 Result<void> ErrorIndex::begin() {
-    return has_begun() && (!is_complete_ || (has_all_parts() && has_all_heights()))
-               ? Result<void>()
-               : clear();
+    return has_begun() && (!is_complete_ || (has_all_parts() && has_all_heights())) ? Result<void>()
+                                                                                    : clear();
 }
 
 // A lock is given back before the other one is taken: of all processes, the last gets it.

@@ -8,8 +8,8 @@
 #include "engine/gl/program.h"
 #include "engine/gl/state.h"
 #include "engine/render/residency/block_buffers.h"
-#include "engine/render/triangles/resident_mesh.h"
 #include "engine/render/shaders/shader_library.h"
+#include "engine/render/triangles/resident_mesh.h"
 #include "engine/view/frame_stats.h"
 
 namespace reljef::render {

@@ -10,8 +10,8 @@
 
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
-#include "engine/render/triangles/resident_mesh.h"
 #include "engine/render/residency/tile_residency.h"
+#include "engine/render/triangles/resident_mesh.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/frame_stats.h"
 

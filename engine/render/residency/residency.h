@@ -13,8 +13,8 @@
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
 #include "engine/render/residency/relief_tiles.h"
-#include "engine/render/triangles/terrain_meshes.h"
 #include "engine/render/residency/tile_maps.h"
+#include "engine/render/triangles/terrain_meshes.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/terrain_maps.h"
 
