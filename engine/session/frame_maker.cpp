@@ -232,7 +232,8 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     const MemoryForBound needed = memory_for_bound(scene, size);
     const std::size_t triangles = over.counts_triangles ? triangles_needed() : 0;
     over.triangles = std::max(over.triangles, triangles);
-    over.counts_triangles = triangles > 0 || (over.counts_triangles && needed.growth > 1.0);
+    over.counts_triangles =
+        triangles > 0 || (over.counts_triangles && !stats_.lacks_triangles && needed.growth > 1.0);
     if (needed.growth >= over.memory.growth) {
         over.memory = needed;
     }
@@ -269,10 +270,9 @@ std::string DeviceFrames::remedy() const {
     const bool is_less_whole =
         memory.whole_megabytes && (!memory.is_enough || *memory.whole_megabytes < megabytes);
     megabytes = is_less_whole ? *memory.whole_megabytes : megabytes;
-    if (over_->lacks_triangles && over_->counts_triangles) {
-        const int for_triangles = megabytes_for_triangles(over_->triangles);
-        return fmt::format("--memory {:.0f} keeps it",
-                           std::max(megabytes, static_cast<double>(for_triangles)));
+    if (over_->lacks_triangles && over_->counts_triangles && (memory.is_enough || is_less_whole)) {
+        const double for_triangles = megabytes_for_triangles(over_->triangles);
+        return fmt::format("--memory {:.0f} keeps it", std::max(megabytes, for_triangles));
     }
     if (over_->lacks_triangles) {
         return megabytes > now

@@ -45,7 +45,7 @@ struct FrameStats {
     int tiles_cut = 0;       ///< tiles with new triangles
     /// Drawn tiles whose error is an estimate, and those that an unproven search shows. Their
     /// pixels, and those of walls beside them, may be farther off than `kept_error`. Coarse tiles
-    /// with voids count.
+    /// with voids count, and all tiles of a terrain whose samples are averages.
     int tiles_unproven = 0;
     /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound, or no
     /// other tile.

@@ -23,6 +23,12 @@ const std::string wgs84_prj =
     R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
     R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
 
+const std::string utm_32_prj =
+    R"(PROJCS["UTM_32N",)" + wgs84_prj +
+    R"(,PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
+    R"(PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",9.0],)"
+    R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
+
 class GeodeticCamera : public testing::Test {
 protected:
     /// Ground 20° around (50, 10), level but for a peak in the middle.
@@ -40,6 +46,21 @@ protected:
         auto source = test::open_terrain(choice);
         EXPECT_TRUE(source) << (source ? "" : source.error().message);
         return std::move(*test::make_scene(std::move(*source), choice, view));
+    }
+    /// 3x3 samples around a place, on a plane.
+    [[nodiscard]] session::SourceOptions level_ground_in_utm(glm::dvec2 middle,
+                                                             double spacing) const {
+        const glm::dvec2 first = middle - spacing;
+        folder_.write("utm.prj", utm_32_prj);
+        session::SourceOptions choice;
+        choice.terrain = folder_
+                             .write("utm.asc", fmt::format("ncols 3\nnrows 3\nxllcenter {}\n"
+                                                           "yllcenter {}\ncellsize {}\n"
+                                                           "5 5 5 5 5 5 5 5 5 ",
+                                                           first.x, first.y, spacing))
+                             .string();
+        choice.placement = terrain::PlacementKind::plane;
+        return choice;
     }
     static session::SceneOptions view_of(const session::GeodeticView& geodetic) {
         session::SceneOptions view;
@@ -93,12 +114,6 @@ TEST_F(GeodeticCamera, OnAPlaneLooksAlongTheMapsNorth) {
     EXPECT_LT(glm::distance(scene::view_axes(camera).forward, {0.0, 1.0, 0.0}), 1e-6);
 }
 
-const std::string utm_32_prj =
-    R"(PROJCS["UTM_32N",)" + wgs84_prj +
-    R"(,PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
-    R"(PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",9.0],)"
-    R"(PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
-
 // Of UTM zone 32 away from its middle meridian; degrees by PROJ's proj_factors.
 TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
     struct Place {
@@ -106,15 +121,7 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
     };
     for (const Place& at : {Place{11.9, 661720.751, 6654956.720, 2.512012476527},
                             Place{6.2, 343853.566, 6654716.392, -2.425356101970}}) {
-        folder_.write("utm.prj", utm_32_prj);
-        session::SourceOptions choice;
-        choice.terrain = folder_
-                             .write("utm.asc", fmt::format("ncols 3\nnrows 3\nxllcenter {}\n"
-                                                           "yllcenter {}\ncellsize 1000\n"
-                                                           "5 5 5 5 5 5 5 5 5 ",
-                                                           at.easting - 1000, at.northing - 1000))
-                             .string();
-        choice.placement = terrain::PlacementKind::plane;
+        const auto choice = level_ground_in_utm({at.easting, at.northing}, 1000.0);
         auto source = test::open_terrain(choice);
         ASSERT_TRUE(source) << source.error().message;
         const auto scene = test::make_scene(std::move(*source), choice,
@@ -128,14 +135,7 @@ TEST_F(GeodeticCamera, OnAPlaneTrueNorthIsTheMeridianConvergenceOffTheGrids) {
 
 // "is not georeferenced" was said of the terrain.
 TEST_F(GeodeticCamera, TooFarFromAPlaneIsSaidSo) {
-    folder_.write("utm.prj", utm_32_prj);
-    session::SourceOptions choice;
-    choice.terrain = folder_
-                         .write("utm.asc", "ncols 3\nnrows 3\nxllcenter 660720.751\n"
-                                           "yllcenter 6653956.720\ncellsize 0.2\n"
-                                           "5 5 5 5 5 5 5 5 5 ")
-                         .string();
-    choice.placement = terrain::PlacementKind::plane;
+    const auto choice = level_ground_in_utm({661720.751, 6654956.720}, 0.2);
     auto source = test::open_terrain(choice);
     ASSERT_TRUE(source) << source.error().message;
     const auto scene =
@@ -146,13 +146,7 @@ TEST_F(GeodeticCamera, TooFarFromAPlaneIsSaidSo) {
 }
 
 TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
-    folder_.write("utm.prj", utm_32_prj);
-    session::SourceOptions choice;
-    choice.terrain = folder_
-                         .write("utm.asc", "ncols 3\nnrows 3\nxllcenter 660720.751\n"
-                                           "yllcenter 6653956.720\ncellsize 1000\n"
-                                           "5 5 5 5 5 5 5 5 5 ")
-                         .string();
+    auto choice = level_ground_in_utm({661720.751, 6654956.720}, 1000.0);
     const geo::UniversalTime time{2026, 6, 21, 9.0};
     const auto sun = geo::sun_position(time, 60.0, 11.9);
     for (const auto& [placement, convergence] :

@@ -123,6 +123,18 @@ TEST_F(StatedError, IsKeptWithTheStatedMemoryAndNotWithATenthLess) {
     }
 }
 
+// The memory for the tiles was said to keep the bound, though triangles lacked, too.
+TEST_F(StatedError, WhereAStreamLacksTrianglesNoMemoryIsPromised) {
+    RELJEF_RELEASE_ONLY("reads a city");
+    write_city(folder_.path() / "city.tif");
+    const auto drawn =
+        render("city.tif", {"--technique", "polygons:error=0.02", "--context", "osmesa", "--memory",
+                            "2", "--placement", "plane", "--eye=0,0,30", "--look=40,30,5"});
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_THAT(drawn.err, HasSubstr("for its tiles alone"));
+    EXPECT_THAT(drawn.err, testing::Not(HasSubstr("keeps it")));
+}
+
 TEST_F(StatedError, OfAViewWithoutTerrainIsThatOfNoPixel) {
     folder_.write("a.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n"
                            "1 2 3\n4 5 6\n7 8 9\n");
