@@ -172,7 +172,8 @@ Result<void> print_points(const HeightChoice& choice, const session::HeightSourc
 }
 
 Result<void> print_heights(const HeightChoice& choice, const cli::Interrupt& interrupt) {
-    const auto source = session::open_heights(choice.terrain, interrupt.token());
+    const auto source =
+        session::open_heights(choice.terrain, session::HeightUse::at_places, interrupt.token());
     if (!source) {
         return source.error();
     }

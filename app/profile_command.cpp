@@ -50,7 +50,8 @@ std::string summary_text(const terrain::ProfileSummary& found) {
 
 Result<void> print_profile(const ProfileChoice& choice, const cli::Interrupt& interrupt) {
     cli::ConsoleLog log(choice.terrain.quiet);
-    const auto source = session::open_heights(choice.terrain, interrupt.token());
+    const auto source =
+        session::open_heights(choice.terrain, session::HeightUse::at_places, interrupt.token());
     if (!source) {
         return source.error();
     }

@@ -129,13 +129,15 @@ Result<ReplacedFile> as_indexed(Dataset opened, const IndexedFile& indexed, cons
                                 const std::string& name) {
     const RasterPlace before{{indexed.cols, indexed.rows}, indexed.crs_from_pixel, crs};
     const auto now = place_of_raster(*opened, name);
-    if (now && is_same(*now, before)) {
+    const bool is_same_plane = crs == plane_metres && opened->GetRasterXSize() == indexed.cols &&
+                               opened->GetRasterYSize() == indexed.rows;
+    if (is_same_plane || (now && is_same(*now, before))) {
         return ReplacedFile{std::move(opened), {}};
     }
     const std::string found = fmt::format("{}: was replaced while it was open, by {}×{} samples",
                                           name, opened->GetRasterXSize(), opened->GetRasterYSize());
     Dataset at_samples;
-    if (now && covers(*now, before) && is_north_up(before.crs_from_pixel) &&
+    if (now && crs != plane_metres && covers(*now, before) && is_north_up(before.crs_from_pixel) &&
         kind_of_values(*opened) == ValueKind::plain) {
         at_samples = at_indexed_samples(std::move(opened), before);
     }

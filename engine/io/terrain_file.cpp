@@ -36,26 +36,6 @@ Result<void> check_options(const RasterOptions& options, const std::string& name
     return {};
 }
 
-// Spacing for samples without one: 1 m, or if the relief would exceed half the width, the spacing
-// that makes it a tenth of the width, rounded to two digits.
-double assumed_spacing(const terrain::Heightfield& heightfield, glm::dvec2 step,
-                       std::vector<std::string>& notes) {
-    const double relief = heightfield.range.high - heightfield.range.low;
-    const double width = std::max((heightfield.heights.cols() - 1) * std::abs(step.x),
-                                  (heightfield.heights.rows() - 1) * std::abs(step.y));
-    if (relief <= 0.5 * width) {
-        notes.emplace_back("no coordinate system: 1 m spacing assumed");
-        return 1.0;
-    }
-    const double exact = 10.0 * relief / width;
-    const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
-    const double spacing = digit * std::round(exact / digit);
-    notes.push_back(fmt::format("no coordinate system: {:.6g} m spacing assumed, which makes the "
-                                "relief of {:.6g} m a tenth of the width",
-                                spacing, relief));
-    return spacing;
-}
-
 Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
                                      const std::string& name, const RasterOptions& options,
                                      const GdalMessages& messages,
@@ -112,11 +92,7 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     if (!samples) {
         return samples.error();
     }
-    terrain.heightfield = heightfield_of(std::move(*samples), *place);
-    if (place->spacing_assumed) {
-        terrain.heightfield.spacing *=
-            assumed_spacing(terrain.heightfield, place->grid.step, terrain.notes);
-    }
+    terrain.heightfield = heightfield_of(std::move(*samples), *place, terrain.notes);
     if (!options.imagery.empty()) {
         reading.progress = part(options.progress, 0.5, 1.0);
         auto color = read_imagery(dataset, *place, reading, terrain.notes, terrain.errors);

@@ -115,6 +115,24 @@ bool fits(glm::dvec2 spacing) {
     return low >= terrain::min_spacing && high <= terrain::max_spacing && high <= max_aspect * low;
 }
 
+Error wrong_spacing(glm::dvec2 spacing, const std::string& name) {
+    return {fmt::format("{}: its samples are {:.4g} × {:.4g} m apart, {} to {} m, one at "
+                        "most {} times the other, were expected",
+                        name, spacing.x, spacing.y, terrain::min_spacing, terrain::max_spacing,
+                        max_aspect)};
+}
+
+Result<PlacedFile> placed_on_plane(int number, const IndexedFile& indexed,
+                                   const std::string& name) {
+    PlacedFile file;
+    file.file = number;
+    file.crs = plane_metres;
+    file.crs_from_sample = at_sample_centres(indexed.crs_from_pixel);
+    file.spacing = {std::abs(file.crs_from_sample.x_col), std::abs(file.crs_from_sample.y_row)};
+    return fits(file.spacing) ? Result<PlacedFile>(std::move(file))
+                              : wrong_spacing(file.spacing, name);
+}
+
 Result<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedCrs& crs,
                           const std::string& name) {
     const Error nowhere{fmt::format("{}: lies where its coordinate system has no position on "
@@ -147,10 +165,7 @@ Result<PlacedFile> placed(int number, const IndexedFile& indexed, const IndexedC
     file.spacing = {metres_between(points[4], points[outline_points]),
                     metres_between(points[4], points[outline_points + 1])};
     if (!fits(file.spacing)) {
-        return Error{fmt::format("{}: its samples are {:.4g} × {:.4g} m apart, {} to {} m, one at "
-                                 "most {} times the other, were expected",
-                                 name, file.spacing.x, file.spacing.y, terrain::min_spacing,
-                                 terrain::max_spacing, max_aspect)};
+        return wrong_spacing(file.spacing, name);
     }
     return file;
 }
@@ -239,8 +254,10 @@ std::vector<PlacedFile> place_files(const FileIndex& index, const std::filesyste
         if (file.use != FileKind::heights) {
             continue;
         }
-        auto place = placed(static_cast<int>(i), file, systems[static_cast<std::size_t>(file.crs)],
-                            path.string());
+        const IndexedCrs& crs = systems[static_cast<std::size_t>(file.crs)];
+        const int number = static_cast<int>(i);
+        auto place = crs.wkt == plane_metres ? placed_on_plane(number, file, path.string())
+                                             : placed(number, file, crs, path.string());
         if (place) {
             files.push_back(std::move(*place));
         } else {

@@ -142,6 +142,9 @@ void note_pictures(const FileIndex& index, std::vector<std::string>& notes) {
 }
 
 Error nothing_usable(const std::string& name, std::span<const FileError> errors) {
+    if (errors.size() == 1 && errors.front().file == name) {
+        return {errors.front().message};
+    }
     return {errors.empty()
                 ? fmt::format("{}: holds no raster of heights, at least one was expected", name)
                 : fmt::format("{}: none of its {} rasters can be used, at least one was expected; "
@@ -241,6 +244,8 @@ Result<TileSet> TileSet::open(const std::filesystem::path& path, const TileSetOp
         std::all_of(state->layers.begin(), state->layers.end(),
                     [&](const TileLayer& layer) { return layer.crs == state->layers.front().crs; });
     state->crs = shared ? state->layers.front().crs : wgs84_degrees;
+    state->is_on_plane = state->crs == plane_metres;
+    state->is_spacing_assumed = index->is_spacing_assumed;
     state->crs_name = names_of(crs_from_text(state->crs)).name;
     state->grid = shared ? grid_in_shared_crs(state->layers, state->notes)
                          : grid_in_degrees(state->layers, state->box, state->notes);
@@ -274,6 +279,9 @@ const std::string& TileSet::crs() const {
 }
 const TileSetOptions& TileSet::options() const {
     return state_->options;
+}
+bool TileSet::is_on_plane() const {
+    return state_->is_on_plane;
 }
 TileGrid TileSet::grid() const {
     return state_->grid;

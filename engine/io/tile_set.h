@@ -27,6 +27,10 @@ struct TileSetOptions {
     unsigned threads = 0;               ///< 0: one per hardware thread
     double height_scale = 1.0;          ///< as in RasterOptions
     double height_offset = 0.0;
+    /// Whether a single raster may have no place on Earth. Then it lies in metres on a plane, and
+    /// only grids of its own samples can be read.
+    bool allows_planes = false;
+    std::optional<double> spacing; ///< of such a raster, as in RasterOptions
     std::stop_token stop;
 };
 
@@ -39,7 +43,7 @@ struct TileFile {
     std::string type;   ///< "Int16", …
     std::string crs_name;
     glm::dvec2 spacing{1.0}; ///< metres
-    double south = 0.0;      ///< degrees; outermost samples
+    double south = 0.0;      ///< degrees; outermost samples; all 0 on a plane
     double west = 0.0;
     double north = 0.0;
     double east = 0.0; ///< above 180 across the antimeridian
@@ -90,6 +94,7 @@ public:
     /// The files' common CRS, else WGS 84 in degrees.
     [[nodiscard]] const std::string& crs_name() const;
     [[nodiscard]] const std::string& crs() const; ///< WKT
+    [[nodiscard]] bool is_on_plane() const;       ///< has no place on Earth
     /// The whole set at its finest spacing, aligned to the finest file in a common CRS.
     [[nodiscard]] TileGrid grid() const;
     /// The part of `grid` in an area; fails if it is empty.

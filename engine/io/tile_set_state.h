@@ -28,6 +28,8 @@ struct TileSet::State {
     std::string vertical_datum; ///< empty if the files differ
     TileGrid grid;
     DegreeBox box{}; ///< around all tiles
+    bool is_on_plane = false;
+    bool is_spacing_assumed = false; ///< see Place
     mutable WholeRasters whole;
     mutable DatasetPool pool{
         [this](const std::filesystem::path& path, const GdalMessages& messages) {
@@ -46,7 +48,8 @@ struct TileSet::State {
 
 /// What index_files() needs of them.
 inline FileIndexOptions files_of(const TileSetOptions& options) {
-    return {options.cache_folder, options.threads, options.stop};
+    return {options.cache_folder, options.threads, options.allows_planes, options.spacing,
+            options.stop};
 }
 
 /// Sorts by file and keeps the first error of each file.

@@ -102,6 +102,22 @@ void store_block(const GridBlock& block, const Grid<double>& heights, Samples& s
     }
 }
 
+/// The place of a grid's samples. Adds notes.
+Result<Place> place_of_samples(const TileSet& tiles, const TileGrid& grid,
+                               const TileTerrainOptions& options, std::vector<std::string>& notes) {
+    const SampleGrid samples{glm::dvec2(0.5), glm::dvec2(1.0), grid.cols, grid.rows};
+    if (tiles.is_on_plane()) {
+        Place place;
+        place.grid = samples;
+        place.spacing = glm::abs(grid.step);
+        return place;
+    }
+    RasterOptions placing = options.raster;
+    placing.spacing = {};
+    const Dataset frame = frame_of(grid, tiles.crs());
+    return place_of(*frame, samples, tiles.name(), placing, notes);
+}
+
 struct SetSamples {
     Samples samples;
     std::vector<FileError> errors;
@@ -208,9 +224,10 @@ std::string text_of_tiles(const TileSet& tiles, const std::optional<geo::Geodeti
 
 void note_grid(const TileSet& tiles, const TileGrid& grid, int reduction, glm::dvec2 spacing,
                const std::optional<geo::GeodeticArea>& area, std::vector<std::string>& notes) {
-    notes.push_back(fmt::format("{} in {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
-                                text_of_tiles(tiles, area), tiles.crs_name(), grid.cols, grid.rows,
-                                spacing.x, spacing.y,
+    const std::string where = tiles.is_on_plane() ? "on a plane" : "in " + tiles.crs_name();
+    notes.push_back(fmt::format("{} {}, {}×{} samples {:.4g} × {:.4g} m apart{}",
+                                text_of_tiles(tiles, area), where, grid.cols, grid.rows, spacing.x,
+                                spacing.y,
                                 reduction == 1 ? ""
                                                : fmt::format(": 1/{} of the finest tiles', to fit "
                                                              "the memory",
@@ -251,15 +268,11 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     result.name = name_of(name());
     result.notes.assign(notes().begin(), notes().end());
     const GdalMessages messages;
-    const Dataset frame = frame_of(samples_grid, state_->crs);
-    RasterOptions placing = options.raster;
-    placing.spacing = {};
-    auto place =
-        place_of(*frame, {glm::dvec2(0.5), glm::dvec2(1.0), samples_grid.cols, samples_grid.rows},
-                 name(), placing, result.notes);
+    auto place = place_of_samples(*this, samples_grid, options, result.notes);
     if (!place) {
         return place.error();
     }
+    place->spacing_assumed = state_->is_spacing_assumed;
     if (place->georeference) {
         place->georeference->vertical_datum = state_->vertical_datum;
     }
@@ -278,9 +291,10 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  is_web_tiles(name()) ? "; no tile was found at its level" : "",
                                  result.errors.empty() ? "" : "; " + result.errors.front())};
     }
-    note_grid(*this, samples_grid, planned->reduction, place->spacing, options.area, result.notes);
-    result.heightfield = heightfield_of(std::move(read->samples), *place);
+    result.heightfield = heightfield_of(std::move(read->samples), *place, result.notes);
     result.heightfield.reduction = planned->reduction;
+    note_grid(*this, samples_grid, planned->reduction, result.heightfield.spacing, options.area,
+              result.notes);
     if (!options.raster.imagery.empty()) {
         // Images without a place are stretched over all samples, also those that the reduction
         // leaves out.

@@ -118,7 +118,7 @@ Result<IndexedTerrain> index_terrain(const SourceOptions& options, Log& log,
         return needs_none(
             fmt::format("{} is generated in memory and needs no index", description->name));
     }
-    auto source = open_heights(options, stop);
+    auto source = open_heights(options, HeightUse::of_samples, stop);
     if (!source) {
         return source.error();
     }

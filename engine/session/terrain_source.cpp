@@ -69,6 +69,8 @@ Result<io::TileSet> open_set(const SourceOptions& choice, const io::SceneDescrip
     options.threads = static_cast<unsigned>(choice.threads);
     options.height_scale = description.height_scale;
     options.height_offset = description.height_offset;
+    options.allows_planes = true;
+    options.spacing = description.spacing;
     options.stop = stop;
     return io::TileSet::open(description.heights, options);
 }
@@ -165,15 +167,12 @@ Result<TerrainSource> read_tiles(SetToRead set, const SourceOptions& choice,
 Result<SetToRead> set_to_stream(const SourceOptions& choice,
                                 const io::SceneDescription& description,
                                 const std::stop_token& stop) {
-    if (!choice.streamed || !description.generator.empty() || description.spacing) {
+    if (!choice.streamed || !description.generator.empty()) {
         return SetToRead();
     }
     const auto info = io::read_raster_info(description.heights);
     if (!info) {
         return info.error();
-    }
-    if (info->crs_name.empty()) {
-        return SetToRead();
     }
     const bool fits = static_cast<double>(info->cols) * info->rows * io::bytes_per_sample <=
                       static_cast<double>(choice.memory_megabytes) * (1U << 20U);
@@ -387,16 +386,18 @@ Result<TerrainSource> open_terrain(io::SceneDescription description, const Sourc
     return source;
 }
 
-Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_token& stop) {
+Result<HeightSource> open_heights(const SourceOptions& choice, HeightUse use,
+                                  const std::stop_token& stop) {
     const io::ReadScope scope(stop);
     const auto description = describe(choice.terrain);
     if (!description) {
         return description.error();
     }
+    const Error nowhere{fmt::format("{}: has no coordinate system, one was expected for places on "
+                                    "Earth",
+                                    description->name)};
     if (!description->generator.empty()) {
-        return Error{fmt::format("{}: has no coordinate system, one was expected for places on "
-                                 "Earth",
-                                 description->name)};
+        return nowhere;
     }
     if (!has_many_files(*description)) {
         if (auto fits = check_folder_options(choice, *description); !fits) {
@@ -408,6 +409,9 @@ Result<HeightSource> open_heights(const SourceOptions& choice, const std::stop_t
     auto tiles = open_set(choice, *description, stop);
     if (!tiles) {
         return tiles.error();
+    }
+    if (use == HeightUse::at_places && tiles->is_on_plane()) {
+        return nowhere;
     }
     return HeightSource{std::move(*tiles), choice.area ? choice.area : description->area,
                         tile_options(choice, *description, stop)};

@@ -66,9 +66,13 @@ struct HeightSource {
     io::TileTerrainOptions plan_options;   ///< for tiles.plan()
 };
 
-/// Indexes the files and reads no heights. Fails for generated terrains, and as open_terrain. Later
-/// reads take at most half of the memory.
-Result<HeightSource> open_heights(const SourceOptions& options, const std::stop_token& stop);
+enum class HeightUse { at_places, of_samples };
+
+/// Indexes the files and reads no heights. Fails for generated terrains, for heights at places of a
+/// terrain that has none on Earth, and as open_terrain. Later reads take at most half of the
+/// memory.
+Result<HeightSource> open_heights(const SourceOptions& options, HeightUse use,
+                                  const std::stop_token& stop);
 
 /// The final error (exit status 1) if files of the terrain could not be read.
 Result<void> report_errors(const std::string& terrain, std::size_t errors);

@@ -27,9 +27,6 @@ constexpr double errors_hidden = 16.0;
 // Pixels, if the technique has no bound.
 constexpr double default_error = scene::max_expected_error_of_rays;
 
-// The tiles' share of the error bound; the rest is for fewer triangles.
-constexpr double share_of_tiles = 0.5;
-
 // Error bounds by which an occluder may appear lower, and a hidden tile higher, than the heights of
 // its tile: fewer triangles take up to a whole bound of each. The heights of unproven tiles that
 // were not read are estimates.

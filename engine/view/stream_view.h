@@ -22,6 +22,12 @@ inline constexpr double samples_apart_in_errors = 4.0;
 /// error of that tile.
 inline constexpr double min_share_of_triangles = 1.0 / 16.0;
 
+/// The tiles' share of the error bound where memory suffices; the rest is for fewer triangles.
+inline constexpr double share_of_tiles = 0.5;
+
+/// The largest relative error of a tile in a frame that keeps the error bound.
+inline constexpr double max_kept_relative_error = (1.0 - min_share_of_triangles) / share_of_tiles;
+
 /// A loaded tile, or the summary of one that is not.
 struct KnownTile {
     scene::TileSummary summary;

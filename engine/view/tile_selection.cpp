@@ -218,10 +218,11 @@ struct Refinement {
     std::size_t tiles = 1;       // seen
 };
 
-// Refines the largest errors first, as long as all tiles fit that `nearer` does not hide. Depends
-// on known tiles only, loaded or not.
+// Refines the largest relative errors over `allowed` first, as long as all tiles fit that `nearer`
+// does not hide. Depends on known tiles only, loaded or not.
 Refinement refine_within(std::size_t max_tiles, const StreamView& view,
-                         const scene::TerrainTile& root, NearerGround& nearer) {
+                         const scene::TerrainTile& root, NearerGround& nearer,
+                         double allowed = 1.0) {
     struct Open {
         double relative_error;
         scene::TileSummary tile;
@@ -234,7 +235,7 @@ Refinement refine_within(std::size_t max_tiles, const StreamView& view,
     Refinement made;
     std::priority_queue<Open> open;
     open.push({view.relative_error_of(root, std::numeric_limits<double>::infinity()), root});
-    while (!open.empty() && open.top().relative_error > 1.0) {
+    while (!open.empty() && open.top().relative_error > allowed) {
         const Open next = open.top();
         open.pop();
         std::size_t seen = 0;
@@ -455,7 +456,8 @@ std::size_t tiles_for_bound(const scene::TerrainNode& terrain, const scene::Came
         nearer.add(drawn.tile);
     }
     nearer.add_under_eye(finest_under_eye(selection, view));
-    const std::size_t tiles = refine_within(max_tiles_counted, view, *root, nearer).tiles;
+    const std::size_t tiles =
+        refine_within(max_tiles_counted, view, *root, nearer, max_kept_relative_error).tiles;
     return std::min(max_tiles_counted, tiles + tiles / 8);
 }
 

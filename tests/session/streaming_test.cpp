@@ -94,7 +94,8 @@ TEST_F(Streaming, a_flight_goes_on_where_a_tile_is_cut_and_says_so_once) {
 TEST_F(Streaming, a_file_that_cannot_be_read_tile_by_tile_says_why) {
     const test::EnvironmentVariable cache("XDG_CACHE_HOME", path("cache"));
     folder_.write("tiles/nowhere.vrt", R"(<VRTDataset rasterXSize="1201" rasterYSize="1201">
-  <SRS>EPSG:4326</SRS>
+  <SRS>EPSG:32632</SRS>
+  <GeoTransform>5e8, 90.0, 0.0, 5e6, 0.0, -90.0</GeoTransform>
   <VRTRasterBand dataType="Int16" band="1">
     <SimpleSource><SourceFilename relativeToVRT="1">N44E006.hgt</SourceFilename></SimpleSource>
   </VRTRasterBand>
@@ -106,7 +107,33 @@ TEST_F(Streaming, a_file_that_cannot_be_read_tile_by_tile_says_why) {
     EXPECT_FALSE(source->stream);
     EXPECT_THAT(source->terrain.notes,
                 ::testing::Contains(HasSubstr("not read tile by tile: " + choice.terrain +
-                                              ": names no place on Earth")));
+                                              ": lies at coordinate")));
+}
+
+// A picture of heights, as from other programs: with an index, all of its tiles are proven.
+TEST_F(Streaming, heights_without_a_place_are_streamed_and_proven_as_those_with_one) {
+    std::string heights = "ncols 1000\nnrows 1000\nxllcorner 0\nyllcorner 0\ncellsize 2\n";
+    for (int row = 0; row < 1000; ++row) {
+        for (int col = 0; col < 1000; ++col) {
+            heights +=
+                fmt::format("{:.0f} ", 300.0 + 250.0 * std::sin(0.05 * col) * std::cos(0.04 * row) +
+                                           (col % 7) * (row % 5));
+        }
+    }
+    folder_.write("heights.asc", heights);
+    const auto with_memory = [&](const std::string& megabytes) {
+        return test::reljef({"render", path("heights.asc"), "-o", path("a.png"), "--size",
+                             "160x120", "--max-error", "1", "--memory", megabytes, "--stats",
+                             "--eye=0,-700,900", "--look=0,0,0"},
+                            options_);
+    };
+    const auto streamed = with_memory("32");
+    ASSERT_EQ(streamed.exit_code, 0) << streamed.err;
+    EXPECT_THAT(streamed.out, HasSubstr("streamed: "));
+    EXPECT_THAT(streamed.out, HasSubstr("unproven: 0, kept error: "));
+    const auto in_memory = with_memory("256");
+    EXPECT_THAT(in_memory.out, Not(HasSubstr("streamed: ")));
+    EXPECT_THAT(in_memory.out, HasSubstr("unproven: 0, kept error: "));
 }
 
 // Cells that share no edge with the one that is gone are drawn as finely as without it.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/scene/streaming/tile_stream.h"
+#include "engine/view/stream_view.h"
 #include "tests/render/made_scene.h"
 #include "tests/terrain/made_tiles.h"
 
@@ -175,8 +176,8 @@ TEST(TileSelection, WithTheTilesForTheBoundKeepsIt) {
         World enough({.tiles = tiles});
         enough.look(view);
         const TileSelection kept = enough.load();
-        EXPECT_LE(largest_error(kept), 0.5); // the tiles' share of the bound
-        EXPECT_LE(tiles, kept.drawn.size() * 3 / 2);
+        EXPECT_LE(largest_error(kept), 1.0 - min_share_of_triangles);
+        EXPECT_LE(tiles, kept.drawn.size() * 4 / 3);
     }
 }
 

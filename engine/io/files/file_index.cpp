@@ -152,6 +152,8 @@ Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::s
 struct Described {
     IndexedFile file;
     std::string wkt;
+    std::vector<std::string> notes; ///< of place_of()
+    bool is_spacing_assumed = false;
 };
 
 Described with_error(Described described, std::string message) {
@@ -160,8 +162,37 @@ Described with_error(Described described, std::string message) {
     return described;
 }
 
+bool leads_to_earth(const OGRSpatialReference& crs) {
+    return crs.IsLocal() == 0 && CrsTransform::create(crs, crs_from_text(wgs84_degrees));
+}
+
+/// Of all samples, from the first one's corner; col runs east unless flipped, and row south.
+geo::PixelAffine affine_on_plane(const Place& place) {
+    const double x = place.flipped_cols ? -place.spacing.x : place.spacing.x;
+    const double y = place.flipped_rows ? place.spacing.y : -place.spacing.y;
+    return {0.0, x, 0.0, 0.0, 0.0, y};
+}
+
+/// Puts a raster on a plane, or returns why it cannot be put there.
+std::string set_plane(GDALDataset& dataset, const std::string& name,
+                      const std::optional<double>& spacing, Described& described) {
+    RasterOptions options;
+    options.spacing = spacing;
+    const SampleGrid all{glm::dvec2(0.5), glm::dvec2(1.0), described.file.cols,
+                         described.file.rows};
+    const auto place = place_of(dataset, all, name, options, described.notes);
+    if (!place) {
+        return place.error().message;
+    }
+    described.is_spacing_assumed = place->spacing_assumed;
+    described.file.crs_from_pixel = affine_on_plane(*place);
+    described.wkt = plane_metres;
+    return {};
+}
+
 /// Sets a tile's place, or returns why it cannot be a tile.
-std::string set_place(GDALDataset& dataset, const std::string& name, Described& described) {
+std::string set_place(GDALDataset& dataset, const std::string& name,
+                      const FileIndexOptions& options, Described& described) {
     IndexedFile& file = described.file;
     if (file.cols < 2 || file.rows < 2) {
         return fmt::format("{}: has {}×{} samples, at least 2×2 were expected", name, file.cols,
@@ -177,6 +208,9 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
     std::vector<std::string> ignored;
     const auto affine = affine_of(dataset);
     const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
+    if (options.allows_planes && (options.spacing || !crs || !leads_to_earth(*crs))) {
+        return set_plane(dataset, name, options.spacing, described);
+    }
     if (!crs || crs->IsLocal() != 0) {
         return name + ": names no place on Earth, a coordinate system and a position in it were "
                       "expected of a tile";
@@ -186,7 +220,8 @@ std::string set_place(GDALDataset& dataset, const std::string& name, Described& 
     return {};
 }
 
-Described describe_dataset(GDALDataset& dataset, const std::string& name, Described described) {
+Described describe_dataset(GDALDataset& dataset, const std::string& name,
+                           const FileIndexOptions& options, Described described) {
     IndexedFile& file = described.file;
     file.opened = true;
     GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -198,7 +233,7 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     int declares = 0;
     band.GetNoDataValue(&declares);
     file.declares_voids = declares != 0;
-    std::string error = set_place(dataset, name, described);
+    std::string error = set_place(dataset, name, options, described);
     if (kind_of_values(dataset) != ValueKind::plain) {
         file.use = FileKind::picture;
         file.error = std::move(error); // matters only if used as heights
@@ -208,17 +243,18 @@ Described describe_dataset(GDALDataset& dataset, const std::string& name, Descri
     return error.empty() ? described : with_error(std::move(described), std::move(error));
 }
 
-Described describe_file(const fs::path& path, IndexedFile file) {
-    Described described{std::move(file), {}};
+Described describe_file(const fs::path& path, const FileIndexOptions& options, IndexedFile file) {
+    Described described{std::move(file), {}, {}};
     const GdalMessages messages;
     const auto dataset = open_raster(path, messages);
-    return dataset ? describe_dataset(**dataset, path.string(), std::move(described))
+    return dataset ? describe_dataset(**dataset, path.string(), options, std::move(described))
                    : with_error(std::move(described), dataset.error().message);
 }
 
 std::optional<Described> describe_if_raster(const fs::path& path, IndexedFile file) {
     const GdalMessages ignored_messages;
-    return may_be_raster(path) ? std::optional(describe_file(path, std::move(file))) : std::nullopt;
+    return may_be_raster(path) ? std::optional(describe_file(path, {}, std::move(file)))
+                               : std::nullopt;
 }
 
 /// Numbers the distinct WKTs.
@@ -286,7 +322,7 @@ std::optional<Described> find_unchanged(const FileIndex& index, const IndexedFil
         return std::nullopt;
     }
     const bool placed = found->use == FileKind::heights;
-    return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : ""};
+    return Described{*found, placed ? index.crs[static_cast<std::size_t>(found->crs)] : "", {}};
 }
 
 /// Whether two entries agree on what places a source file and decodes it.
@@ -378,12 +414,16 @@ Result<FileIndex> index_files(const fs::path& path, const FileIndexOptions& opti
     if (fs::is_directory(path, ignored)) {
         return index_folder(path, options, notes);
     }
-    Described only = describe_file(path, found_file(path, path.string()));
+    Described only = describe_file(path, options, found_file(path, path.string()));
     if (!only.file.error.empty()) {
         return Error{only.file.error};
     }
     only.file.use = FileKind::heights; // the luminance of a single picture
-    return numbered({std::move(only)});
+    notes.insert(notes.end(), only.notes.begin(), only.notes.end());
+    const bool is_spacing_assumed = only.is_spacing_assumed;
+    FileIndex index = numbered({std::move(only)});
+    index.is_spacing_assumed = is_spacing_assumed;
+    return index;
 }
 
 } // namespace reljef::io

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -35,8 +36,9 @@ struct IndexedFile {
 };
 
 struct FileIndex {
-    std::vector<std::string> crs;   ///< distinct WKTs
-    std::vector<IndexedFile> files; ///< sorted by path
+    std::vector<std::string> crs;    ///< distinct WKTs
+    std::vector<IndexedFile> files;  ///< sorted by path
+    bool is_spacing_assumed = false; ///< of a single raster, see Place
 
     friend bool operator==(const FileIndex&, const FileIndex&) = default;
 };
@@ -44,11 +46,14 @@ struct FileIndex {
 struct FileIndexOptions {
     std::filesystem::path cache_folder; ///< for indexes of folders; empty: no cache
     unsigned threads = 0;               ///< 0: one per hardware thread
+    bool allows_planes = false;         ///< a single raster may have no place on Earth
+    std::optional<double> spacing;      ///< of such a raster, metres; see RasterOptions
     std::stop_token stop;
 };
 
-/// Indexes all rasters below a folder, or one raster file. Uses the cache for unchanged files, if
-/// it is right for the few of them that are opened; a hash of the cache's content chooses them.
+/// Indexes all rasters below a folder, or one raster file; one without a place on Earth, if
+/// allowed, in metres on a plane, with the notes of place_of(). Uses the cache for unchanged files,
+/// if it is right for the few of them that are opened; a hash of the cache's content chooses them.
 /// Adds a note on an unusable cache. Fails if the folder cannot be read.
 Result<FileIndex> index_files(const std::filesystem::path& path, const FileIndexOptions& options,
                               std::vector<std::string>& notes);

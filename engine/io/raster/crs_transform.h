@@ -19,6 +19,9 @@ DegreeBox united(const DegreeBox& a, const DegreeBox& b);
 /// WGS 84: longitude and latitude in degrees.
 inline const std::string wgs84_degrees = "EPSG:4326";
 
+/// Metres east and north, at no place on Earth.
+inline const std::string plane_metres = R"(LOCAL_CS["plane",UNIT["metre",1]])";
+
 /// Parses WKT or "EPSG:…"; axes x east, y north.
 OGRSpatialReference crs_from_text(const std::string& text);
 std::string wkt_of(const OGRSpatialReference& crs, const char* format = "FORMAT=WKT2_2019");

@@ -45,6 +45,8 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const GdalMessages& messages, std::vector<std::string>& notes);
 
 /// Orients the samples, fills voids and closes a global raster. Moves the place's georeference.
-terrain::Heightfield heightfield_of(Samples samples, Place& place);
+/// Samples of unknown spacing are 1 m apart, times the place's; if the relief would exceed half the
+/// width, as far as makes it a tenth of the width, in two digits. Adds a note on that.
+terrain::Heightfield heightfield_of(Samples samples, Place& place, std::vector<std::string>& notes);
 
 } // namespace reljef::io

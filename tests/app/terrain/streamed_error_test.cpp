@@ -127,7 +127,7 @@ void StreamedError::expect_stated_errors(session::BackendKind context,
 
 // By triangles, and by rays on the CPU, which draw it on a plane.
 TEST_P(StreamedError, of_no_pixel_is_more_than_the_frame_states) {
-    const auto source = session::open_heights(choice_, {});
+    const auto source = session::open_heights(choice_, session::HeightUse::of_samples, {});
     ASSERT_TRUE(source) << source.error().message;
     const Grid<double> heights = source->tiles.read(source->tiles.grid(), io::Gaps::holes).heights;
     Grid<float> samples(heights.cols(), heights.rows());

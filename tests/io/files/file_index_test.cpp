@@ -71,7 +71,7 @@ protected:
 
     const test::TemporaryFolder folder_;
     const test::TemporaryFolder cache_;
-    const FileIndexOptions options_{cache_.path(), 0, {}};
+    const FileIndexOptions options_{cache_.path(), 0, false, {}, {}};
 };
 
 TEST_F(TileIndices, SeeASystemThatIsAddedBesideAFileAndTakenAway) {
