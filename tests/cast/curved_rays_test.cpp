@@ -29,7 +29,7 @@ struct EarthStage : test::EarthStage {
 
     // From now on its samples are tiles of a stream.
     void stream() {
-        test::stream_samples(*terrain->get<scene::TerrainNode>());
+        test::stream_samples(*terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
         scene::Polygons bounded;
         bounded.error = 1e-6; // all samples
         set(scene::Technique{bounded});

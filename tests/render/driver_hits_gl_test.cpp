@@ -149,7 +149,7 @@ protected:
     }
 };
 
-INSTANTIATE_TEST_SUITE_P(Sources, DriverHitsGlTest, test::all_sources(), test::name_of_source);
+INSTANTIATE_TEST_SUITE_P(Sources, DriverHitsGlTest, test::exact_sources(), test::name_of_source);
 
 TEST_P(DriverHitsGlTest, HitsLieOnTheSurfaceAndProjectBackToTheirPixel) {
     World world;

@@ -224,11 +224,11 @@ TEST(CastDriver, ChoosesFourSamples) {
     EXPECT_NE(chosen, drawn_by_rays(stage.scene));
 }
 
-class CastSources : public testing::TestWithParam<test::SampleSource> {};
+class ExactSources : public testing::TestWithParam<test::SampleSource> {};
 
-INSTANTIATE_TEST_SUITE_P(CastDriver, CastSources, test::all_sources(), test::name_of_source);
+INSTANTIATE_TEST_SUITE_P(CastDriver, ExactSources, test::exact_sources(), test::name_of_source);
 
-TEST_P(CastSources, FindsTheHitsOfTheTruth) {
+TEST_P(ExactSources, AreWhereTheTruthIs) {
     LitStage stage;
     test::give_samples(*stage.terrain->get<scene::TerrainNode>(), GetParam());
     stage.look_from(scene::Pose::overview);
@@ -238,6 +238,43 @@ TEST_P(CastSources, FindsTheHitsOfTheTruth) {
     const auto errors = stage.errors(drawn.hits, stage.truth(small_picture));
     EXPECT_EQ(errors.wrong, 0U);
     EXPECT_EQ(drawn.stats.rays, drawn.hits.size());
+}
+
+class AllSources : public CastDriverGlTest,
+                   public testing::WithParamInterface<test::SampleSource> {};
+
+INSTANTIATE_TEST_SUITE_P(CastDriver, AllSources, test::all_sources(), test::name_of_source);
+
+// By rays and by triangles, from near and from far.
+TEST_P(AllSources, AreAsNearToTheTruthAsStated) {
+    LitStage stage;
+    test::give_samples(*stage.terrain->get<scene::TerrainNode>(), GetParam());
+    scene::Polygons bounded;
+    bounded.error = 0.7;
+    Driver rays = test::must(Driver::create({.size = small_picture}));
+    session::SceneRenderer triangles = test::must(test::make_renderer(small_picture));
+    for (const scene::Pose pose : seen_poses) {
+        stage.look_from(pose);
+        const HitBuffer truth = stage.truth(small_picture);
+        for (const bool by_rays : {true, false}) {
+            SCOPED_TRACE(fmt::format("{}, {}", scene::to_string(pose), by_rays));
+            stage.use(by_rays ? scene::Technique{scene::Exact{}} : scene::Technique{bounded});
+            render::bring_tiles(stage.scene, small_picture);
+            triangles.select(stage.scene);
+            const view::DrawnHits drawn =
+                test::must(by_rays ? rays.draw_hits(view::select(stage.scene, small_picture))
+                                   : triangles.draw_selected_hits());
+            const view::FrameStats& stats = drawn.stats;
+            const auto errors = stage.errors(drawn.hits, truth);
+            ASSERT_TRUE(errors.reprojection.distribution);
+            EXPECT_EQ(errors.reprojection.unbounded, 0U);
+            EXPECT_LE(errors.reprojection.distribution->max, stats.kept_error.value_or(0.0));
+            if (GetParam() != test::SampleSource::finest_tiles) { // coarse ones have false errors
+                EXPECT_LE(stats.kept_error.value_or(9.0), by_rays ? 1.0 : 0.7);
+            }
+            EXPECT_EQ(stats.tiles_unproven, 0);
+        }
+    }
 }
 
 TEST(CastDriver, KeepsErrorBoundsWithoutError) {

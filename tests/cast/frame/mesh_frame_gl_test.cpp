@@ -283,7 +283,7 @@ TEST(MeshFrame, GroundHidesTheSunFromMeshes) {
 TEST(MeshFrame, ShadowsOverAStreamAreThoseInMemory) {
     ObjectStage stage(true, hills_and_wall());
     ObjectStage streamed(true, hills_and_wall());
-    test::stream_samples(*streamed.terrain->get<scene::TerrainNode>());
+    test::stream_samples(*streamed.terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
     stage.look_near();
     streamed.look_near();
     render::bring_tiles(streamed.scene, mesh_picture);

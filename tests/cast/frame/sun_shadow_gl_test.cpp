@@ -156,7 +156,7 @@ TEST(SunShadow, IsThatOfStreamedTiles) {
     SunnyStage stage;
     SunnyStage streamed;
     auto& node = *streamed.terrain->get<scene::TerrainNode>();
-    test::stream_samples(node);
+    test::stream_samples(node, test::SeenLevels::finest);
     const auto place = [&](double col, double row, double height) {
         return stage.surface().placement().world_from_sample({col, row, height});
     };

@@ -202,7 +202,7 @@ TEST_P(ContactsOfSources, OnTheEllipsoidNothingIsInTheGround) {
 TEST(GroundContact, OfAStreamIsThatOfItsLoadedTiles) {
     TerrainNode node =
         node_of(test::plane_heightfield(test::random_heights(257, 257, 0.0F, 50.0F, 7)));
-    test::stream_samples(node);
+    test::stream_samples(node, test::SeenLevels::finest);
     const auto lift = [&] { return ground_contact(node, {0.5, 0.5}, {-60.3, 60.2, 0.0})->lift; };
     const double of_overview = lift();
     node.stream->request(std::array{node.stream->tree().root()});

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/scene/graph/terrain_node.h"
@@ -14,9 +17,40 @@
 
 namespace reljef::test {
 
-/// From now on, a terrain's samples are tiles of a stream; those of the finest level are proven to
-/// have no error.
-inline void stream_samples(scene::TerrainNode& node) {
+/// Between a tile's vertices, which are samples: how far the tile is from the samples in its cells.
+inline terrain::TileProof proof_of_samples(const Grid<float>& samples,
+                                           const terrain::TileTree& tree, terrain::TreeTile tile) {
+    const glm::ivec2 first = tree.sample(tile, glm::ivec2(0));
+    const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
+    terrain::TileProof proof;
+    double largest = 0.0;
+    for (int row = first.y; row <= last.y; ++row) {
+        for (int col = first.x; col <= last.x; ++col) {
+            const float height = samples(col, row);
+            proof.low = std::min(proof.low, height);
+            proof.high = std::max(proof.high, height);
+            const glm::ivec2 cell = (glm::ivec2(col, row) - first) / terrain::TileTree::step(tile);
+            const glm::ivec2 low = tree.sample(tile, cell);
+            const glm::ivec2 high = tree.sample(tile, cell + 1);
+            const glm::dvec2 part =
+                glm::dvec2(col - low.x, row - low.y) / glm::dvec2(glm::max(high - low, 1));
+            const double surface =
+                glm::mix(glm::mix(samples(low.x, low.y), samples(high.x, low.y), part.x),
+                         glm::mix(samples(low.x, high.y), samples(high.x, high.y), part.x), part.y);
+            largest = std::max(largest, std::abs(surface - height));
+        }
+    }
+    constexpr double rounding = 1.0 + 0x1p-22; // to float
+    proof.error = static_cast<float>(largest * rounding);
+    return proof;
+}
+
+/// The levels of a stream's tiles that a test wants to see.
+enum class SeenLevels { all, finest };
+
+/// From now on, a terrain's samples are tiles of a stream, with the errors that they have; if only
+/// the finest level is wanted, with so large errors that no other is drawn.
+inline void stream_samples(scene::TerrainNode& node, SeenLevels levels) {
     const Grid<float>& heights = node.surface->heightfield().heights;
     const auto& georeference = node.surface->heightfield().georeference;
     const geo::GlobalWrap wrap =
@@ -32,31 +66,56 @@ inline void stream_samples(scene::TerrainNode& node) {
         content.is_proven = true;
         return content;
     };
+    const auto proofs = std::make_shared<std::map<terrain::TreeTile, terrain::TileProof>>();
+    const auto add_proof = [&](const auto& self, terrain::TreeTile tile) -> void {
+        terrain::TileProof proof = proof_of_samples(heights, tree, tile);
+        if (tile.level > 0 && levels == SeenLevels::finest) {
+            proof.error = std::max(1e3F, proof.high - proof.low); // metres
+        }
+        proofs->emplace(tile, proof);
+        for (const terrain::TreeTile child : tree.children(tile)) {
+            self(self, child);
+        }
+    };
+    add_proof(add_proof, tree.root());
     scene::TileStreamOptions options;
-    options.find_proof = [surface = node.surface](terrain::TreeTile tile) {
-        const terrain::MinMax total = surface->pyramid().total();
-        const float much = std::max(1e3F, total.high - total.low); // metres
-        return std::optional(
-            terrain::TileProof{total.low, total.high, tile.level == 0 ? 0.0F : much});
+    options.find_proof = [proofs](terrain::TreeTile tile) {
+        return std::optional(proofs->at(tile));
     };
     node.stream = std::make_shared<scene::TileStream>(
         scene::TileBuilder(node.surface, tree, 1, {}, wrap), read, options);
 }
 
-/// Where the samples of a test's terrain are. What is true of one is true of the other.
-enum class SampleSource { memory, stream };
+/// Where the samples of a test's terrain are.
+enum class SampleSource {
+    memory,
+    finest_tiles, ///< of a stream: what is true of samples in memory is true of them
+    tiles         ///< of all levels, within their errors
+};
 
 inline auto all_sources() {
-    return testing::Values(SampleSource::memory, SampleSource::stream);
+    return testing::Values(SampleSource::memory, SampleSource::finest_tiles, SampleSource::tiles);
+}
+/// Those that show all samples.
+inline auto exact_sources() {
+    return testing::Values(SampleSource::memory, SampleSource::finest_tiles);
 }
 
 inline std::string name_of_source(const testing::TestParamInfo<SampleSource>& source) {
-    return source.param == SampleSource::memory ? "InMemory" : "Streamed";
+    switch (source.param) {
+    case SampleSource::memory:
+        return "InMemory";
+    case SampleSource::finest_tiles:
+        return "FinestTiles";
+    case SampleSource::tiles:
+        break;
+    }
+    return "Tiles";
 }
 
 inline void give_samples(scene::TerrainNode& node, SampleSource source) {
-    if (source == SampleSource::stream) {
-        stream_samples(node);
+    if (source != SampleSource::memory) {
+        stream_samples(node, source == SampleSource::tiles ? SeenLevels::all : SeenLevels::finest);
     }
 }
 
