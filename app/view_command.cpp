@@ -57,7 +57,6 @@ Result<Panels> make_panels(const ViewerChoice& choice, platform::Window& window)
 }
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
-    session::limit_software_threads(choice.terrain.threads);
     platform::ContextOptions options;
     options.size = choice.view.size;
     options.title = "reljef - opening " + choice.terrain.terrain;
@@ -167,6 +166,8 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
 }
 
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
+    session::limit_software_threads(choice.terrain.threads);
+    Opening opening(choice.terrain, choice.view);
     auto window = open_window(choice);
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
@@ -183,10 +184,8 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     }
     cli::ConsoleLog console(choice.terrain.quiet);
     MessageHistory log(console);
-    session::SceneOptions options = choice.view;
-    options.rays = rays;
-    auto opened = open_in_window(**window, choice.terrain, options, renderer->max_texture_side(),
-                                 log, interrupt.token());
+    auto opened =
+        opening.finish(**window, rays, renderer->max_texture_side(), log, interrupt.token());
     if (!opened) {
         return opened.error();
     }

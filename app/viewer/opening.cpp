@@ -9,14 +9,13 @@
 
 #include <fmt/format.h>
 
-#include "app/viewer/appearance/background.h"
 #include "app/viewer/viewer.h"
 
 namespace reljef::app {
 namespace {
 
 // Between two updates of the progress.
-constexpr std::chrono::milliseconds opening_pause{20};
+constexpr std::chrono::milliseconds opening_pause{5};
 
 bool asks_to_end(const std::vector<Event>& events) {
     return std::any_of(events.begin(), events.end(), [](const Event& event) {
@@ -57,9 +56,33 @@ private:
     std::unique_ptr<session::Task> task_;
 };
 
-Result<OpenedScene> open(const session::SourceOptions& terrain, const session::SceneOptions& view,
-                         int largest_side, session::Log& log, const std::stop_token& stop) {
-    auto scene = session::open_scene(terrain, view, log, stop);
+session::SourceOptions streamed(session::SourceOptions terrain) {
+    terrain.streamed = true;
+    return terrain;
+}
+
+// The viewer makes the maps, and shows a coarser picture first.
+session::SceneOptions without_maps(session::SceneOptions view) {
+    view.prepares_maps = false;
+    return view;
+}
+
+} // namespace
+
+Opening::Opening(const session::SourceOptions& terrain, const session::SceneOptions& view)
+    : terrain_(streamed(terrain)), view_(without_maps(view)),
+      reading_([this](const std::stop_token& stop) {
+          return session::open_source(terrain_, view_, relayed_, stop);
+      }) {}
+
+Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest_side,
+                                  const std::stop_token& stop) {
+    const std::stop_callback stops_reading(stop, [this] { reading_.request_stop(); });
+    auto source = reading_.take();
+    if (!source) {
+        return source.error();
+    }
+    auto scene = session::open_scene(std::move(*source), terrain_, view, relayed_, stop);
     if (!scene) {
         return scene.error();
     }
@@ -68,27 +91,19 @@ Result<OpenedScene> open(const session::SourceOptions& terrain, const session::S
         session::light_request(opened.scene, *opened.scene.light->get<scene::Light>(),
                                first_technique(opened.scene), largest_side);
     if (light) {
-        const auto task = log.start("lighting " + light->surface->terrain().name);
+        const auto task = relayed_.start("lighting " + light->surface->terrain().name);
         opened.light = std::make_shared<const view::PreparedLight>(view::prepare_light(*light));
     }
     return opened;
 }
 
-} // namespace
-
-Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
-                                                  const session::SourceOptions& terrain,
-                                                  const session::SceneOptions& view,
-                                                  int largest_side, session::Log& log,
-                                                  const std::stop_token& stop) {
-    session::SourceOptions source = terrain;
-    source.streamed = true;
-    session::SceneOptions options = view;
-    options.prepares_maps = false; // the viewer makes them and shows a coarser picture first
-    session::RelayedLog relayed;
-    Background<OpenedScene> opening([&](const std::stop_token& stopped) {
-        return open(source, options, largest_side, relayed, stopped);
-    });
+Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, session::RayUse rays,
+                                                   int largest_side, session::Log& log,
+                                                   const std::stop_token& stop) {
+    session::SceneOptions view = view_;
+    view.rays = rays;
+    Background<OpenedScene> opening(
+        [&](const std::stop_token& stopped) { return open(view, largest_side, stopped); });
     ProgressDisplay display(window, log);
     bool is_closed = false;
     while (!opening.is_done()) {
@@ -97,10 +112,10 @@ Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
         if (is_closed || stop.stop_requested()) {
             opening.request_stop();
         }
-        relayed.relay_to(log);
-        display.show(relayed.progress());
+        relayed_.relay_to(log);
+        display.show(relayed_.progress());
     }
-    relayed.relay_to(log);
+    relayed_.relay_to(log);
     auto opened = opening.take();
     if (is_closed) {
         return std::optional<OpenedScene>();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "app/viewer/appearance/background.h"
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
 #include "engine/session/log.h"
@@ -18,13 +19,27 @@ struct OpenedScene {
     std::shared_ptr<const view::PreparedLight> light;
 };
 
-/// Opens a scene in the background while the window shows the progress. Empty if the user closes
-/// the window. Fails as open_scene() or when stopped. Does not make the maps of the technique.
-/// `largest_side`: SceneRenderer::max_texture_side().
-Result<std::optional<OpenedScene>> open_in_window(platform::Window& window,
-                                                  const session::SourceOptions& terrain,
-                                                  const session::SceneOptions& view,
-                                                  int largest_side, session::Log& log,
-                                                  const std::stop_token& stop);
+/// Reads a terrain in the background, from the construction on: its window is made meanwhile. The
+/// destructor stops and waits.
+class Opening {
+public:
+    Opening(const session::SourceOptions& terrain, const session::SceneOptions& view);
+
+    /// Opens the scene in the background while the window shows the progress. Empty if the user
+    /// closes the window. Fails as session::open_scene or when stopped. Does not make the maps of
+    /// the technique. `largest_side`: SceneRenderer::max_texture_side(). Call it once.
+    Result<std::optional<OpenedScene>> finish(platform::Window& window, session::RayUse rays,
+                                              int largest_side, session::Log& log,
+                                              const std::stop_token& stop);
+
+private:
+    Result<OpenedScene> open(const session::SceneOptions& view, int largest_side,
+                             const std::stop_token& stop);
+
+    session::SourceOptions terrain_;
+    session::SceneOptions view_;
+    session::RelayedLog relayed_;
+    Background<session::TerrainSource> reading_; // last: uses all others
+};
 
 } // namespace reljef::app

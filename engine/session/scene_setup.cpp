@@ -437,22 +437,30 @@ std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOpt
                        name, datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
-Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
-                                const SceneOptions& view, Log& log, const std::stop_token& stop) {
+Result<TerrainSource> open_source(io::SceneDescription description, const SourceOptions& terrain,
+                                  const SceneOptions& view, Log& log, const std::stop_token& stop) {
     if (auto good = check(view); !good) {
         return good.error();
     }
     auto source = open_terrain(std::move(description), streamed_for(terrain, view), log, stop);
-    if (!source) {
-        return source.error();
+    if (!source || terrain.index == IndexUse::none) {
+        return source;
     }
     const bool makes_index = terrain.index == IndexUse::made && names_error_bound(view);
-    if (terrain.index != IndexUse::none) {
-        if (auto added = add_proofs(*source, makes_index, log, stop); !added) {
-            return added.error();
-        }
-    }
-    auto scene = make_scene(std::move(*source), terrain, view, log, stop);
+    const auto added = add_proofs(*source, makes_index, log, stop);
+    return added ? std::move(source) : Result<TerrainSource>(added.error());
+}
+
+Result<TerrainSource> open_source(const SourceOptions& terrain, const SceneOptions& view, Log& log,
+                                  const std::stop_token& stop) {
+    auto description = describe(terrain.terrain);
+    return description ? open_source(std::move(*description), terrain, view, log, stop)
+                       : description.error();
+}
+
+Result<TerrainScene> open_scene(TerrainSource source, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    auto scene = make_scene(std::move(source), terrain, view, log, stop);
     if (!scene) {
         return scene;
     }
@@ -470,11 +478,16 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
     return scene;
 }
 
+Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop) {
+    auto source = open_source(std::move(description), terrain, view, log, stop);
+    return source ? open_scene(std::move(*source), terrain, view, log, stop) : source.error();
+}
+
 Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions& view, Log& log,
                                 const std::stop_token& stop) {
-    auto description = describe(terrain.terrain);
-    return description ? open_scene(std::move(*description), terrain, view, log, stop)
-                       : description.error();
+    auto source = open_source(terrain, view, log, stop);
+    return source ? open_scene(std::move(*source), terrain, view, log, stop) : source.error();
 }
 
 } // namespace reljef::session

@@ -78,4 +78,13 @@ Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOp
 Result<TerrainScene> open_scene(const SourceOptions& terrain, const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
 
+/// The first part of open_scene, for which no renderer need be known: open_terrain and add_proofs.
+Result<TerrainSource> open_source(io::SceneDescription description, const SourceOptions& terrain,
+                                  const SceneOptions& view, Log& log, const std::stop_token& stop);
+Result<TerrainSource> open_source(const SourceOptions& terrain, const SceneOptions& view, Log& log,
+                                  const std::stop_token& stop);
+/// The other part.
+Result<TerrainScene> open_scene(TerrainSource source, const SourceOptions& terrain,
+                                const SceneOptions& view, Log& log, const std::stop_token& stop);
+
 } // namespace reljef::session

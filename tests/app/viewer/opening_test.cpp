@@ -39,8 +39,9 @@ TEST(Opening, SetsNoTitleAgain) {
     session::Log silent;
     session::SourceOptions terrain;
     terrain.terrain = "natural";
+    Opening opening(terrain, session::SceneOptions{});
     const auto opened =
-        open_in_window(window, terrain, session::SceneOptions{}, 4096, silent, std::stop_token());
+        opening.finish(window, session::RayUse::none, 4096, silent, std::stop_token());
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->has_value());
     ASSERT_FALSE(window.titles.empty());
