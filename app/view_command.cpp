@@ -129,7 +129,8 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                             .open_video = open_video,
                             .start = start_options(choice),
                             .make_renderer = renderers.make,
-                            .panels = panels ? &*panels : nullptr});
+                            .panels = panels ? &*panels : nullptr,
+                            .finer = std::move(opened.finer)});
 }
 
 // Without a GPU, rays draw what they can; OpenGL draws all else in the same window.

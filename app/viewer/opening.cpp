@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/viewer.h"
+#include "engine/terrain/field/coarse_terrain.h"
 
 namespace reljef::app {
 namespace {
@@ -62,6 +63,25 @@ session::SourceOptions streamed(session::SourceOptions terrain) {
 }
 
 // The viewer makes the maps, and shows a coarser picture first.
+// Of a scene that begins with fewer samples: they take a tenth of a second.
+constexpr std::size_t first_samples = 400'000;
+
+// Whether only the finest picture shows that some samples are missing: no camera, path, or object
+// was put on the ground.
+bool can_begin_coarse(const session::TerrainSource& source, const session::SceneOptions& view) {
+    const io::SceneDescription& scene = source.description;
+    const terrain::Heightfield& field = source.terrain.heightfield;
+    const bool is_plain = scene.generator.empty() && !source.stream && !view.technique &&
+                          scene.objects.empty() && scene.footprints.empty() &&
+                          view.objects.empty() && view.footprints.empty();
+    const bool has_camera = view.eye || view.geodetic || view.pose || scene.eye;
+    const geo::GlobalWrap wrap =
+        field.georeference ? field.georeference->geodetic.rows().wrap() : geo::GlobalWrap{};
+    return is_plain && !has_camera && !wrap.around && wrap.rows() == 0 &&
+           field.heights.size() > 2 * first_samples &&
+           std::min(field.heights.cols(), field.heights.rows()) >= 2;
+}
+
 session::SceneOptions without_maps(session::SceneOptions view) {
     view.prepares_maps = false;
     return view;
@@ -82,11 +102,16 @@ Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest
     if (!source) {
         return source.error();
     }
+    std::shared_ptr<const terrain::Terrain> finer;
+    if (can_begin_coarse(*source, view)) {
+        finer = std::make_shared<const terrain::Terrain>(std::move(source->terrain));
+        source->terrain = terrain::coarse_terrain(*finer, first_samples);
+    }
     auto scene = session::open_scene(std::move(*source), terrain_, view, relayed_, stop);
     if (!scene) {
         return scene.error();
     }
-    OpenedScene opened{std::move(*scene), nullptr};
+    OpenedScene opened{std::move(*scene), nullptr, std::move(finer)};
     const auto light =
         session::light_request(opened.scene, *opened.scene.light->get<scene::Light>(),
                                first_technique(opened.scene), largest_side);

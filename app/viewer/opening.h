@@ -17,10 +17,13 @@ struct OpenedScene {
     session::TerrainScene scene;
     /// For first_technique(); null in the gallery.
     std::shared_ptr<const view::PreparedLight> light;
+    /// All samples, if the scene begins with fewer; else null.
+    std::shared_ptr<const terrain::Terrain> finer = {};
 };
 
-/// Reads a terrain in the background, from the construction on: its window is made meanwhile. The
-/// destructor stops and waits.
+/// Reads a terrain in the background, from the construction on: its window is made meanwhile. If
+/// all samples would delay the first picture, the scene begins with fewer, where nothing depends on
+/// the exact ground. The destructor stops and waits.
 class Opening {
 public:
     Opening(const session::SourceOptions& terrain, const session::SceneOptions& view);

@@ -133,6 +133,9 @@ public:
     void set_sun(const SetSun& sun);
     [[nodiscard]] const terrain::ColorRamp& ramp() const { return surface_switch_.ramp(); }
     /// See SurfaceSwitch::request(). The eye stays unless the ground rises above it.
+    void refine(std::shared_ptr<const terrain::Terrain> finer) {
+        surface_switch_.request(std::move(finer));
+    }
     void set_exaggeration(double factor) { surface_switch_.request(factor); }
     [[nodiscard]] TechniqueEditor& techniques() { return techniques_; }
     [[nodiscard]] const TechniqueEditor& techniques() const { return techniques_; }

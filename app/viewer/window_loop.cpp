@@ -46,6 +46,7 @@ public:
     Result<void> run(const std::stop_token& stop) {
         Stopwatch step;
         while (!is_over() && !stop.stop_requested()) {
+            refine_after_first_frame();
             receive(window_.wait_events(pause()));
             if (filming_.is_on()) {
                 film();
@@ -76,6 +77,12 @@ public:
     }
 
 private:
+    void refine_after_first_frame() {
+        if (drawn_ > 0 && options_.finer != nullptr) {
+            viewer_.refine(std::exchange(options_.finer, nullptr));
+        }
+    }
+
     [[nodiscard]] bool is_over() const {
         return viewer_.wants_to_close() || window_.should_close() ||
                (options_.frames > 0 && drawn_ == options_.frames);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 
@@ -12,6 +13,7 @@
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
 #include "engine/session/scene_renderer.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::app {
 
@@ -25,6 +27,8 @@ struct WindowLoopOptions {
     ComparedFrames::MakeRenderer make_renderer = {};
     /// Null: none. Outlives the loop.
     Panels* panels = nullptr;
+    /// Of the ground that is shown, for the frames after the first; null: it is as fine as it gets.
+    std::shared_ptr<const terrain::Terrain> finer = {};
 };
 
 /// Passes events to the viewer and draws its scene until the user or `stop` ends it. Fails if a

@@ -86,6 +86,14 @@ GeodeticMap GeodeticMap::closed(const GlobalWrap& wrap, int cols, int rows) cons
     return map;
 }
 
+GeodeticMap GeodeticMap::resampled(glm::dvec2 factor) const {
+    check(factor.x > 0.0 && factor.y > 0.0, "GeodeticMap::resampled needs factors > 0");
+    GeodeticMap map(*this);
+    map.first_ /= factor;
+    map.step_ /= factor;
+    return map;
+}
+
 double WrappedRows::source_row(double row) const {
     const double source = row - closing_.north_rows();
     if (closing_.north > 0.0 && source < 0.0) {

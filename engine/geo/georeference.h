@@ -95,6 +95,9 @@ public:
     /// The map of the closed raster; the source has `cols`×`rows` samples.
     [[nodiscard]] GeodeticMap closed(const GlobalWrap& wrap, int cols, int rows) const;
     [[nodiscard]] const WrappedRows& rows() const { return rows_; }
+    /// The map of samples `factor` of these apart, from the same first one. Precondition: factor >
+    /// 0; the raster is not closed.
+    [[nodiscard]] GeodeticMap resampled(glm::dvec2 factor) const;
 
     /// (latitude, longitude), degrees. Extrapolates outside the control points, but not past a
     /// pole.

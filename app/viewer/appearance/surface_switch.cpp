@@ -3,6 +3,20 @@
 #include "engine/session/scene_daylight.h"
 
 namespace reljef::app {
+namespace {
+
+Result<scene::TerrainSurface> surface_of(const scene::TerrainSurface& shown,
+                                         std::shared_ptr<const terrain::Terrain> finer,
+                                         double factor, const terrain::ColorRamp& ramp) {
+    if (finer != nullptr) {
+        return scene::TerrainSurface::create(std::move(finer),
+                                             {shown.placement().kind(), factor, ramp});
+    }
+    auto made = shown.exaggerated(factor);
+    return made && ramp != shown.ramp() ? made->colored(ramp) : std::move(made);
+}
+
+} // namespace
 
 std::string SurfaceSwitch::obstacle() const {
     if (!scene_.models.empty()) {
@@ -42,20 +56,22 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                           const scene::Light& light) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
     session::MissingMaps missing;
-    missing.bisection = node.bisection != nullptr; // its errors depend on the heights
+    const session::MissingMaps of_technique = session::missing_maps(scene_, technique);
+    // Its errors depend on the heights, and cones on the samples.
+    missing.bisection = node.bisection != nullptr || of_technique.bisection;
+    missing.cones = shape.finer != nullptr && (node.cones != nullptr || of_technique.cones);
     missing.light = session::light_request(scene_, light, technique, largest_side_);
     preparing_ = std::move(shape);
     work_.emplace([surface = node.surface, missing = std::move(missing), shape = preparing_,
-                   threads = threads_, this](const std::stop_token& stop) -> Result<Exaggerated> {
-        auto exaggerated = surface->exaggerated(shape.factor);
-        if (exaggerated && shape.ramp != surface->ramp()) {
-            exaggerated = exaggerated->colored(shape.ramp);
+                   threads = threads_, this](const std::stop_token& stop) -> Result<Made> {
+        auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
+        auto changed = surface_of(*surface, shape.finer, shape.factor, shape.ramp);
+        task = nullptr;
+        if (!changed) {
+            return changed.error();
         }
-        if (!exaggerated) {
-            return exaggerated.error();
-        }
-        Exaggerated made;
-        made.surface = std::make_shared<const scene::TerrainSurface>(std::move(*exaggerated));
+        Made made;
+        made.surface = std::make_shared<const scene::TerrainSurface>(std::move(*changed));
         session::MissingMaps requested = missing;
         requested.surface = made.surface;
         if (requested.light) {
@@ -80,6 +96,7 @@ bool SurfaceSwitch::show() {
     auto& node = *scene_.terrain->get<scene::TerrainNode>();
     node.surface = made->surface;
     node.bisection = nullptr;
+    node.cones = preparing_.finer != nullptr ? nullptr : node.cones;
     session::apply_maps(scene_, made->maps);
     session::stand_on(*node.surface, scene_.objects);
     session::stand_on(*node.surface, scene_.buildings);

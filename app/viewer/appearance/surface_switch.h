@@ -13,8 +13,8 @@
 
 namespace reljef::app {
 
-/// Changes the vertical exaggeration of a terrain in memory, and its colours by height. The surface
-/// and its maps are made in the background; the scene changes when they are ready.
+/// Changes the vertical exaggeration of a terrain in memory, its colours by height, and how fine it
+/// is. The surface and its maps are made in the background; the scene changes when they are ready.
 class SurfaceSwitch {
 public:
     /// The scene outlives this. `largest_side`: as in AppearanceSwitchOptions.
@@ -25,9 +25,13 @@ public:
     [[nodiscard]] std::string obstacle() const;
     /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
     /// is in (0, terrain::max_exaggeration].
-    void request(double factor) { next_ = Shape{factor, ramp()}; }
+    void request(double factor) { next_ = Shape{factor, ramp(), finer()}; }
     /// The same with other colours.
-    void request(terrain::ColorRamp ramp) { next_ = Shape{factor(), std::move(ramp)}; }
+    void request(terrain::ColorRamp ramp) { next_ = Shape{factor(), std::move(ramp), finer()}; }
+    /// The same with finer samples of the same ground.
+    void request(std::shared_ptr<const terrain::Terrain> finer) {
+        next_ = Shape{factor(), ramp(), std::move(finer)};
+    }
     /// Begins and ends the work, for a scene with this technique and light. Returns whether the
     /// scene changed.
     bool update(const scene::Technique& technique, const scene::Light& light);
@@ -49,14 +53,19 @@ private:
     struct Shape {
         double factor = 1.0;
         terrain::ColorRamp ramp;
+        std::shared_ptr<const terrain::Terrain> finer; // null: the terrain that is shown
     };
-    struct Exaggerated {
+    struct Made {
         std::shared_ptr<const scene::TerrainSurface> surface;
         session::PreparedMaps maps;
     };
     void begin(Shape shape, const scene::Technique& technique, const scene::Light& light);
     [[nodiscard]] const scene::TerrainSurface& surface() const {
         return *scene_.terrain->get<scene::TerrainNode>()->surface;
+    }
+    // The finer terrain of the last request that is not shown yet.
+    [[nodiscard]] std::shared_ptr<const terrain::Terrain> finer() const {
+        return next_ ? next_->finer : work_ ? preparing_.finer : nullptr;
     }
     bool show();
 
@@ -67,7 +76,7 @@ private:
     Shape preparing_; // of the work
     session::RelayedLog log_;
     std::shared_ptr<const view::PreparedLight> light_;
-    std::optional<Background<Exaggerated>> work_; // uses the log
+    std::optional<Background<Made>> work_; // uses the log
 };
 
 } // namespace reljef::app

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/temporary_folder.h"
+
 namespace reljef::app {
 namespace {
 
@@ -46,6 +48,41 @@ TEST(Opening, SetsNoTitleAgain) {
     ASSERT_TRUE(opened->has_value());
     ASSERT_FALSE(window.titles.empty());
     EXPECT_EQ(std::adjacent_find(window.titles.begin(), window.titles.end()), window.titles.end());
+}
+
+// A large file is shown at once, but for a camera that stands on its ground.
+TEST(Opening, BeginsWithFewerSamplesOfALargeFile) {
+    const test::TemporaryFolder folder;
+    constexpr int side = 1201;
+    std::string heights(std::size_t{2} * side * side, '\0');
+    for (std::size_t i = 0; i < heights.size(); i += 2) {
+        heights[i] = static_cast<char>(i / side / 300); // big-endian
+    }
+    folder.write("N45E006.hgt", heights);
+    session::SourceOptions terrain;
+    terrain.terrain = (folder.path() / "N45E006.hgt").string();
+    session::SceneOptions over_a_place;
+    over_a_place.geodetic = session::GeodeticView{45.5, 6.5, 3000.0, 0.0, -10.0};
+    session::Log silent;
+    for (const session::SceneOptions& view : {session::SceneOptions{}, over_a_place}) {
+        TitledWindow window;
+        Opening opening(terrain, view);
+        const auto opened =
+            opening.finish(window, session::RayUse::none, 4096, silent, std::stop_token());
+        ASSERT_TRUE(opened && opened->has_value());
+        const auto& shown = *(*opened)->scene.terrain->get<scene::TerrainNode>()->surface;
+        EXPECT_EQ((*opened)->finer != nullptr, !view.geodetic);
+        EXPECT_EQ(shown.has_all_samples(), view.geodetic.has_value());
+        EXPECT_EQ(
+            ((*opened)->finer ? *(*opened)->finer : shown.terrain()).heightfield.heights.cols(),
+            side);
+    }
+}
+
+TEST(Opening, EndsInTheMiddleOfReading) {
+    session::SourceOptions terrain;
+    terrain.terrain = "urban";
+    const Opening opening(terrain, session::SceneOptions{});
 }
 
 } // namespace

@@ -94,6 +94,26 @@ TEST_F(ExaggerationTest, TheLastOfManyRequestsIsShown) {
     EXPECT_EQ(surface().placement().exaggeration(), 3.75);
 }
 
+// A scene that began with fewer samples keeps what was changed meanwhile.
+TEST_F(ExaggerationTest, FinerSamplesAreShownAsTheCoarseOnesWere) {
+    terrain::Terrain finer = surface().terrain();
+    finer.heightfield.heights = Grid<float>(65, 65, 20.0F);
+    finer.heightfield.spacing = {5.0, 5.0};
+    viewer.set_exaggeration(2.0);
+    viewer.refine(std::make_shared<const terrain::Terrain>(finer));
+    ASSERT_TRUE(viewer.act(SetRamp{"swiss"}));
+    const glm::dvec3 before = eye();
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().heightfield().heights.cols(), 65);
+    EXPECT_EQ(surface().placement().exaggeration(), 2.0);
+    EXPECT_EQ(surface().ramp(), *terrain::named_ramp("swiss"));
+    EXPECT_NEAR(*surface().height_at(0.0, 0.0), 40.0, 1e-6);
+    EXPECT_EQ(eye(), before);
+    viewer.set_exaggeration(1.0);
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().heightfield().heights.cols(), 65);
+}
+
 TEST_F(ExaggerationTest, TheLastOfManySunsIsShown) {
     for (int azimuth = 0; azimuth < 180; ++azimuth) {
         viewer.set_sun({static_cast<double>(azimuth), 30.0});
