@@ -168,7 +168,9 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
 
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     session::limit_software_threads(choice.terrain.threads);
-    Opening opening(choice.terrain, choice.view);
+    // A path may follow the ground.
+    const FirstSamples first = choice.view.path.empty() ? FirstSamples::few : FirstSamples::all;
+    Opening opening(choice.terrain, choice.view, first);
     auto window = open_window(choice);
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};

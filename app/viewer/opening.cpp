@@ -89,8 +89,9 @@ session::SceneOptions without_maps(session::SceneOptions view) {
 
 } // namespace
 
-Opening::Opening(const session::SourceOptions& terrain, const session::SceneOptions& view)
-    : terrain_(streamed(terrain)), view_(without_maps(view)),
+Opening::Opening(const session::SourceOptions& terrain, const session::SceneOptions& view,
+                 FirstSamples first)
+    : terrain_(streamed(terrain)), view_(without_maps(view)), first_(first),
       reading_([this](const std::stop_token& stop) {
           return session::open_source(terrain_, view_, relayed_, stop);
       }) {}
@@ -103,7 +104,7 @@ Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest
         return source.error();
     }
     std::shared_ptr<const terrain::Terrain> finer;
-    if (can_begin_coarse(*source, view)) {
+    if (first_ == FirstSamples::few && can_begin_coarse(*source, view)) {
         finer = std::make_shared<const terrain::Terrain>(std::move(source->terrain));
         source->terrain = terrain::coarse_terrain(*finer, first_samples);
     }

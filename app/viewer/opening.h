@@ -21,12 +21,18 @@ struct OpenedScene {
     std::shared_ptr<const terrain::Terrain> finer = {};
 };
 
-/// Reads a terrain in the background, from the construction on: its window is made meanwhile. If
-/// all samples would delay the first picture, the scene begins with fewer, where nothing depends on
-/// the exact ground. The destructor stops and waits.
+/// With what a scene begins if all samples would delay the first picture.
+enum class FirstSamples {
+    few, ///< unless its camera or objects stand on the ground
+    all
+};
+
+/// Reads a terrain in the background, from the construction on: its window is made meanwhile. The
+/// destructor stops and waits.
 class Opening {
 public:
-    Opening(const session::SourceOptions& terrain, const session::SceneOptions& view);
+    Opening(const session::SourceOptions& terrain, const session::SceneOptions& view,
+            FirstSamples first = FirstSamples::few);
 
     /// Opens the scene in the background while the window shows the progress. Empty if the user
     /// closes the window. Fails as session::open_scene or when stopped. Does not make the maps of
@@ -41,6 +47,7 @@ private:
 
     session::SourceOptions terrain_;
     session::SceneOptions view_;
+    FirstSamples first_;
     session::RelayedLog relayed_;
     Background<session::TerrainSource> reading_; // last: uses all others
 };
