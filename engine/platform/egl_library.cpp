@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "engine/platform/shared_library.h"
+#include "engine/core/loading/shared_library.h"
 
 namespace reljef::platform {
 

@@ -9,7 +9,7 @@
 
 #include <GL/osmesa.h>
 
-#include "engine/platform/shared_library.h"
+#include "engine/core/loading/shared_library.h"
 
 namespace reljef::platform {
 

@@ -18,6 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "engine/core/loading/program_part.h"
+
 namespace reljef::io {
 namespace {
 
@@ -50,18 +52,6 @@ public:
 private:
     int number_;
 };
-
-fs::path import_program() {
-    std::error_code code;
-    const fs::path folder = fs::read_symlink("/proc/self/exe", code).parent_path();
-    const std::array<fs::path, 3> places{folder / program_name,
-                                         folder / ".." / "libexec" / "reljef" / program_name,
-                                         fs::path(RELJEF_LIBEXEC) / program_name};
-    const auto* const found = std::find_if(places.begin(), places.end(), [&](const fs::path& at) {
-        return fs::is_regular_file(at, code);
-    });
-    return found != places.end() ? *found : places[0];
-}
 
 Error problem_of(const fs::path& file, const std::string& found) {
     return Error{fmt::format("{}: {}, an OBJ or glTF 2.0 file was expected", file.string(), found)};
@@ -113,7 +103,7 @@ Result<Child> Child::start(const fs::path& file, const ImportLimits& limits) {
     Descriptor answer(ends[0]);
     const Descriptor written(ends[1]);
     const std::string program =
-        (limits.program.empty() ? import_program() : limits.program).string();
+        (limits.program.empty() ? program_part(program_name) : limits.program).string();
     std::array<std::string, 4> words{program, fs::absolute(file).string(),
                                      std::to_string(limits.megabytes),
                                      std::to_string(limits.seconds)};

@@ -1,8 +1,8 @@
-#include "engine/platform/shared_library.h"
+#include "engine/core/loading/shared_library.h"
 
 #include <string>
 
-namespace reljef::platform {
+namespace reljef {
 
 Result<void*> open_library(std::span<const char* const> names) {
     std::string reason;
@@ -18,4 +18,4 @@ Result<void*> open_library(std::span<const char* const> names) {
     return Error{reason};
 }
 
-} // namespace reljef::platform
+} // namespace reljef

@@ -6,10 +6,10 @@
 
 #include "engine/core/result.h"
 
-namespace reljef::platform {
+namespace reljef {
 
 /// Opens the first library that exists and keeps its names apart from those of other libraries. It
-/// is never closed: GL drivers leave thread-local and exit handlers behind. Fails with the loader's
+/// is never closed: libraries leave thread-local and exit handlers behind. Fails with the loader's
 /// message for the first name.
 Result<void*> open_library(std::span<const char* const> names);
 
@@ -19,4 +19,4 @@ template <class F> bool load(void* library, F& function, const char* name) {
     return function != nullptr;
 }
 
-} // namespace reljef::platform
+} // namespace reljef

@@ -1,11 +1,11 @@
-#include "engine/platform/shared_library.h"
+#include "engine/core/loading/shared_library.h"
 
 #include <array>
 #include <cstddef>
 
 #include <gmock/gmock.h>
 
-namespace reljef::platform {
+namespace reljef {
 namespace {
 
 TEST(SharedLibraryTest, the_first_that_opens_is_taken) {
@@ -26,4 +26,4 @@ TEST(SharedLibraryTest, none_is_an_error_that_names_the_first) {
 }
 
 } // namespace
-} // namespace reljef::platform
+} // namespace reljef
