@@ -19,6 +19,7 @@ endforeach()
 string(PREPEND CMAKE_CXX_FLAGS "${reljef_hardening} ")
 string(PREPEND CMAKE_C_FLAGS "${reljef_hardening} ")
 string(PREPEND CMAKE_EXE_LINKER_FLAGS "-pie -Wl,-z,relro,-z,now ")
+string(PREPEND CMAKE_MODULE_LINKER_FLAGS "-Wl,-z,relro,-z,now ")
 
 set(CMAKE_REQUIRED_FLAGS -O2) # some compilers define it themselves
 check_cxx_source_compiles("#ifdef _FORTIFY_SOURCE\n#error\n#endif\nint main() {}" RELJEF_UNFORTIFIED)

@@ -23,6 +23,11 @@ endif()
 if(RELJEF_BENCH)
   install(TARGETS reljef-bench COMPONENT programs)
 endif()
+# What programs load. Those of others find it beside the static libraries: reljefConfig.cmake names
+# the folder to them.
+install(TARGETS reljef_pictures LIBRARY DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/reljef COMPONENT programs)
+set(reljef_parts_dir ${CMAKE_INSTALL_LIBDIR}/reljef)
+install(TARGETS reljef_pictures LIBRARY DESTINATION ${reljef_parts_dir} COMPONENT library)
 
 # Written by the manual targets of app and bench.
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/man DESTINATION ${CMAKE_INSTALL_DATADIR}
@@ -37,7 +42,7 @@ install(TARGETS ${reljef_library} EXPORT reljefTargets
 set(reljef_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/reljef)
 install(EXPORT reljefTargets NAMESPACE reljef:: DESTINATION ${reljef_package_dir} COMPONENT library)
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/reljefConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/reljefConfig.cmake INSTALL_DESTINATION ${reljef_package_dir})
+  ${PROJECT_BINARY_DIR}/reljefConfig.cmake INSTALL_DESTINATION ${reljef_package_dir} PATH_VARS reljef_parts_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/reljefConfig.cmake ${PROJECT_BINARY_DIR}/reljefConfigVersion.cmake
@@ -68,8 +73,9 @@ set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS
   "fonts-open-sans | fonts-dejavu-core, libosmesa6, libegl1, libgl1-mesa-dri, ffmpeg, reljef-doc")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libreljef-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libglm-dev, libfmt-dev, libgdal-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libopenimageio-dev, libgeographiclib-dev, libhwy-dev, libembree-dev")
+  "libglm-dev, libfmt-dev, libgdal-dev, libpng-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libgeographiclib-dev, libhwy-dev, libembree-dev")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME reljef-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
 include(CPack)

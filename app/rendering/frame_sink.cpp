@@ -209,8 +209,11 @@ Result<void> SheetPictures::prepare(const std::filesystem::path& file,
     if (pictures_.empty()) {
         return {};
     }
-    auto prepared =
-        io::prepare_image(file, io::contact_sheet(pictures_, sheet_columns, sheet_picture_width));
+    const auto sheet = io::contact_sheet(pictures_, sheet_columns, sheet_picture_width);
+    if (!sheet) {
+        return sheet.error();
+    }
+    auto prepared = io::prepare_image(file, *sheet);
     if (!prepared) {
         return prepared.error();
     }

@@ -94,7 +94,7 @@ void expect_outputs(const RenderChoice& choice) {
         expect_good(io::check_hits_name(choice.hits));
     }
     if (!choice.contact_sheet.empty()) {
-        expect_good(io::check_image_name(choice.contact_sheet));
+        expect_good(io::check_sheet_name(choice.contact_sheet));
     }
 }
 

@@ -14,6 +14,7 @@ using Names = std::vector<std::string_view>;
 const std::map<std::string_view, Names>& include_table() {
     static const std::map<std::string_view, Names> table{
         {"engine/core", {}},
+        {"engine/core/loading", {"engine/core"}},
         {"engine/geo", {"engine/core"}},
         {"engine/material", {"engine/core"}},
         {"engine/building", {"engine/core"}},
@@ -29,7 +30,9 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/io/imagery", {"engine/io/files"}},
         {"engine/io", {"engine/io/imagery"}},
         {"engine/io/cache", {"engine/terrain/mesh"}},
-        {"engine/io/image", {"engine/io/raster", "engine/io/cache"}},
+        {"engine/io/codec", {}},
+        {"engine/io/image",
+         {"engine/core/loading", "engine/io/codec", "engine/io/raster", "engine/io/cache"}},
         {"engine/io/index", {"engine/io"}},
         {"engine/io/mesh", {"engine/io/image", "engine/scene/graph"}},
         {"engine/io/footprints", {"engine/io/raster", "engine/building"}},
@@ -47,7 +50,7 @@ const std::map<std::string_view, Names>& include_table() {
         {"engine/cast/mesh", {"engine/view"}},
         {"engine/cast/frame", {"engine/cast", "engine/cast/mesh", "engine/view/choice"}},
         {"engine/gl", {"engine/core"}},
-        {"engine/platform", {"engine/gl"}},
+        {"engine/platform", {"engine/core/loading", "engine/gl"}},
         {"shaders/frame", {}},
         {"engine/render/shaders", {"engine/view", "engine/gl", "shaders/frame"}},
         {"engine/render/triangles", {"engine/view/triangles", "engine/gl"}},

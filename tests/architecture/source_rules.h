@@ -30,8 +30,8 @@ std::vector<Include> includes_of(std::string_view text);
 /// Includes of the project's files that the table does not allow, or that do not start at the root.
 Complaints forbidden_includes(const SourceFile& file);
 
-/// GeographicLib outside engine/geo, GDAL and OpenImageIO outside engine/io (the tests of these
-/// rooms may), CLI11 outside the programs.
+/// GeographicLib outside engine/geo, GDAL outside engine/io, OpenImageIO outside
+/// engine/io/codec (the tests of these rooms may), CLI11 outside the programs.
 Complaints libraries_outside_their_room(const SourceFile& file);
 
 /// OpenGL's, EGL's and GLFW's headers, and calls of gl functions, outside engine/gl,

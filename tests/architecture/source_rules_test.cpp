@@ -156,7 +156,10 @@ TEST(Libraries, StayInTheirRoomAndItsTests) {
     const std::string gdal = "#include <gdal_priv.h>\n";
     const std::string images = "#include <OpenImageIO/imageio.h>\n";
     const std::string geodesy = "#include <GeographicLib/Geocentric.hpp>\n";
-    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/a.cpp", gdal + images)),
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/a.cpp", gdal)), IsEmpty());
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/image/a.cpp", images)),
+                ElementsAre(HasSubstr("only engine/io/codec/ may include OpenImageIO")));
+    EXPECT_THAT(libraries_outside_their_room(file_with("engine/io/codec/a.cpp", images)),
                 IsEmpty());
     EXPECT_THAT(libraries_outside_their_room(file_with("tests/io/a.cpp", gdal)), IsEmpty());
     const std::string panels = "#include <imgui.h>\n#include <backends/imgui_impl_opengl3.h>\n";

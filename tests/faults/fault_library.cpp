@@ -380,6 +380,7 @@ int forked_main(int count, char** arguments) {
 }
 
 int begin_main(int count, char** arguments, char** environment) {
+    ::dlopen(RELJEF_PICTURES, RTLD_NOW | RTLD_LOCAL); // its global objects count as those of others
     if (std::getenv("RELJEF_FAULT_SERVER") != nullptr) {
         reljef::test::serve_forks(static_cast<int>(number_in("RELJEF_FAULT_SERVER", 10)),
                                   &forked_main);

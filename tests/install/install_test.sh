@@ -42,14 +42,21 @@ dem() { # dem FILE WEST: 33 x 33 samples of 0.001 degrees
 
 prefix=$folder/prefix
 for component in programs library docs; do
-    run "installing $component" "$cmake" --install "$build" --prefix "$prefix" --component $component
+    run "installing $component" "$cmake" --install "$build" --prefix "$folder/elsewhere" --component $component
 done
+mv "$folder/elsewhere" "$prefix" # what is installed may lie anywhere
 [[ $("$prefix/bin/reljef" --version) == reljef* ]] || fail "the installed reljef tells no version"
 [[ -x $prefix/libexec/reljef/reljef-mesh-import ]] || fail "the program that imports meshes is not installed"
+(cd "$folder" && run "the installed reljef" "$prefix/bin/reljef" render urban --size 64x48 -o installed.jpg --quiet)
+[[ -s $folder/installed.jpg ]] || fail "the installed reljef wrote no picture"
 [[ -s $prefix/share/doc/reljef/README.md ]] || fail "the README is not installed"
 
 project consumer 'find_package(reljef 0.1 REQUIRED)' 'add_executable(consumer main.cpp)' \
-    'target_link_libraries(consumer PRIVATE reljef::reljef)'
+    'target_link_libraries(consumer PRIVATE reljef::reljef)' \
+    'add_executable(reader reader.cpp)' 'target_link_libraries(reader PRIVATE reljef::io)'
+printf '%s\n' '#include <cstdio>' '#include "engine/io/image/image.h"' 'int main(int, char** files) {' \
+    'const auto picture = reljef::io::read_image(files[1]);' \
+    'return picture ? 0 : std::puts(picture.error().message.c_str()); }' >"$folder/consumer/reader.cpp"
 awk '/^```cpp$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >"$folder/consumer/main.cpp"
 run "configuring against the package" "$cmake" -S "$folder/consumer" -B "$folder/consumer/build" \
     -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
@@ -57,9 +64,11 @@ run "building against the package" "$cmake" --build "$folder/consumer/build"
 mkdir "$folder/dems"
 dem west 7.0
 dem east 7.032
+rm -r "$prefix/libexec" # the package of the library has a module of its own
 (cd "$folder" && run "the program" "$folder/consumer/build/consumer" "$folder/dems")
 [[ $(head -c 8 "$folder/picture.png" | od -An -tx1 | tr -d ' \n') == 89504e470d0a1a0a ]] ||
     fail "the program wrote no picture"
+run "the program that reads a picture" "$folder/consumer/build/reader" "$folder/picture.png"
 
 # One room from another project's tree. Its own standard and warnings stay its own.
 project parent 'set(CMAKE_CXX_STANDARD 17)' "add_subdirectory($source reljef EXCLUDE_FROM_ALL)" \

@@ -10,6 +10,8 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
+
 namespace reljef::io {
 namespace {
 
@@ -48,10 +50,7 @@ bool is_pnm(std::string_view head) {
 }
 
 bool is_tga(const std::string& name) {
-    std::string extension = std::filesystem::path(name).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension == ".tga";
+    return lowercase(std::filesystem::path(name).extension().string()) == ".tga";
 }
 
 } // namespace

@@ -8,12 +8,12 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
 #include "engine/core/parallel_for.h"
 #include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/gdal_drivers.h"
@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 18> raster_extensions{
     ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
 
 template <class List> bool has_extension_in(const List& extensions, const fs::path& path) {
-    const std::string extension = OIIO::Strutil::lower(path.extension().string());
+    const std::string extension = lowercase(path.extension().string());
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
@@ -56,7 +56,7 @@ bool is_named_side_file(const fs::path& path) {
 class SidecarHashes {
 public:
     void add(const IndexedFile& file) {
-        const fs::path path = OIIO::Strutil::lower(file.path);
+        const fs::path path = lowercase(file.path);
         const std::uint64_t hash =
             fnv_hash(fmt::format("{}\n{}\n{}\n", file.path, file.bytes, file.modified));
         if (path.extension() == ".adf") {
@@ -66,7 +66,7 @@ public:
         }
     }
     [[nodiscard]] std::uint64_t of(const IndexedFile& file) const {
-        const fs::path path = OIIO::Strutil::lower(file.path);
+        const fs::path path = lowercase(file.path);
         const auto found =
             hashes_.find(path.extension() == ".adf" ? grid_in(path)
                                                     : fs::path(path).replace_extension().string());

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <utility>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "engine/io/image/image_encoder.h"
@@ -19,19 +18,20 @@ namespace fs = std::filesystem;
 
 constexpr double max_values = 1 << 28; // 1 GB; 8192² pixels of RGBA
 
-Result<Channels> read_open_channels(OIIO::ImageInput& input, const fs::path& path) {
-    const OIIO::ImageSpec& spec = input.spec();
-    if (static_cast<double>(spec.width) * spec.height * spec.nchannels > max_values) {
+Result<Channels> read_open_channels(PictureInput& input, const fs::path& path) {
+    const PictureHeader& header = input.header();
+    const int count = header.channels();
+    if (static_cast<double>(header.cols) * header.rows * count > max_values) {
         return Error{fmt::format("{}: claims {}×{} pixels of {} channels, at most {:.0f} values "
                                  "were expected",
-                                 path.string(), spec.width, spec.height, spec.nchannels,
-                                 max_values)};
+                                 path.string(), header.cols, header.rows, count, max_values)};
     }
-    Channels channels = make_channels(spec.width, spec.height, spec.nchannels);
-    channels.bits = static_cast<int>(8 * spec.format.basesize());
-    if (!input.read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, channels.values.data())) {
+    Channels channels = make_channels(header.cols, header.rows, count);
+    channels.bits = header.channel_bits;
+    if (!input.read_channels(0, count, channels.values.data(),
+                             static_cast<std::size_t>(count) * sizeof(float))) {
         return Error{fmt::format("{}: cannot be read ({}), a whole picture was expected",
-                                 path.string(), input.geterror())};
+                                 path.string(), input.error())};
     }
     return channels;
 }
@@ -56,11 +56,9 @@ std::vector<std::uint16_t> whole_numbers(const std::vector<float>& values) {
     return whole;
 }
 
-OIIO::ImageSpec map_spec(const Channels& channels, OIIO::TypeDesc type) {
-    OIIO::ImageSpec spec(channels.cols, channels.rows, channels.count, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("compression", "zip");
+PictureSpec map_spec(const Channels& channels, SampleType type) {
+    PictureSpec spec{channels.cols, channels.rows, channels.count, type, true};
+    spec.texts = {{"oiio:ColorSpace", "Linear"}, {"compression", "zip"}};
     return spec;
 }
 
@@ -75,7 +73,7 @@ Channels make_channels(int cols, int rows, int count) {
 
 Result<Channels> read_channels(const fs::path& path) {
     return read_picture<Channels>(
-        path, [&](OIIO::ImageInput& input) { return read_open_channels(input, path); });
+        path, [&](PictureInput& input) { return read_open_channels(input, path); });
 }
 
 Grid<float> channel_of(const Channels& channels, int channel) {
@@ -132,18 +130,21 @@ Result<void> check_finite(const Channels& channels, int count, const fs::path& p
 }
 
 Result<std::vector<std::byte>> encode_channels(const fs::path& path, const Channels& channels) {
-    auto output = is_map_file(path) ? OIIO::ImageOutput::create(path.string()) : nullptr;
-    if (output == nullptr) {
+    if (!is_map_file(path)) {
         return no_map_file(path);
+    }
+    auto output = create_output(path, path.string());
+    if (!output) {
+        return output.error();
     }
     const auto count = static_cast<std::size_t>(channels.count);
     if (path.extension() == ".exr") {
-        return encoded(std::move(output), map_spec(channels, OIIO::TypeDesc::FLOAT),
-                       channels.values.data(), count * sizeof(float));
+        return encoded(std::move(*output), map_spec(channels, SampleType::float32),
+                       {channels.values.data(), count * sizeof(float)});
     }
     const std::vector<std::uint16_t> whole = whole_numbers(channels.values);
-    return encoded(std::move(output), map_spec(channels, OIIO::TypeDesc::UINT16), whole.data(),
-                   count * sizeof(std::uint16_t));
+    return encoded(std::move(*output), map_spec(channels, SampleType::uint16),
+                   {whole.data(), count * sizeof(std::uint16_t)});
 }
 
 Result<void> check_map_name(const fs::path& path) {

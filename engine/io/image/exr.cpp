@@ -2,14 +2,16 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "engine/io/image/image.h"
 #include "engine/io/image/image_encoder.h"
 #include "engine/io/image/picture_file.h"
+#include "engine/io/image/picture_module.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -22,32 +24,32 @@ constexpr std::array<std::size_t, 6> channel_offsets{
     offsetof(Hit, depth), offsetof(Hit, col_low), offsetof(Hit, row_low)};
 static_assert(sizeof(Hit) == channel_names.size() * sizeof(float)); // written as it lies in memory
 
-OIIO::ImageSpec spec_of(const HitBuffer& hits) {
-    OIIO::ImageSpec spec(hits.cols(), hits.rows(), channel_names.size(), OIIO::TypeDesc::FLOAT);
-    spec.channelnames.assign(channel_names.begin(), channel_names.end());
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // fixed: the same bytes each time
+PictureSpec spec_of(const HitBuffer& hits) {
+    PictureSpec spec{hits.cols(), hits.rows(), channel_names.size(), SampleType::float32};
+    spec.channel_names.assign(channel_names.begin(), channel_names.end());
+    spec.texts = {{"compression", "zip"},
+                  {"DateTime", "1970:01:01 00:00:00"}}; // fixed: the same bytes each time
     return spec;
 }
 
-Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& path) {
-    const OIIO::ImageSpec& spec = input.spec();
-    HitBuffer hits(spec.width, spec.height);
+Result<HitBuffer> read_hit_channels(PictureInput& input, const fs::path& path) {
+    const PictureHeader& header = input.header();
+    const std::vector<std::string>& names = header.channel_names;
+    HitBuffer hits(header.cols, header.rows);
     auto* bytes = reinterpret_cast<std::byte*>(hits.samples().data());
     for (std::size_t i = 0; i < channel_names.size(); ++i) {
-        const auto found = std::find(spec.channelnames.begin(), spec.channelnames.end(),
-                                     std::string(channel_names[i]));
-        const int channel = static_cast<int>(found - spec.channelnames.begin());
-        if (found == spec.channelnames.end() ||
-            spec.channelformat(channel) != OIIO::TypeDesc(OIIO::TypeDesc::FLOAT)) {
+        const auto found = std::find(names.begin(), names.end(), channel_names[i]);
+        const auto channel = static_cast<std::size_t>(found - names.begin());
+        if (found == names.end() || !header.has_float32[channel]) {
             return Error{fmt::format("{}: has no float32 channel {}, the channels {} were expected",
                                      path.string(), channel_names[i],
                                      fmt::join(channel_names, ", "))};
         }
-        if (!input.read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT,
-                              bytes + channel_offsets[i], sizeof(Hit))) {
+        const int first = static_cast<int>(channel);
+        auto* const values = reinterpret_cast<float*>(bytes + channel_offsets[i]);
+        if (!input.read_channels(first, first + 1, values, sizeof(Hit))) {
             return Error{fmt::format("{}: cannot be read ({}), a whole OpenEXR file was expected",
-                                     path.string(), input.geterror())};
+                                     path.string(), input.error())};
         }
     }
     return hits;
@@ -57,7 +59,10 @@ Result<HitBuffer> read_hit_channels(OIIO::ImageInput& input, const fs::path& pat
 
 Result<void> check_hits_name(const fs::path& path) {
     if (path.extension() == ".exr") {
-        return {};
+        const auto found = find_picture_module();
+        return found ? found
+                     : Error{fmt::format("{}: cannot be written: {}", path.string(),
+                                         found.error().message)};
     }
     return Error{fmt::format("{}: cannot be written: hits go to an OpenEXR file, the extension "
                              ".exr was expected",
@@ -72,13 +77,15 @@ Result<AtomicFile> prepare_hits(const fs::path& path, const HitBuffer& hits) {
     if (auto named = check_hits_name(path); !named) {
         return named.error();
     }
-    auto output = OIIO::ImageOutput::create("openexr");
-    if (output == nullptr) {
-        return Error{
-            fmt::format("{}: cannot be written: OpenImageIO has no OpenEXR", path.string())};
+    auto output = create_output(path, "openexr");
+    if (!output) {
+        return output.error();
     }
-    return prepare_encoded(std::move(output), spec_of(hits), hits.samples().data(), sizeof(Hit),
-                           path);
+    const auto bytes =
+        encoded(std::move(*output), spec_of(hits), {hits.samples().data(), sizeof(Hit)});
+    return bytes ? prepare_file(path, *bytes)
+                 : Error{fmt::format("{}: cannot be written: {}", path.string(),
+                                     bytes.error().message)};
 }
 
 Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
@@ -88,7 +95,7 @@ Result<void> write_hits(const fs::path& path, const HitBuffer& hits) {
 
 Result<HitBuffer> read_hits(const fs::path& path) {
     return read_picture<HitBuffer>(
-        path, [&](OIIO::ImageInput& input) { return read_hit_channels(input, path); });
+        path, [&](PictureInput& input) { return read_hit_channels(input, path); });
 }
 
 } // namespace reljef::io

@@ -1,18 +1,19 @@
 #include "engine/io/image/image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string_view>
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/image/image_encoder.h"
 #include "engine/io/image/picture_checksum.h"
 #include "engine/io/image/picture_file.h"
+#include "engine/io/image/picture_module.h"
+#include "engine/io/image/png_stream.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -43,37 +44,23 @@ void store_row(std::span<const float> values, int channels, bool linear, std::sp
     }
 }
 
-// OpenImageIO 2.4 divides by zero where it reads scanlines of a TIFF with tiles.
-// `values`: the rows of the picture, all of its columns.
-bool read_rows(OIIO::ImageInput& input, int first_row, int channels, std::span<float> values) {
-    const OIIO::ImageSpec& spec = input.spec();
+Result<Image> read_open_image(PictureInput& input, const fs::path& path) {
+    const PictureHeader& header = input.header();
+    Image image(header.cols, header.rows);
+    const bool linear = header.has_floats;
+    const int channels = std::min(header.channels(), 4);
     const std::size_t row_values =
-        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
-    const int begin = spec.y + first_row;
-    const int end = begin + static_cast<int>(values.size() / row_values);
-    return spec.tile_width > 0
-               ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1,
-                                  0, channels, OIIO::TypeDesc::FLOAT, values.data())
-               : input.read_scanlines(0, 0, begin, end, 0, 0, channels, OIIO::TypeDesc::FLOAT,
-                                      values.data());
-}
-
-Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
-    const OIIO::ImageSpec& spec = input.spec();
-    Image image(spec.width, spec.height);
-    const bool linear = spec.format.is_floating_point();
-    const int channels = std::min(spec.nchannels, 4);
-    const std::size_t row_values =
-        static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(channels);
-    const int step = std::min(spec.tile_width > 0 ? spec.tile_height : rows_at_a_time, spec.height);
+        static_cast<std::size_t>(header.cols) * static_cast<std::size_t>(channels);
+    const int step =
+        std::min(header.tile_cols > 0 ? header.tile_rows : rows_at_a_time, header.rows);
     std::vector<float> values(row_values * static_cast<std::size_t>(step));
-    for (int begin = 0; begin < spec.height; begin += step) {
-        const int end = std::min(begin + step, spec.height);
+    for (int begin = 0; begin < header.rows; begin += step) {
+        const int end = std::min(begin + step, header.rows);
         const auto rows = static_cast<std::size_t>(end - begin);
-        if (!read_rows(input, begin, channels, std::span(values).first(rows * row_values))) {
+        if (!input.read_rows(begin, channels, std::span(values).first(rows * row_values))) {
             return Error{
                 fmt::format("{}: cannot be read at row {} ({}), a whole picture was expected",
-                            path.string(), begin, input.geterror())};
+                            path.string(), begin, input.error())};
         }
         for (int row = begin; row < end; ++row) {
             const auto first = static_cast<std::size_t>(row - begin) * row_values;
@@ -84,14 +71,8 @@ Result<Image> read_open_image(OIIO::ImageInput& input, const fs::path& path) {
     return image;
 }
 
-std::unique_ptr<OIIO::ImageOutput> output_for(const fs::path& path) {
-    auto output = OIIO::ImageOutput::create(path.string());
-    static_cast<void>(OIIO::geterror());
-    // The JPEG 2000 encoder needs a file extension; files in memory have none.
-    if (output != nullptr && std::string_view(output->format_name()) == "jpeg2000") {
-        output.reset();
-    }
-    return output;
+Error not_written(const fs::path& path, const Error& why) {
+    return {fmt::format("{}: cannot be written: {}", path.string(), why.message)};
 }
 
 Error unknown_format(const fs::path& path) {
@@ -100,58 +81,110 @@ Error unknown_format(const fs::path& path) {
                         path.string(), path.extension().string())};
 }
 
-Result<std::unique_ptr<OIIO::ImageOutput>> output_for(const fs::path& path, const Image& image) {
+// By a file's extension.
+Result<std::unique_ptr<PictureOutput>> output_for(const fs::path& path) {
+    const auto codec = picture_codec();
+    if (!codec) {
+        return not_written(path, codec.error());
+    }
+    auto output = (*codec)->create_output(path.string());
+    // The JPEG 2000 encoder needs a file extension; files in memory have none.
+    if (output == nullptr || output->format() == "jpeg2000") {
+        return unknown_format(path);
+    }
+    return output;
+}
+
+// The formats that OpenImageIO always writes, by its extensions. What needs only these names does
+// not load it.
+std::string_view common_format(const fs::path& path) {
+    struct Extension {
+        std::string_view text;
+        std::string_view format;
+    };
+    constexpr std::array<Extension, 13> extensions{{{".png", "png"},
+                                                    {".jpg", "jpeg"},
+                                                    {".jpeg", "jpeg"},
+                                                    {".jpe", "jpeg"},
+                                                    {".jif", "jpeg"},
+                                                    {".jfif", "jpeg"},
+                                                    {".jfi", "jpeg"},
+                                                    {".tif", "tiff"},
+                                                    {".tiff", "tiff"},
+                                                    {".tx", "tiff"},
+                                                    {".env", "tiff"},
+                                                    {".sm", "tiff"},
+                                                    {".vsm", "tiff"}}};
+    const std::string extension = lowercase(path.extension().string());
+    const auto* const found =
+        std::find_if(extensions.begin(), extensions.end(),
+                     [&](const Extension& of) { return of.text == extension; });
+    return found != extensions.end() ? found->format : "";
+}
+
+// Formats whose pictures have a checksum of ours. PNG has its own.
+bool gets_checksum(std::string_view format) {
+    return format == "jpeg" || format == "tiff";
+}
+
+// OpenImageIO would write JPEG in a TIFF, too, which loses colours, and the time, which makes equal
+// pictures differ; blanks are an unknown time (Exif 2.3, DateTime).
+PictureSpec spec_of(const Image& image, std::string_view format) {
+    PictureSpec spec{image.cols(), image.rows(), 3};
+    spec.texts = {{"oiio:ColorSpace", "sRGB"},
+                  {"Compression", format == "jpeg" ? fmt::format("jpeg:{}", jpeg_quality) : "zip"}};
+    if (format == "tiff") {
+        spec.texts.emplace_back("DateTime", "    :  :     :  :  ");
+    }
+    if (gets_checksum(format)) {
+        spec.texts.emplace_back("ImageDescription", checksum_text);
+    }
+    return spec;
+}
+
+Result<std::vector<std::byte>> encoded_picture(std::unique_ptr<PictureOutput> output,
+                                               const Image& image) {
+    const PictureSpec spec = spec_of(image, output->format());
+    auto bytes = encoded(std::move(output), spec, {image.samples().data(), sizeof(Rgba8)});
+    return bytes ? with_checksum(std::move(*bytes)) : std::move(bytes);
+}
+
+Result<std::vector<std::byte>> encoded_png(const Image& image) {
+    std::vector<std::byte> bytes;
+    PngStream stream({image.cols(), image.rows()}, [&](std::span<const std::byte> part) {
+        bytes.insert(bytes.end(), part.begin(), part.end());
+        return true;
+    });
+    if (!stream.write(image) || !stream.end()) {
+        return Error{stream.error()};
+    }
+    return bytes;
+}
+
+Result<std::vector<std::byte>> encoded_as(const fs::path& path, const Image& image) {
     if (image.empty()) {
         return Error{fmt::format("{}: cannot be written: a picture of {}×{} pixels was given, at "
                                  "least 1×1 was expected",
                                  path.string(), image.cols(), image.rows())};
     }
+    if (common_format(path) == "png") {
+        auto bytes = encoded_png(image);
+        return bytes ? std::move(bytes) : not_written(path, bytes.error());
+    }
     auto output = output_for(path);
-    return output ? Result<std::unique_ptr<OIIO::ImageOutput>>(std::move(output))
-                  : unknown_format(path);
-}
-
-bool is_of_format(const OIIO::ImageOutput& output, std::string_view format) {
-    return output.format_name() == format;
-}
-
-// Formats whose pictures have a checksum of ours. PNG has its own.
-bool gets_checksum(const OIIO::ImageOutput& output) {
-    return is_of_format(output, "jpeg") || is_of_format(output, "tiff");
-}
-
-// OpenImageIO would write JPEG in a TIFF, too, which loses colours, and the time, which makes equal
-// pictures differ; blanks are an unknown time (Exif 2.3, DateTime).
-OIIO::ImageSpec spec_of(const Image& image, const OIIO::ImageOutput& output) {
-    OIIO::ImageSpec spec(image.cols(), image.rows(), 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("Compression",
-                   is_of_format(output, "jpeg") ? fmt::format("jpeg:{}", jpeg_quality) : "zip");
-    if (is_of_format(output, "tiff")) {
-        spec.attribute("DateTime", "    :  :     :  :  ");
+    if (!output) {
+        return output.error();
     }
-    if (gets_checksum(output)) {
-        spec.attribute("ImageDescription", std::string(checksum_text));
-    }
-    return spec;
+    auto bytes = encoded_picture(std::move(*output), image);
+    return bytes ? std::move(bytes) : not_written(path, bytes.error());
 }
 
-Result<std::vector<std::byte>> encoded_picture(std::unique_ptr<OIIO::ImageOutput> output,
-                                               const Image& image) {
-    const OIIO::ImageSpec spec = spec_of(image, *output);
-    auto bytes = encoded(std::move(output), spec, image.samples().data(), sizeof(Rgba8));
-    return bytes ? with_checksum(std::move(*bytes)) : std::move(bytes);
-}
-
-Image resized(const Image& picture, int width) {
+Image resized(PictureCodec& codec, const Image& picture, int width) {
     const double scale = static_cast<double>(width) / picture.cols();
     Image result(width, std::max(1, static_cast<int>(std::lround(picture.rows() * scale))));
-    const OIIO::ImageSpec from(picture.cols(), picture.rows(), 4, OIIO::TypeDesc::UINT8);
-    const OIIO::ImageSpec to(result.cols(), result.rows(), 4, OIIO::TypeDesc::UINT8);
-    // OpenImageIO only reads from this pointer.
-    const OIIO::ImageBuf source(from, const_cast<Rgba8*>(picture.samples().data()));
-    OIIO::ImageBuf target(to, result.samples().data());
-    OIIO::ImageBufAlgo::resize(target, source);
+    // OpenImageIO only reads from the first pointer.
+    codec.resize({picture.cols(), picture.rows(), const_cast<Rgba8*>(picture.samples().data())},
+                 {result.cols(), result.rows(), result.samples().data()});
     return result;
 }
 
@@ -165,18 +198,16 @@ void paste(const Image& picture, int col, int row, Image& sheet) {
 } // namespace
 
 Result<Image> read_image(const fs::path& path) {
-    return read_picture<Image>(
-        path, [&](OIIO::ImageInput& input) { return read_open_image(input, path); });
+    return read_picture<Image>(path,
+                               [&](PictureInput& input) { return read_open_image(input, path); });
 }
 
 bool shows_damage(const fs::path& path) {
-    const auto output = output_for(path);
-    return output != nullptr && (is_of_format(*output, "png") || gets_checksum(*output));
+    return !common_format(path).empty();
 }
 
 Result<Image> read_undamaged_image(const fs::path& path) {
-    const auto output = output_for(path);
-    if (output != nullptr && gets_checksum(*output)) {
+    if (gets_checksum(common_format(path))) {
         const auto text = read_text_file(path, max_picture_bytes);
         if (!text) {
             return text.error();
@@ -191,18 +222,26 @@ Result<Image> read_undamaged_image(const fs::path& path) {
 }
 
 Result<void> check_image_name(const fs::path& path) {
-    return output_for(path) != nullptr ? Result<void>() : unknown_format(path);
+    const std::string_view format = common_format(path);
+    if (format == "png") {
+        return {};
+    }
+    if (!format.empty()) {
+        const auto found = find_picture_module();
+        return found ? found : not_written(path, found.error());
+    }
+    const auto output = output_for(path);
+    return output ? Result<void>() : output.error();
+}
+
+Result<void> check_sheet_name(const fs::path& path) {
+    const auto found = find_picture_module();
+    return found ? check_image_name(path) : not_written(path, found.error());
 }
 
 Result<AtomicFile> prepare_image(const fs::path& path, const Image& image) {
-    auto output = output_for(path, image);
-    if (!output) {
-        return output.error();
-    }
-    const auto bytes = encoded_picture(std::move(*output), image);
-    return bytes ? prepare_file(path, *bytes)
-                 : Error{fmt::format("{}: cannot be written: {}", path.string(),
-                                     bytes.error().message)};
+    const auto bytes = encoded_as(path, image);
+    return bytes ? prepare_file(path, *bytes) : bytes.error();
 }
 
 Result<void> write_image(const fs::path& path, const Image& image) {
@@ -211,25 +250,24 @@ Result<void> write_image(const fs::path& path, const Image& image) {
 }
 
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image) {
-    const fs::path path = "a picture in memory" + extension;
-    auto output = output_for(path, image);
-    if (!output) {
-        return output.error();
-    }
-    return encoded_picture(std::move(*output), image);
+    return encoded_as("a picture in memory" + extension, image);
 }
 
-Image contact_sheet(std::span<const Image> pictures, int columns, int width) {
+Result<Image> contact_sheet(std::span<const Image> pictures, int columns, int width) {
     check(columns > 0 && width > 0, "contact_sheet needs columns and a width");
+    const auto codec = picture_codec();
+    if (!codec) {
+        return codec.error();
+    }
     std::vector<Image> small;
     int height = 0;
     for (const Image& picture : pictures) {
         check(!picture.empty(), "contact_sheet of an empty picture");
-        small.push_back(resized(picture, width));
+        small.push_back(resized(**codec, picture, width));
         height = std::max(height, small.back().rows());
     }
     if (small.empty()) {
-        return {};
+        return Image();
     }
     const int count = static_cast<int>(small.size());
     const int across = std::min(columns, count);

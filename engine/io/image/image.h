@@ -30,8 +30,10 @@ Result<AtomicFile> prepare_image(const std::filesystem::path& path, const Image&
 /// Encodes like write_image() for an extension (".png", ".jpg", …).
 Result<std::vector<std::byte>> encode_image(const std::string& extension, const Image& image);
 
-/// Fails if the extension is no format of pictures, or of hits.
+/// Fail if the extension is no format of pictures, of hits, or of contact sheets; or if the module
+/// that writes them is missing.
 Result<void> check_image_name(const std::filesystem::path& path);
+Result<void> check_sheet_name(const std::filesystem::path& path);
 Result<void> check_hits_name(const std::filesystem::path& path);
 
 /// Writes float32 channels col, row, height, depth, col_low, row_low to an OpenEXR file, whole or
@@ -41,7 +43,7 @@ Result<void> write_hits(const std::filesystem::path& path, const HitBuffer& hits
 Result<AtomicFile> prepare_hits(const std::filesystem::path& path, const HitBuffer& hits);
 Result<HitBuffer> read_hits(const std::filesystem::path& path);
 
-/// Thumbnails in rows of `columns`, each `width` pixels wide.
-Image contact_sheet(std::span<const Image> pictures, int columns, int width);
+/// Thumbnails in rows of `columns`, each `width` pixels wide. Fails without the module of pictures.
+Result<Image> contact_sheet(std::span<const Image> pictures, int columns, int width);
 
 } // namespace reljef::io

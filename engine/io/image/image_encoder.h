@@ -3,23 +3,21 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
-
-#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
+#include "engine/io/codec/picture_codec.h"
 
 namespace reljef::io {
 
-/// Encodes pixels of `spec`'s type, `stride` bytes apart. Fails with the encoder's reason.
-Result<std::vector<std::byte>> encoded(std::unique_ptr<OIIO::ImageOutput> output,
-                                       const OIIO::ImageSpec& spec, const void* pixels,
-                                       std::size_t stride);
+/// An encoder for `format`, a name of a format or a file's. Errors begin with the path.
+Result<std::unique_ptr<PictureOutput>> create_output(const std::filesystem::path& path,
+                                                     const std::string& format);
 
-/// A file with encoded(), ready for commit(). On a full disk, encoders report nothing or exit.
-Result<AtomicFile> prepare_encoded(std::unique_ptr<OIIO::ImageOutput> output,
-                                   const OIIO::ImageSpec& spec, const void* pixels,
-                                   std::size_t stride, const std::filesystem::path& path);
+/// Encodes a picture. Fails with the encoder's reason. Full disks are no matter: on them, encoders
+/// report nothing or exit.
+Result<std::vector<std::byte>> encoded(std::unique_ptr<PictureOutput> output,
+                                       const PictureSpec& spec, const PicturePixels& pixels);
 
 } // namespace reljef::io

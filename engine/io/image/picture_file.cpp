@@ -1,11 +1,14 @@
 #include "engine/io/image/picture_file.h"
 
 #include <algorithm>
+#include <string>
 #include <system_error>
 
 #include "engine/io/checks/exr_bytes.h"
 #include "engine/io/checks/jpeg2000_bytes.h"
 #include "engine/io/checks/picture_bytes.h"
+#include "engine/io/checks/picture_format.h"
+#include "engine/io/image/picture_module.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -36,32 +39,56 @@ Result<void> check_image_file(const fs::path& path) {
     return good ? check_png(path.string(), PngPart::whole) : good;
 }
 
-Result<void> check_image_size(const fs::path& path, const OIIO::ImageSpec& spec) {
+Result<void> check_image_size(const fs::path& path, const PictureHeader& header) {
     std::error_code code;
     const double bytes = static_cast<double>(fs::file_size(path, code));
-    const double pixels = static_cast<double>(spec.width) * spec.height;
+    const double pixels = static_cast<double>(header.cols) * header.rows;
     const double max_allowed =
         std::min(max_pixels, std::max(always_allowed, bytes * pixels_per_byte));
-    const bool good = spec.width > 0 && spec.height > 0 && spec.width <= max_side &&
-                      spec.height <= max_side && spec.depth <= 1 && spec.nchannels > 0 &&
+    const bool good = header.cols > 0 && header.rows > 0 && header.cols <= max_side &&
+                      header.rows <= max_side && header.depth <= 1 && header.channels() > 0 &&
                       pixels <= max_allowed;
     if (!good) {
         return Error{fmt::format(
             "{}: claims {}×{} pixels of {} channels in {} bytes, at most {:.0f} "
             "pixels were expected",
-            path.string(), spec.width, spec.height, spec.nchannels, bytes, max_allowed)};
+            path.string(), header.cols, header.rows, header.channels(), bytes, max_allowed)};
     }
     // A tile may be larger than the picture.
-    const double stored = std::max(pixels, static_cast<double>(spec.tile_width) * spec.tile_height *
-                                               std::max(spec.tile_depth, 1));
-    const double decoded = stored * static_cast<double>(spec.pixel_bytes(true));
+    const double stored = std::max(pixels, static_cast<double>(header.tile_cols) *
+                                               header.tile_rows * std::max(header.tile_depth, 1));
+    const double decoded = stored * header.pixel_bytes;
     if (decoded > max_bytes) {
         return Error{fmt::format("{}: claims {}×{} pixels of {} channels, which take {:.1f} GB, at "
                                  "most {:.1f} GB were expected",
-                                 path.string(), spec.width, spec.height, spec.nchannels,
+                                 path.string(), header.cols, header.rows, header.channels(),
                                  decoded / 1e9, max_bytes / 1e9)};
     }
     return {};
+}
+
+Result<std::unique_ptr<PictureInput>> open_picture(const fs::path& path, const char* expected) {
+    if (auto file = check_image_file(path); !file) {
+        return file.error();
+    }
+    const auto format = picture_format(path.string());
+    if (!format) {
+        return format.error();
+    }
+    const auto codec = picture_codec();
+    if (!codec) {
+        return Error{fmt::format("{}: cannot be read: {}", path.string(), codec.error().message)};
+    }
+    std::string why;
+    auto input = (*codec)->open(*format, path.string(), why);
+    if (input == nullptr) {
+        return Error{
+            fmt::format("{}: cannot be read ({}), {} was expected", path.string(), why, expected)};
+    }
+    if (auto size = check_image_size(path, input->header()); !size) {
+        return size.error();
+    }
+    return input;
 }
 
 } // namespace reljef::io

@@ -2,12 +2,13 @@
 
 #include <exception>
 #include <filesystem>
+#include <memory>
 
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "engine/core/result.h"
-#include "engine/io/checks/picture_format.h"
+#include "engine/io/codec/picture_codec.h"
+#include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
 
@@ -16,32 +17,21 @@ namespace reljef::io {
 Result<void> check_image_file(const std::filesystem::path& path);
 
 /// Fails if the size in a picture's header is impossible for its file size or exceeds the limits.
-Result<void> check_image_size(const std::filesystem::path& path, const OIIO::ImageSpec& spec);
+Result<void> check_image_size(const std::filesystem::path& path, const PictureHeader& header);
 
-/// Opens a picture with OpenImageIO, unassociated alpha, and returns `read(input)`. Errors name
-/// what was `expected`.
+/// A picture of a format that picture_format() knows and of a possible size. Errors name what was
+/// `expected`.
+Result<std::unique_ptr<PictureInput>> open_picture(const std::filesystem::path& path,
+                                                   const char* expected);
+
+/// Opens a picture and returns `read(input)`.
 template <class T, class Read>
 Result<T> read_picture(const std::filesystem::path& path, const Read& read,
                        const char* expected = "a picture") {
-    if (auto file = check_image_file(path); !file) {
-        return file.error();
-    }
+    const GdalMessages unprinted; // libtiff's handlers are GDAL's
     try {
-        OIIO::ImageSpec desired;
-        desired.attribute("oiio:UnassociatedAlpha", 1);
-        const auto format = picture_format(path.string());
-        if (!format) {
-            return format.error();
-        }
-        const auto input = OIIO::ImageInput::create(*format);
-        OIIO::ImageSpec found;
-        if (input == nullptr || !input->open(path.string(), found, desired)) {
-            return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
-                                     input == nullptr ? OIIO::geterror() : input->geterror(),
-                                     expected)};
-        }
-        const auto size = check_image_size(path, input->spec());
-        return size ? read(*input) : Result<T>(size.error());
+        const auto input = open_picture(path, expected);
+        return input ? read(**input) : Result<T>(input.error());
     } catch (const std::exception& problem) {
         return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
                                  problem.what(), expected)};

@@ -1,18 +1,17 @@
 #include "engine/io/image/picture_writer.h"
 
 #include <algorithm>
-#include <cctype>
 #include <exception>
 #include <span>
 #include <string>
 #include <utility>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/io/checks/lowercase.h"
+#include "engine/io/image/png_stream.h"
 #include "engine/io/raster/gdal_dataset.h"
 
 namespace reljef::io {
@@ -58,10 +57,7 @@ private:
 namespace {
 
 std::string extension_of(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return extension;
+    return lowercase(path.extension().string());
 }
 
 bool is_png(const fs::path& path) {
@@ -72,70 +68,31 @@ bool is_tiff(const fs::path& path) {
     return extension_of(path) == ".tif" || extension_of(path) == ".tiff";
 }
 
-// What an encoder writes, and the reason of what could not be written.
-class FileProxy : public OIIO::Filesystem::IOProxy {
-public:
-    explicit FileProxy(AtomicFile& file) : IOProxy(file.temporary().string(), Write), file_(file) {}
-
-    [[nodiscard]] const char* proxytype() const override { return "reljef"; }
-    std::size_t write(const void* bytes, std::size_t size) override {
-        if (written_) {
-            written_ = file_.write({static_cast<const std::byte*>(bytes), size});
-        }
-        m_pos += static_cast<std::int64_t>(written_ ? size : 0);
-        return written_ ? size : 0;
-    }
-    [[nodiscard]] std::size_t size() const override { return static_cast<std::size_t>(m_pos); }
-    [[nodiscard]] const Result<void>& written() const { return written_; }
-
-private:
-    AtomicFile& file_;
-    Result<void> written_;
-};
-
 class PngEncoder : public PictureWriter::Encoder {
 public:
     PngEncoder(AtomicFile made, glm::ivec2 size)
-        : Encoder(std::move(made), size), proxy_(file()),
-          output_(OIIO::ImageOutput::create("png")) {}
+        : Encoder(std::move(made), size),
+          stream_(size, [this](std::span<const std::byte> bytes) { return store(bytes); }) {}
 
     static Result<void> open() { return {}; }
 
 protected:
-    // Opens the file with the first rows: libpng prints an error where a file is closed without
-    // any.
-    Result<void> write_at(int row, const Image& rows) override {
-        return call([&] {
-            return (row > 0 || open_output()) &&
-                   output_->write_scanlines(row, row + rows.rows(), 0, OIIO::TypeDesc::UINT8,
-                                            rows.samples().data(), sizeof(Rgba8));
-        });
+    Result<void> write_at(int /*row*/, const Image& rows) override {
+        return stream_.write(rows) ? Result<void>() : failure();
     }
-    Result<void> close() override {
-        return call([&] { return output_->close(); });
-    }
+    Result<void> close() override { return stream_.end() ? Result<void>() : failure(); }
 
 private:
-    bool open_output() {
-        OIIO::ImageSpec spec(size().x, size().y, 3, OIIO::TypeDesc::UINT8);
-        spec.attribute("oiio:ColorSpace", "sRGB");
-        return output_ != nullptr && output_->set_ioproxy(&proxy_) &&
-               output_->open(file().temporary().string(), spec);
+    bool store(std::span<const std::byte> bytes) {
+        stored_ = file().write(bytes);
+        return stored_.has_value();
     }
-    template <class Call> Result<void> call(const Call& call) {
-        try {
-            const bool done = call();
-            if (!proxy_.written()) {
-                return proxy_.written();
-            }
-            return done ? Result<void>() : error(output_ != nullptr ? output_->geterror() : "");
-        } catch (const std::exception& problem) {
-            return error(problem.what());
-        }
+    [[nodiscard]] Error failure() const {
+        return stored_ ? error(stream_.error()) : stored_.error();
     }
 
-    FileProxy proxy_;
-    std::unique_ptr<OIIO::ImageOutput> output_; // before the proxy ends
+    Result<void> stored_; // why the file could not be written
+    PngStream stream_;
 };
 
 // GDAL writes tiles in any order and BigTIFF; OpenImageIO 2.4 writes neither to any size.

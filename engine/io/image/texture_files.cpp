@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/image/channels.h"
 #include "engine/io/image/image.h"
 
@@ -197,7 +197,7 @@ std::vector<std::string> name_words(std::string_view stem) {
         }
         last = c;
     }
-    std::transform(words.begin(), words.end(), words.begin(), OIIO::Strutil::lower);
+    std::transform(words.begin(), words.end(), words.begin(), lowercase);
     return words;
 }
 
@@ -257,7 +257,7 @@ Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::
 bool is_picture(const fs::path& file) {
     constexpr std::array<std::string_view, 9> extensions{".png", ".jpg", ".jpeg", ".bmp", ".dds",
                                                          ".tga", ".tif", ".tiff", ".exr"};
-    return is_one_of(OIIO::Strutil::lower(file.extension().string()), extensions);
+    return is_one_of(lowercase(file.extension().string()), extensions);
 }
 
 // Rejects floats that are not finite; 8-bit colours would hide them.

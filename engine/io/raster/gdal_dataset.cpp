@@ -11,11 +11,11 @@
 #include <system_error>
 #include <utility>
 
-#include <OpenImageIO/imageio.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/references.h"
@@ -77,7 +77,7 @@ Result<std::string> name_for_gdal(const fs::path& path) {
         const std::string name = path.string();
         return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
     }
-    const std::string extension = OIIO::Strutil::lower(path.extension().string());
+    const std::string extension = lowercase(path.extension().string());
     if (extension == ".zip") {
         return raster_in_zip(path);
     }
@@ -213,6 +213,17 @@ Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,
     return dataset;
 }
 
+/// GDAL installs its handlers of libtiff's messages as it opens its first TIFF.
+void install_tiff_handlers() {
+    constexpr const char* name = "/vsimem/reljef-no-tiff";
+    std::array<GByte, 8> header{'I', 'I', '*', 0, 0, 0, 0, 0};
+    constexpr std::array<const char*, 2> formats{"GTiff", nullptr};
+    const GdalMessages unprinted;
+    VSIFCloseL(VSIFileFromMemBuffer(name, header.data(), header.size(), FALSE));
+    const Dataset none(GDALDataset::Open(name, GDAL_OF_RASTER, formats.data()));
+    VSIUnlink(name);
+}
+
 } // namespace
 
 bool is_remote(const fs::path& path) {
@@ -232,10 +243,8 @@ std::string full_name(const fs::path& path) {
 void register_drivers() {
     static std::once_flag once;
     std::call_once(once, [] {
-        // OpenImageIO and GDAL both install an error handler for libtiff at their first TIFF.
-        // GDAL must be the last one.
-        static_cast<void>(OIIO::ImageInput::create("a.tif"));
         register_formats();
+        install_tiff_handlers();
         register_web_tiles();
         install_remote_files();
         // Virtual rasters run no programs.

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <string_view>
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "engine/io/checks/lowercase.h"
 
 namespace reljef::io {
 namespace {
@@ -128,7 +129,7 @@ constexpr std::array unit_names{
 };
 
 std::optional<HeightUnit> height_unit_by_name(std::string_view name) {
-    const std::string lower = OIIO::Strutil::lower(std::string(name));
+    const std::string lower = lowercase(std::string(name));
     const auto* found = std::find_if(unit_names.begin(), unit_names.end(), [&](const auto& unit) {
         return !lower.empty() &&
                std::find(unit.names.begin(), unit.names.end(), lower) != unit.names.end();

@@ -143,6 +143,7 @@ TEST(ImageFile, UnwritablePathsAreNamedAndLeaveNothing) {
 TEST(ImageFile, AFullDiskIsAnErrorAndLeavesNothing) {
     const test::TemporaryFolder folder;
     const Image image = random_image(100, 100);
+    ::testing::internal::CaptureStderr();
     const test::FileSizeLimit limit(1024);
     for (const char* const name : {"a.png", "a.jpg", "a.tif", "a.webp", "a.exr", "a.bmp"}) {
         const auto written = write_image(folder.path() / name, image);
@@ -150,6 +151,7 @@ TEST(ImageFile, AFullDiskIsAnErrorAndLeavesNothing) {
         EXPECT_THAT(written.error().message, HasSubstr(std::string(name) + ": cannot be written"));
         EXPECT_TRUE(folder.names().empty()) << name;
     }
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 // TIFF was once JPEG in a file that nothing could read.
@@ -249,7 +251,7 @@ TEST(ContactSheet, PlacesSmallCopiesRowByRow) {
     for (const std::uint8_t level : std::array<std::uint8_t, 3>{0, 100, 200}) {
         pictures.emplace_back(64, 32, Rgba8{level, 10, 20, 255});
     }
-    const Image sheet = contact_sheet(pictures, 2, 16);
+    const Image sheet = contact_sheet(pictures, 2, 16).value();
     ASSERT_EQ(sheet.cols(), 4 + 2 * 20);
     ASSERT_EQ(sheet.rows(), 4 + 2 * 12);
     EXPECT_EQ(sheet(4 + 8, 4 + 4), (Rgba8{0, 10, 20, 255}));
@@ -259,7 +261,7 @@ TEST(ContactSheet, PlacesSmallCopiesRowByRow) {
 }
 
 TEST(ContactSheet, OfNothingIsNothing) {
-    EXPECT_TRUE(contact_sheet({}, 3, 100).empty());
+    EXPECT_TRUE(contact_sheet({}, 3, 100).value().empty());
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/io/image/image.h"
+#include "engine/io/image/picture_module.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"
 
@@ -38,6 +39,7 @@ void write_channels(const fs::path& path, glm::ivec2 size, int channels, OIIO::T
             }
         }
     }
+    ASSERT_TRUE(picture_codec()); // first: it keeps the handlers of libtiff
     OIIO::ImageSpec spec(size.x, size.y, channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     const auto output = OIIO::ImageOutput::create(path.string());

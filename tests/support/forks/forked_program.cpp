@@ -22,8 +22,9 @@ public:
         process_ = ::fork();
         if (process_ == 0) {
             ::close(ends[0]);
-#ifndef __SANITIZE_ADDRESS__
             // What most of the programs open: each of the forks would link it anew.
+            ::dlopen(RELJEF_PICTURES, RTLD_NOW | RTLD_LOCAL);
+#ifndef __SANITIZE_ADDRESS__
             ::dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
 #endif
             serve_forks(ends[1], nullptr);
