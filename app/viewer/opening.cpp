@@ -62,12 +62,10 @@ session::SourceOptions streamed(session::SourceOptions terrain) {
     return terrain;
 }
 
-// The viewer makes the maps, and shows a coarser picture first.
-// Of a scene that begins with fewer samples: they take a tenth of a second.
+// A scene that begins with fewer samples begins with these: they take a tenth of a second.
 constexpr std::size_t first_samples = 400'000;
 
-// Whether only the finest picture shows that some samples are missing: no camera, path, or object
-// was put on the ground.
+// Whether nothing was put on the exact ground, and all samples would take long.
 bool can_begin_coarse(const session::TerrainSource& source, const session::SceneOptions& view) {
     const io::SceneDescription& scene = source.description;
     const terrain::Heightfield& field = source.terrain.heightfield;
@@ -82,6 +80,7 @@ bool can_begin_coarse(const session::TerrainSource& source, const session::Scene
            std::min(field.heights.cols(), field.heights.rows()) >= 2;
 }
 
+// The viewer makes the maps, and shows a coarser picture first.
 session::SceneOptions without_maps(session::SceneOptions view) {
     view.prepares_maps = false;
     return view;

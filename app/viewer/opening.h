@@ -21,9 +21,11 @@ struct OpenedScene {
     std::shared_ptr<const terrain::Terrain> finer = {};
 };
 
-/// With what a scene begins if all samples would delay the first picture.
+/// With what a scene begins.
 enum class FirstSamples {
-    few, ///< unless its camera or objects stand on the ground
+    /// Fewer than a file has, if it has more than 800,000, is not streamed, does not close around
+    /// the Earth, and is seen whole: without a named technique, a camera, objects or footprints.
+    few,
     all
 };
 

@@ -193,7 +193,10 @@ void Viewer::update_appearance() {
     redraw_ = comparison_.take_redraw() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     if (surface_switch_.update(switch_.technique(), switch_.light())) {
-        measuring_.clear(); // its places are no longer on the ground
+        if (!measuring_.points().empty()) { // they are no longer on the ground
+            measuring_.clear();
+            notes_.note("the ground has changed: the measured points are removed");
+        }
         show_camera(camera());
         if (!map_) { // the ground may have risen above it
             flight_.set_camera(camera());

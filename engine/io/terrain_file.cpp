@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include "engine/io/imagery/imagery.h"
 #include "engine/io/raster/ascii_grid.h"
@@ -92,10 +93,17 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     if (!samples) {
         return samples.error();
     }
-    terrain.heightfield = heightfield_of(std::move(*samples), *place, terrain.notes);
+    terrain.heightfield = heightfield_of(std::move(*samples), *place);
+    if (place->spacing_assumed) {
+        const glm::dvec2 steps =
+            glm::dvec2(plan->grid.cols - 1, plan->grid.rows - 1) * glm::abs(plan->grid.step);
+        terrain.heightfield.spacing *=
+            assumed_spacing(terrain.heightfield.range, steps, terrain.notes);
+    }
     if (!options.imagery.empty()) {
         reading.progress = part(options.progress, 0.5, 1.0);
-        auto color = read_imagery(dataset, *place, reading, terrain.notes, terrain.errors);
+        auto color =
+            read_imagery(imagery_ground(dataset), *place, reading, terrain.notes, terrain.errors);
         if (!color) {
             return color.error();
         }

@@ -327,6 +327,14 @@ Result<TileGrid> TileSet::part(const TileGrid& grid, const geo::GeodeticArea& ar
                     static_cast<int>(high.y - low.y) + 1};
 }
 
+ImageryGround TileSet::imagery_ground(const TileGrid& grid) const {
+    if (!is_on_plane()) {
+        return {crs(), outer_affine_of(grid), {grid.cols, grid.rows}};
+    }
+    const IndexedFile& file = state_->indexed.front();
+    return {"", file.crs_from_pixel, {file.cols, file.rows}};
+}
+
 geo::GlobalWrap TileSet::wrap(const TileGrid& grid) const {
     return closing_of(crs_from_text(state_->crs), affine_of(grid), grid.cols, grid.rows);
 }

@@ -16,6 +16,7 @@
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
 #include "engine/io/files/tile_grid.h"
+#include "engine/io/imagery/imagery_set.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"
 #include "engine/terrain/field/heightfield.h"
@@ -27,8 +28,8 @@ struct TileSetOptions {
     unsigned threads = 0;               ///< 0: one per hardware thread
     double height_scale = 1.0;          ///< as in RasterOptions
     double height_offset = 0.0;
-    /// Whether a single raster may have no place on Earth. Then it lies in metres on a plane, and
-    /// only grids of its own samples can be read.
+    /// Whether a single raster may have no coordinate system, or one of its own. It lies on a
+    /// plane.
     bool allows_planes = false;
     std::optional<double> spacing; ///< of such a raster, as in RasterOptions
     std::stop_token stop;
@@ -42,7 +43,7 @@ struct TileFile {
     std::string format; ///< GDAL's driver
     std::string type;   ///< "Int16", …
     std::string crs_name;
-    glm::dvec2 spacing{1.0}; ///< metres
+    glm::dvec2 spacing{1.0}; ///< metres; 1 if it is unknown
     double south = 0.0;      ///< degrees; outermost samples; all 0 on a plane
     double west = 0.0;
     double north = 0.0;
@@ -91,7 +92,8 @@ public:
     /// Grows when a reading finds that a local file changed since it was read before: its size or
     /// its time. What was read before is outdated.
     [[nodiscard]] std::uint64_t changes() const;
-    /// The files' common CRS, else WGS 84 in degrees.
+    /// The files' common CRS, else WGS 84 in degrees; on a plane a system without a place, whose
+    /// metres terrain() may scale if the spacing is unknown.
     [[nodiscard]] const std::string& crs_name() const;
     [[nodiscard]] const std::string& crs() const; ///< WKT
     [[nodiscard]] bool is_on_plane() const;       ///< has no place on Earth
@@ -101,6 +103,8 @@ public:
     [[nodiscard]] Result<TileGrid> part(const TileGrid& grid, const geo::GeodeticArea& area) const;
     /// Scale and offset of the heights.
     [[nodiscard]] const TileSetOptions& options() const;
+    /// Of images over `grid`: on a plane the file's own pixels, over which images are stretched.
+    [[nodiscard]] ImageryGround imagery_ground(const TileGrid& grid) const;
     /// The samples that close a global grid.
     [[nodiscard]] geo::GlobalWrap wrap(const TileGrid& grid) const;
     /// The centres of blocks of `reduction`×`reduction` samples.
@@ -122,7 +126,7 @@ public:
         std::size_t bytes_read = 0; ///< as in TileWindow
     };
     /// Bilinear full-resolution heights at (latitude, longitude) in degrees, from the best file of
-    /// each place. Incomplete after a stop request.
+    /// each place; on a plane, all places are outside. Incomplete after a stop request.
     [[nodiscard]] Heights heights(std::span<const glm::dvec2> places,
                                   const std::stop_token& stop = {}) const;
 

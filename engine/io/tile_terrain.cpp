@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -118,6 +119,23 @@ Result<Place> place_of_samples(const TileSet& tiles, const TileGrid& grid,
     return place_of(*frame, samples, tiles.name(), placing, notes);
 }
 
+/// In the pixels of a raster whose affine has the axes of the grid.
+SampleGrid in_pixels(const TileGrid& grid, const geo::PixelAffine& affine) {
+    const glm::dvec2 step(affine.x_col, affine.y_row);
+    return {(grid.first - glm::dvec2(affine.x0, affine.y0)) / step, grid.step / step, grid.cols,
+            grid.rows};
+}
+
+terrain::HeightRange range_of_numbers(std::span<const double> heights) {
+    terrain::HeightRange range{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+    for (const double height : heights) { // false for NaN
+        range.low = height < range.low ? height : range.low;
+        range.high = height > range.high ? height : range.high;
+    }
+    return range;
+}
+
 struct SetSamples {
     Samples samples;
     std::vector<FileError> errors;
@@ -216,6 +234,29 @@ Result<SetSamples> read_all(const TileSet& tiles, const TileGrid& grid, int redu
     return result;
 }
 
+// Of all samples, so that it does not depend on the memory.
+Result<terrain::HeightRange> range_of(const TileSet& tiles, const TileGrid& grid,
+                                      const TileTerrainOptions& options) {
+    const std::vector<GridBlock> blocks = blocks_of_grid(grid, read_block);
+    terrain::HeightRange range{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+    std::mutex mutex;
+    const auto add_block = [&](int number) {
+        const TileWindow window = tiles.read(blocks[static_cast<std::size_t>(number)].grid,
+                                             options.gaps, options.raster.stop);
+        terrain::HeightRange of_block = range_of_numbers(window.heights.samples());
+        const std::lock_guard lock(mutex);
+        range.low = std::min(range.low, of_block.low);
+        range.high = std::max(range.high, of_block.high);
+    };
+    const bool is_whole = parallel_for(static_cast<int>(blocks.size()), add_block,
+                                       {.threads = options.threads,
+                                        .stop = options.raster.stop,
+                                        .progress = options.raster.progress});
+    return is_whole ? Result<terrain::HeightRange>(range)
+                    : Error{fmt::format("{}: reading was stopped", tiles.name())};
+}
+
 std::string text_of_tiles(const TileSet& tiles, const std::optional<geo::GeodeticArea>& area) {
     const auto counts = [&](const TileFile& file) { return !area || reaches_into(file, *area); };
     const auto count = std::count_if(tiles.files().begin(), tiles.files().end(), counts);
@@ -272,7 +313,6 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     if (!place) {
         return place.error();
     }
-    place->spacing_assumed = state_->is_spacing_assumed;
     if (place->georeference) {
         place->georeference->vertical_datum = state_->vertical_datum;
     }
@@ -291,18 +331,26 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
                                  is_web_tiles(name()) ? "; no tile was found at its level" : "",
                                  result.errors.empty() ? "" : "; " + result.errors.front())};
     }
-    result.heightfield = heightfield_of(std::move(read->samples), *place, result.notes);
+    result.heightfield = heightfield_of(std::move(read->samples), *place);
     result.heightfield.reduction = planned->reduction;
+    if (state_->is_spacing_assumed) {
+        const auto range = planned->reduction == 1
+                               ? Result<terrain::HeightRange>(result.heightfield.range)
+                               : range_of(*this, planned->grid, options);
+        if (!range) {
+            return range.error();
+        }
+        result.heightfield.spacing *= assumed_spacing(
+            *range, glm::dvec2(planned->grid.cols - 1, planned->grid.rows - 1), result.notes);
+    }
     note_grid(*this, samples_grid, planned->reduction, result.heightfield.spacing, options.area,
               result.notes);
     if (!options.raster.imagery.empty()) {
         // Images without a place are stretched over all samples, also those that the reduction
         // leaves out.
-        const Dataset whole = frame_of(planned->grid, state_->crs);
-        const double reduction = planned->reduction;
-        place->grid = {glm::dvec2(0.5 * reduction), glm::dvec2(reduction), samples_grid.cols,
-                       samples_grid.rows};
-        auto color = read_imagery(*whole, *place, options.raster, result.notes, result.errors);
+        const ImageryGround ground = imagery_ground(planned->grid);
+        place->grid = in_pixels(samples_grid, ground.affine);
+        auto color = read_imagery(ground, *place, options.raster, result.notes, result.errors);
         if (!color) {
             return color.error();
         }

@@ -94,8 +94,10 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     return std::move(cached->value);
 }
 
-MissingMaps missing_of_terrain(const scene::TerrainNode& node, const scene::Technique& shown,
-                               RayUse rays) {
+} // namespace
+
+MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique& shown,
+                         RayUse rays) {
     MissingMaps missing;
     if (node.stream != nullptr) {
         return missing; // its tiles have their own
@@ -110,13 +112,11 @@ MissingMaps missing_of_terrain(const scene::TerrainNode& node, const scene::Tech
     return missing;
 }
 
-} // namespace
-
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique) {
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        return missing_of_terrain(node, technique.value_or(node.material.technique), scene.rays);
+        return missing_maps(node, technique.value_or(node.material.technique), scene.rays);
     }
     MissingMaps missing;
     for (const scene::Material* const material : scene.materials()) {
@@ -180,7 +180,7 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
         made.sets.emplace(set,
                           std::make_shared<const material::ReliefMaterial>(std::move(with_cones)));
     }
-    if (missing.light) {
+    if (missing.light && !stop.stop_requested()) {
         const auto task = log.start("lighting " + missing.light->surface->terrain().name);
         made.light =
             std::make_shared<const view::PreparedLight>(view::prepare_light(*missing.light));

@@ -34,6 +34,10 @@ struct MissingMaps {
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique = std::nullopt);
 
+/// Those of a terrain outside of a scene.
+MissingMaps missing_maps(const scene::TerrainNode& terrain, const scene::Technique& technique,
+                         RayUse rays);
+
 /// The terrain's light for a technique; empty in the gallery, whose models are lit by shaders.
 /// `largest_side`: of its maps, texels; SceneRenderer::max_texture_side().
 std::optional<view::LightRequest> light_request(const TerrainScene& scene,

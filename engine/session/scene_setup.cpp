@@ -231,9 +231,9 @@ Result<std::vector<scene::Node*>> checked_gallery(TerrainScene& result, const Te
     return models;
 }
 
-// The source's heights where the terrain is the overview of a stream.
+// The source's heights at places on Earth where the terrain is the overview of a stream.
 SourceHeights heights_of(const TerrainSource& source) {
-    if (!source.stream || !source.tiles) {
+    if (!source.stream || !source.tiles || source.tiles->is_on_plane()) {
         return {};
     }
     return [&tiles = *source.tiles](std::span<const glm::dvec2> places) {

@@ -111,9 +111,8 @@ Result<std::shared_ptr<const io::ImagerySet>> open_imagery(const io::TileSet& ti
     opening.reading_memory = options.raster.memory_budget / work_part / readers_within(options);
     opening.stop = options.raster.stop;
     const io::TileGrid grid = plan ? plan->grid : tiles.grid();
-    auto imagery = io::ImagerySet::open(
-        options.raster.imagery, {tiles.crs(), io::outer_affine_of(grid), {grid.cols, grid.rows}},
-        opening);
+    auto imagery =
+        io::ImagerySet::open(options.raster.imagery, tiles.imagery_ground(grid), opening);
     if (!imagery) {
         return imagery.error();
     }

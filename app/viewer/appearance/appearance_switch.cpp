@@ -3,6 +3,15 @@
 #include "engine/session/scene_daylight.h"
 
 namespace reljef::app {
+namespace {
+
+bool is_of_another_surface(const session::PreparedMaps& maps, const scene::TerrainNode& node) {
+    const auto* const light = maps.light != nullptr ? maps.light->request.surface.get() : nullptr;
+    return (maps.surface != nullptr && maps.surface != node.surface) ||
+           (light != nullptr && light != node.surface.get());
+}
+
+} // namespace
 
 AppearanceSwitch::AppearanceSwitch(session::TerrainScene& scene,
                                    const AppearanceSwitchOptions& options)
@@ -48,6 +57,12 @@ bool AppearanceSwitch::update() {
         log_.note(maps.error().message);
         next_light_.reset();
         return false;
+    }
+    if (is_of_another_surface(*maps, *scene_.terrain->get<scene::TerrainNode>())) {
+        const auto next = next_light_;
+        begin(appearance); // the surface has changed meanwhile
+        next_light_ = next;
+        return pending_ == nullptr;
     }
     session::apply_maps(scene_, *maps);
     light_ = maps->light != nullptr ? maps->light : light_;

@@ -1,5 +1,7 @@
 #include "app/viewer/appearance/surface_switch.h"
 
+#include <fmt/format.h>
+
 #include "engine/session/scene_daylight.h"
 
 namespace reljef::app {
@@ -56,16 +58,15 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                           const scene::Light& light) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
     session::MissingMaps missing;
-    const session::MissingMaps of_technique = session::missing_maps(scene_, technique);
-    // Its errors depend on the heights, and cones on the samples.
-    missing.bisection = node.bisection != nullptr || of_technique.bisection;
-    missing.cones = shape.finer != nullptr && (node.cones != nullptr || of_technique.cones);
+    missing.bisection = node.bisection != nullptr; // its errors depend on the heights
+    missing.cones = shape.finer != nullptr && node.cones != nullptr;
     missing.light = session::light_request(scene_, light, technique, largest_side_);
     preparing_ = std::move(shape);
-    work_.emplace([surface = node.surface, missing = std::move(missing), shape = preparing_,
-                   threads = threads_, this](const std::stop_token& stop) -> Result<Made> {
+    work_.emplace([shown = node, technique, rays = scene_.rays, missing = std::move(missing),
+                   shape = preparing_, threads = threads_,
+                   this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
-        auto changed = surface_of(*surface, shape.finer, shape.factor, shape.ramp);
+        auto changed = surface_of(*shown.surface, shape.finer, shape.factor, shape.ramp);
         task = nullptr;
         if (!changed) {
             return changed.error();
@@ -74,6 +75,13 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
         made.surface = std::make_shared<const scene::TerrainSurface>(std::move(*changed));
         session::MissingMaps requested = missing;
         requested.surface = made.surface;
+        scene::TerrainNode changed_node = shown;
+        changed_node.surface = made.surface;
+        changed_node.bisection = nullptr;
+        changed_node.cones = shape.finer != nullptr ? nullptr : shown.cones;
+        const auto of_technique = session::missing_maps(changed_node, technique, rays);
+        requested.bisection = requested.bisection || of_technique.bisection;
+        requested.cones = requested.cones || of_technique.cones;
         if (requested.light) {
             requested.light->surface = made.surface;
         }
@@ -90,8 +98,14 @@ bool SurfaceSwitch::show() {
     const auto made = work_->take();
     work_.reset();
     if (!made) {
-        log_.note(made.error().message);
+        log_.note(preparing_.finer != nullptr
+                      ? fmt::format("{}: shown with fewer samples than it has: {}",
+                                    preparing_.finer->name, made.error().message)
+                      : made.error().message);
         return false;
+    }
+    if (next_ && next_->finer == preparing_.finer) {
+        next_->finer = nullptr; // it is shown now
     }
     auto& node = *scene_.terrain->get<scene::TerrainNode>();
     node.surface = made->surface;

@@ -162,10 +162,6 @@ Described with_error(Described described, std::string message) {
     return described;
 }
 
-bool leads_to_earth(const OGRSpatialReference& crs) {
-    return crs.IsLocal() == 0 && CrsTransform::create(crs, crs_from_text(wgs84_degrees));
-}
-
 /// Of all samples, from the first one's corner; col runs east unless flipped, and row south.
 geo::PixelAffine affine_on_plane(const Place& place) {
     const double x = place.flipped_cols ? -place.spacing.x : place.spacing.x;
@@ -208,7 +204,7 @@ std::string set_place(GDALDataset& dataset, const std::string& name,
     std::vector<std::string> ignored;
     const auto affine = affine_of(dataset);
     const auto crs = affine ? horizontal_crs(dataset, ignored) : std::nullopt;
-    if (options.allows_planes && (options.spacing || !crs || !leads_to_earth(*crs))) {
+    if (options.allows_planes && (options.spacing || !crs || crs->IsLocal() != 0)) {
         return set_plane(dataset, name, options.spacing, described);
     }
     if (!crs || crs->IsLocal() != 0) {

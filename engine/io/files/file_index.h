@@ -46,15 +46,15 @@ struct FileIndex {
 struct FileIndexOptions {
     std::filesystem::path cache_folder; ///< for indexes of folders; empty: no cache
     unsigned threads = 0;               ///< 0: one per hardware thread
-    bool allows_planes = false;         ///< a single raster may have no place on Earth
+    bool allows_planes = false;         ///< as in TileSetOptions
     std::optional<double> spacing;      ///< of such a raster, metres; see RasterOptions
     std::stop_token stop;
 };
 
-/// Indexes all rasters below a folder, or one raster file; one without a place on Earth, if
-/// allowed, in metres on a plane, with the notes of place_of(). Uses the cache for unchanged files,
-/// if it is right for the few of them that are opened; a hash of the cache's content chooses them.
-/// Adds a note on an unusable cache. Fails if the folder cannot be read.
+/// Indexes all rasters below a folder, or one raster file, which may lie on a plane if the options
+/// allow it; then the notes of place_of() are added. Uses the cache for unchanged files, if it is
+/// right for the few of them that are opened; a hash of the cache's content chooses them. Adds a
+/// note on an unusable cache. Fails if the folder cannot be read.
 Result<FileIndex> index_files(const std::filesystem::path& path, const FileIndexOptions& options,
                               std::vector<std::string>& notes);
 

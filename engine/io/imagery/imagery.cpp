@@ -23,15 +23,6 @@ constexpr double max_pixels_read = 1U << 31U; // to read of an image: about half
 /// this one has an offset.
 constexpr geo::PixelAffine pixel_space{1000.0, 1.0, 0.0, 1000.0, 0.0, -1.0};
 
-ImageryGround ground_of(GDALDataset& heights) {
-    const glm::ivec2 size(heights.GetRasterXSize(), heights.GetRasterYSize());
-    const auto affine = affine_of(heights);
-    std::vector<std::string> ignored;
-    const auto crs = affine ? horizontal_crs(heights, ignored) : std::nullopt;
-    return crs && crs->IsLocal() == 0 ? ImageryGround{wkt_of(*crs), *affine, size}
-                                      : ImageryGround{"", pixel_space, size};
-}
-
 /// The finest image's resolution over the samples, within the limits; absent if no image reaches
 /// there.
 std::optional<glm::ivec2> picture_size(const ImagerySet& set, const TexelGrid& samples,
@@ -78,9 +69,18 @@ template <class Texts> void append(const Texts& texts, std::vector<std::string>&
 
 } // namespace
 
-Result<Image> read_imagery(GDALDataset& heights, const Place& place, const RasterOptions& options,
-                           std::vector<std::string>& notes, std::vector<std::string>& errors) {
-    const ImageryGround ground = ground_of(heights);
+ImageryGround imagery_ground(GDALDataset& heights) {
+    const glm::ivec2 size(heights.GetRasterXSize(), heights.GetRasterYSize());
+    const auto affine = affine_of(heights);
+    std::vector<std::string> ignored;
+    const auto crs = affine ? horizontal_crs(heights, ignored) : std::nullopt;
+    return crs && crs->IsLocal() == 0 ? ImageryGround{wkt_of(*crs), *affine, size}
+                                      : ImageryGround{"", pixel_space, size};
+}
+
+Result<Image> read_imagery(const ImageryGround& ground, const Place& place,
+                           const RasterOptions& options, std::vector<std::string>& notes,
+                           std::vector<std::string>& errors) {
     const auto set = ImagerySet::open(options.imagery, ground,
                                       {.reading_memory = options.memory_budget / reading_part,
                                        .keeps_open = false,

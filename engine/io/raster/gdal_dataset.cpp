@@ -249,6 +249,9 @@ void register_drivers() {
         install_remote_files();
         // Virtual rasters run no programs.
         set_default("GDAL_VRT_ENABLE_PYTHON", "NO");
+        // Raw rasters are read by lines: otherwise what a short file lacks is zeros without an
+        // error.
+        set_default("GDAL_ONE_BIG_READ", "NO");
         // Avoids listing a large folder for each file.
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds

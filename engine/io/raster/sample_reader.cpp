@@ -259,23 +259,6 @@ void close_samples(Grid<float>& heights, Grid<std::uint8_t>& void_mask,
     }
 }
 
-double assumed_spacing(const terrain::Heightfield& heightfield, std::vector<std::string>& notes) {
-    const double relief = heightfield.range.high - heightfield.range.low;
-    const double width = std::max((heightfield.heights.cols() - 1) * heightfield.spacing.x,
-                                  (heightfield.heights.rows() - 1) * heightfield.spacing.y);
-    if (relief <= 0.5 * width) {
-        notes.emplace_back("no coordinate system: 1 m spacing assumed");
-        return 1.0;
-    }
-    const double exact = 10.0 * relief / width;
-    const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
-    const double spacing = digit * std::round(exact / digit);
-    notes.push_back(fmt::format("no coordinate system: {:.6g} m spacing assumed, which makes the "
-                                "relief of {:.6g} m a tenth of the width",
-                                spacing, relief));
-    return spacing;
-}
-
 } // namespace
 
 Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const std::string& name,
@@ -331,8 +314,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
     return heights;
 }
 
-terrain::Heightfield heightfield_of(Samples samples, Place& place,
-                                    std::vector<std::string>& notes) {
+terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     flip(samples.heights, place);
     flip(samples.void_mask, place);
     terrain::Heightfield result;
@@ -344,12 +326,26 @@ terrain::Heightfield heightfield_of(Samples samples, Place& place,
     result.void_count = static_cast<std::size_t>(std::count(
         result.void_mask.samples().begin(), result.void_mask.samples().end(), std::uint8_t{1}));
     result.spacing = place.spacing;
-    if (place.spacing_assumed) {
-        result.spacing *= assumed_spacing(result, notes);
-    }
     result.reduction = std::max({1.0, place.grid.step.x, place.grid.step.y});
     result.georeference = std::move(place.georeference);
     return result;
+}
+
+double assumed_spacing(const terrain::HeightRange& range, glm::dvec2 steps,
+                       std::vector<std::string>& notes) {
+    const double relief = range.high - range.low;
+    const double width = std::max(steps.x, steps.y);
+    if (relief <= 0.5 * width) {
+        notes.emplace_back("no coordinate system: 1 m spacing assumed");
+        return 1.0;
+    }
+    const double exact = 10.0 * relief / width;
+    const double digit = std::pow(10.0, std::floor(std::log10(exact)) - 1.0);
+    const double spacing = digit * std::round(exact / digit);
+    notes.push_back(fmt::format("no coordinate system: {:.6g} m spacing assumed, which makes the "
+                                "relief of {:.6g} m a tenth of the width",
+                                spacing, relief));
+    return spacing;
 }
 
 } // namespace reljef::io

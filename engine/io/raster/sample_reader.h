@@ -45,8 +45,12 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const GdalMessages& messages, std::vector<std::string>& notes);
 
 /// Orients the samples, fills voids and closes a global raster. Moves the place's georeference.
-/// Samples of unknown spacing are 1 m apart, times the place's; if the relief would exceed half the
-/// width, as far as makes it a tenth of the width, in two digits. Adds a note on that.
-terrain::Heightfield heightfield_of(Samples samples, Place& place, std::vector<std::string>& notes);
+terrain::Heightfield heightfield_of(Samples samples, Place& place);
+
+/// The spacing of samples whose own is unknown, metres: 1, or if the relief would exceed half the
+/// width, what makes it a tenth of the width, in two digits. `steps`: along both sides of the
+/// raster. Adds a note.
+double assumed_spacing(const terrain::HeightRange& range, glm::dvec2 steps,
+                       std::vector<std::string>& notes);
 
 } // namespace reljef::io

@@ -32,8 +32,8 @@ struct Heightfield {
     std::size_t void_count = 0;   ///< number of void samples
     HeightRange range;            ///< of the samples that are no voids
     glm::dvec2 spacing{1.0};      ///< metres between samples, > 0 (at the centre's latitude)
-    /// Samples of the source along each side of one of these. Above 1 they are averages, and no
-    /// error of the surface is known.
+    /// Samples of the source along each side of one of these. Above 1 they are averages, or some of
+    /// the samples, and no error of the surface is known.
     double reduction = 1.0;
     std::optional<geo::Georeference> georeference; ///< absent if the source has none
 };

@@ -253,6 +253,7 @@ TEST_P(AllSources, AreAsNearToTheTruthAsStated) {
     bounded.error = 0.7;
     Driver rays = test::must(Driver::create({.size = small_picture}));
     session::SceneRenderer triangles = test::must(test::make_renderer(small_picture));
+    int coarse_tiles = 0;
     for (const scene::Pose pose : seen_poses) {
         stage.look_from(pose);
         const HitBuffer truth = stage.truth(small_picture);
@@ -273,8 +274,16 @@ TEST_P(AllSources, AreAsNearToTheTruthAsStated) {
                 EXPECT_LE(stats.kept_error.value_or(9.0), by_rays ? 1.0 : 0.7);
             }
             EXPECT_EQ(stats.tiles_unproven, 0);
+            if (!by_rays) {
+                const auto& tiles = triangles.select(stage.scene).list.tiles;
+                coarse_tiles += static_cast<int>(
+                    std::count_if(tiles.begin(), tiles.end(), [](const view::TileDraw& draw) {
+                        return draw.tile->id.level > 0;
+                    }));
+            }
         }
     }
+    EXPECT_EQ(coarse_tiles > 0, GetParam() == test::SampleSource::tiles);
 }
 
 TEST(CastDriver, KeepsErrorBoundsWithoutError) {

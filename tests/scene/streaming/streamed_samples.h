@@ -45,11 +45,11 @@ inline terrain::TileProof proof_of_samples(const Grid<float>& samples,
     return proof;
 }
 
-/// The levels of a stream's tiles that a test wants to see.
+/// The levels of a stream's tiles that a test shows.
 enum class SeenLevels { all, finest };
 
-/// From now on, a terrain's samples are tiles of a stream, with the errors that they have; if only
-/// the finest level is wanted, with so large errors that no other is drawn.
+/// From now on, a terrain's samples are tiles of a stream, with the errors that they have; or, to
+/// show only the finest level, with so large errors that no other is drawn.
 inline void stream_samples(scene::TerrainNode& node, SeenLevels levels) {
     const Grid<float>& heights = node.surface->heightfield().heights;
     const auto& georeference = node.surface->heightfield().georeference;
