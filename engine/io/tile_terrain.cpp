@@ -257,6 +257,22 @@ Result<terrain::HeightRange> range_of(const TileSet& tiles, const TileGrid& grid
                     : Error{fmt::format("{}: reading was stopped", tiles.name())};
 }
 
+// Adds a note to the terrain of the plan.
+Result<double> assumed_spacing_of(const TileSet& tiles, const TileSet::TerrainPlan& plan,
+                                  const TileTerrainOptions& options, terrain::Terrain& terrain) {
+    const auto range = plan.reduction == 1 ? Result<terrain::HeightRange>(terrain.heightfield.range)
+                                           : range_of(tiles, plan.grid, options);
+    const glm::dvec2 steps(plan.grid.cols - 1, plan.grid.rows - 1);
+    return range ? Result<double>(assumed_spacing(*range, steps, terrain.notes)) : range.error();
+}
+
+Error all_voids(const TileSet& tiles, const TileGrid& grid, const terrain::Terrain& terrain) {
+    return {fmt::format("{}: all {}×{} samples are voids, at least one height was expected{}{}",
+                        tiles.name(), grid.cols, grid.rows,
+                        is_web_tiles(tiles.name()) ? "; no tile was found at its level" : "",
+                        terrain.errors.empty() ? "" : "; " + terrain.errors.front())};
+}
+
 std::string text_of_tiles(const TileSet& tiles, const std::optional<geo::GeodeticArea>& area) {
     const auto counts = [&](const TileFile& file) { return !area || reaches_into(file, *area); };
     const auto count = std::count_if(tiles.files().begin(), tiles.files().end(), counts);
@@ -325,23 +341,16 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
         result.notes.push_back(std::move(note));
     }
     if (read->samples.void_count == read->samples.heights.size()) {
-        return Error{fmt::format("{}: all {}×{} samples are voids, at least one height was "
-                                 "expected{}{}",
-                                 name(), samples_grid.cols, samples_grid.rows,
-                                 is_web_tiles(name()) ? "; no tile was found at its level" : "",
-                                 result.errors.empty() ? "" : "; " + result.errors.front())};
+        return all_voids(*this, samples_grid, result);
     }
     result.heightfield = heightfield_of(std::move(read->samples), *place);
     result.heightfield.reduction = planned->reduction;
     if (state_->is_spacing_assumed) {
-        const auto range = planned->reduction == 1
-                               ? Result<terrain::HeightRange>(result.heightfield.range)
-                               : range_of(*this, planned->grid, options);
-        if (!range) {
-            return range.error();
+        const auto spacing = assumed_spacing_of(*this, *planned, options, result);
+        if (!spacing) {
+            return spacing.error();
         }
-        result.heightfield.spacing *= assumed_spacing(
-            *range, glm::dvec2(planned->grid.cols - 1, planned->grid.rows - 1), result.notes);
+        result.heightfield.spacing *= *spacing;
     }
     note_grid(*this, samples_grid, planned->reduction, result.heightfield.spacing, options.area,
               result.notes);
