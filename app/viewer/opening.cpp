@@ -62,8 +62,8 @@ session::SourceOptions streamed(session::SourceOptions terrain) {
     return terrain;
 }
 
-// A scene that begins with fewer samples begins with these: they take a tenth of a second.
-constexpr std::size_t first_samples = 400'000;
+// A scene that begins with fewer samples has these first: they take less than a tenth of a second.
+constexpr std::size_t first_samples = 250'000;
 
 // Whether nothing was put on the exact ground, and all samples would take long.
 bool can_begin_coarse(const session::TerrainSource& source, const session::SceneOptions& view) {

@@ -23,7 +23,7 @@ struct OpenedScene {
 
 /// With what a scene begins.
 enum class FirstSamples {
-    /// Fewer than a file has, if it has more than 800,000, is not streamed, does not close around
+    /// Fewer than a file has, if it has more than 500,000, is not streamed, does not close around
     /// the Earth, and is seen whole: without a named technique, a camera, objects or footprints.
     few,
     all
