@@ -117,8 +117,7 @@ double kept_error_of(const std::string& stats) {
     return found == std::string::npos ? 1e9 : std::stod(stats.substr(found + before.size()));
 }
 
-// A picture of heights, as from other programs: with an index, all of its tiles are proven.
-TEST_F(Streaming, heights_without_a_place_are_streamed_and_proven_as_those_with_one) {
+std::string heights_without_a_place() {
     std::string heights = "ncols 1000\nnrows 1000\nxllcorner 0\nyllcorner 0\ncellsize 2\n";
     for (int row = 0; row < 1000; ++row) {
         for (int col = 0; col < 1000; ++col) {
@@ -126,7 +125,12 @@ TEST_F(Streaming, heights_without_a_place_are_streamed_and_proven_as_those_with_
                 fmt::format("{:.2f} ", 300.0 + 250.0 * std::sin(0.02 * col) * std::cos(0.01 * row));
         }
     }
-    folder_.write("heights.asc", heights);
+    return heights;
+}
+
+// As heights from other programs often are; with an index, all tiles are proven.
+TEST_F(Streaming, heights_without_a_place_are_streamed_and_proven_as_those_with_one) {
+    folder_.write("heights.asc", heights_without_a_place());
     const auto with_memory = [&](const std::string& megabytes) {
         return test::reljef({"render", path("heights.asc"), "-o", path("a.png"), "--size",
                              "160x120", "--max-error", "1", "--memory", megabytes, "--stats",
@@ -140,6 +144,23 @@ TEST_F(Streaming, heights_without_a_place_are_streamed_and_proven_as_those_with_
     const auto in_memory = with_memory("256");
     EXPECT_THAT(in_memory.out, Not(HasSubstr("streamed: ")));
     EXPECT_LE(kept_error_of(in_memory.out), 1.0);
+}
+
+// They asked for heights at places on Earth: the program ended.
+TEST_F(Streaming, objects_and_buildings_stand_on_streamed_heights_without_a_place) {
+    folder_.write("heights.asc", heights_without_a_place());
+    folder_.write("roof.obj", "v 0 0 0\nv 9 0 0\nv 4 9 20\nf 1 2 3\n");
+    folder_.write("houses.geojson",
+                  R"({"type":"FeatureCollection","features":[{"type":"Feature",
+"properties":{"h":30},"geometry":{"type":"Polygon",
+"coordinates":[[[0,0],[40,0],[40,40],[0,40],[0,0]]]}}]})");
+    const auto result =
+        test::reljef({"render", path("heights.asc"), "-o", path("a.png"), "--size", "64x48",
+                      "--memory", "32", "--stats", "--object", path("roof.obj") + ":at=90,90",
+                      "--footprints", path("houses.geojson") + ":height=h"},
+                     options_);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("streamed: "));
 }
 
 // Cells that share no edge with the one that is gone are drawn as finely as without it.

@@ -90,17 +90,16 @@ public:
     [[nodiscard]] bool writes_to_memory() const override {
         return output_->supports("ioproxy") != 0;
     }
-    bool encode(const PictureSpec& spec, PicturePixels pixels,
-                std::vector<std::byte>& bytes) override {
+    std::optional<std::vector<std::byte>> encode(const PictureSpec& spec,
+                                                 PicturePixels pixels) override {
         std::vector<unsigned char> memory;
         OIIO::Filesystem::IOVecOutput proxy(memory);
         if (!output_->set_ioproxy(&proxy) || !write(spec, pixels, output_->format_name())) {
-            return false;
+            return std::nullopt;
         }
         output_.reset(); // flushes
         const auto all = std::as_bytes(std::span(memory));
-        bytes.assign(all.begin(), all.end());
-        return true;
+        return std::vector<std::byte>(all.begin(), all.end());
     }
     bool encode_file(const PictureSpec& spec, PicturePixels pixels,
                      const std::string& file) override {
@@ -126,17 +125,15 @@ private:
 
 class Codec : public PictureCodec {
 public:
-    std::unique_ptr<PictureInput> open(const std::string& format, const std::string& file,
-                                       std::string& why) override {
+    OpenedPicture open(const std::string& format, const std::string& file) override {
         auto input = OIIO::ImageInput::create(format);
         OIIO::ImageSpec desired;
         desired.attribute("oiio:UnassociatedAlpha", 1);
         OIIO::ImageSpec found;
         if (input == nullptr || !input->open(file, found, desired)) {
-            why = input == nullptr ? OIIO::geterror() : input->geterror();
-            return nullptr;
+            return {nullptr, input == nullptr ? OIIO::geterror() : input->geterror()};
         }
-        return std::make_unique<Input>(std::move(input));
+        return {std::make_unique<Input>(std::move(input)), {}};
     }
     std::unique_ptr<PictureOutput> create_output(const std::string& name) override {
         auto output = OIIO::ImageOutput::create(name);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,9 +79,9 @@ public:
     [[nodiscard]] virtual std::string_view format() const = 0;
     /// Whether encode() works; others only write files.
     [[nodiscard]] virtual bool writes_to_memory() const = 0;
-    /// The whole picture. Both end the encoder.
-    virtual bool encode(const PictureSpec& spec, PicturePixels pixels,
-                        std::vector<std::byte>& bytes) = 0;
+    /// The whole picture; absent if it fails. Both end the encoder.
+    virtual std::optional<std::vector<std::byte>> encode(const PictureSpec& spec,
+                                                         PicturePixels pixels) = 0;
     virtual bool encode_file(const PictureSpec& spec, PicturePixels pixels,
                              const std::string& file) = 0;
     /// Why the last call failed.
@@ -94,6 +95,11 @@ struct PictureArea {
     void* pixels = nullptr;
 };
 
+struct OpenedPicture {
+    std::unique_ptr<PictureInput> input; ///< null: it cannot be opened
+    std::string error;                   ///< why
+};
+
 /// Thread-safe.
 class PictureCodec {
 public:
@@ -102,9 +108,8 @@ public:
     PictureCodec& operator=(const PictureCodec&) = delete;
     virtual ~PictureCodec() = default;
 
-    /// Opens a picture of a format that picture_format() names. Null, and why, if it cannot.
-    virtual std::unique_ptr<PictureInput> open(const std::string& format, const std::string& file,
-                                               std::string& why) = 0;
+    /// A picture of a format that picture_format() names.
+    virtual OpenedPicture open(const std::string& format, const std::string& file) = 0;
     /// For a file's extension, or the name of a format; null without one.
     virtual std::unique_ptr<PictureOutput> create_output(const std::string& name) = 0;
     /// Fills `to` with `from`, resampled.

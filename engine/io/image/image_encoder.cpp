@@ -17,9 +17,8 @@ using EncodedBytes = Result<std::vector<std::byte>>;
 
 EncodedBytes encoded_in_memory(PictureOutput& output, const PictureSpec& spec,
                                const PicturePixels& pixels) {
-    std::vector<std::byte> bytes;
-    return output.encode(spec, pixels, bytes) ? EncodedBytes(std::move(bytes))
-                                              : Error{output.error()};
+    auto bytes = output.encode(spec, pixels);
+    return bytes ? EncodedBytes(std::move(*bytes)) : Error{output.error()};
 }
 
 EncodedBytes encoded_in_file(PictureOutput& output, const PictureSpec& spec,

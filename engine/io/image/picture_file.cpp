@@ -79,16 +79,15 @@ Result<std::unique_ptr<PictureInput>> open_picture(const fs::path& path, const c
     if (!codec) {
         return Error{fmt::format("{}: cannot be read: {}", path.string(), codec.error().message)};
     }
-    std::string why;
-    auto input = (*codec)->open(*format, path.string(), why);
-    if (input == nullptr) {
-        return Error{
-            fmt::format("{}: cannot be read ({}), {} was expected", path.string(), why, expected)};
+    auto opened = (*codec)->open(*format, path.string());
+    if (opened.input == nullptr) {
+        return Error{fmt::format("{}: cannot be read ({}), {} was expected", path.string(),
+                                 opened.error, expected)};
     }
-    if (auto size = check_image_size(path, input->header()); !size) {
+    if (auto size = check_image_size(path, opened.input->header()); !size) {
         return size.error();
     }
-    return input;
+    return std::move(opened.input);
 }
 
 } // namespace reljef::io
