@@ -202,6 +202,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("view", "fly through a terrain in a window");
     auto choice = std::make_shared<ViewerChoice>();
     cli::add_terrain_options(*arguments, choice->terrain);
+    choice->view.default_grain = 1.0;
     cli::add_view_options(*arguments, choice->view);
     add_object_options(*arguments, choice->view.objects, choice->view.footprints);
     cli::add_samples_option(*arguments, choice->view);

@@ -100,6 +100,7 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     if (start.scene.base) {
         command.add("--base", session::to_string(*start.scene.base));
     }
+    command.add("--grain", fmt::format("{}", scene.terrain->get<scene::TerrainNode>()->grain));
     if (start.scene.hides_sky) {
         command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");
     }

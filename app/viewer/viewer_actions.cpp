@@ -308,6 +308,12 @@ Result<void> Viewer::act(const SetTurbidity& set) {
     return {};
 }
 
+Result<void> Viewer::act(const SetGrain& set) {
+    scene_.terrain->get<scene::TerrainNode>()->grain = static_cast<float>(set.strength);
+    redraw_ = true;
+    return {};
+}
+
 Result<void> Viewer::act(const SetVisibility& set) {
     if (auto sky = scene_.scene.sky()) {
         scene_.surroundings.visibility = set.metres;

@@ -46,6 +46,7 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
             appearance.ramps.emplace_back(name);
         }
     }
+    appearance.grain = static_cast<double>(terrain_of(scene).grain);
     appearance.light = viewer.light();
     appearance.exaggeration = viewer.exaggeration();
     appearance.fixed_exaggeration = viewer.exaggeration_obstacle();

@@ -13,7 +13,7 @@
 
 #include "app/cli/progress_line.h"
 #include "engine/io/formats/raster_writer.h"
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::bench {
 namespace {
@@ -45,7 +45,7 @@ const std::array<Wave, wave_count>& waves() {
         for (std::size_t i = 0; i < wave_count; ++i) {
             const auto random_angle = [&](std::uint32_t seed) {
                 return 2.0 * std::numbers::pi *
-                       terrains::unit_hash(seed, static_cast<std::int32_t>(i), 0);
+                       material::unit_hash(seed, static_cast<std::int32_t>(i), 0);
             };
             const double direction = random_angle(1);
             made_waves[i] = {number * glm::dvec2(std::cos(direction), std::sin(direction)),

@@ -7,7 +7,7 @@
 
 #include <glm/common.hpp>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 
 namespace reljef::cast {

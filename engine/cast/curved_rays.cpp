@@ -14,7 +14,7 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/core/parallel_for.h"
 #include "engine/view/draw_list.h"
 

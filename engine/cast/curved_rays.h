@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/beam.h"
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/sample_map.h"
 #include "engine/core/geometry.h"

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <hwy/targets.h>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 
 namespace reljef::cast {
 namespace {

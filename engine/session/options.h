@@ -113,8 +113,11 @@ struct SceneOptions {
     std::optional<double> turbidity; ///< [1, 10]; absent: the scene file's, else clear air
     /// Metres; 0: no haze; absent: the scene file's, else by the size.
     std::optional<double> visibility;
-    std::optional<BaseKind> base;                      ///< absent: the scene file's, else a plane
-    std::optional<bool> hides_sky;                     ///< absent: the scene file's, else true
+    std::optional<BaseKind> base;  ///< absent: the scene file's, else a plane
+    std::optional<bool> hides_sky; ///< absent: the scene file's, else true
+    /// TerrainNode::grain; absent: the scene file's, else default_grain.
+    std::optional<double> grain;
+    double default_grain = 0.0;
     std::vector<io::ObjectDescription> objects;        ///< besides the scene file's
     std::vector<io::FootprintsDescription> footprints; ///< besides the scene file's
     bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)

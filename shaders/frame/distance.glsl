@@ -1,7 +1,9 @@
 // Metres from the eye to this fragment, in perspective.
-#ifdef MULTISAMPLED
+#if defined(MULTISAMPLED) || defined(GRAIN)
 in vec3 way_from_eye; // metres
+#endif
 
+#ifdef MULTISAMPLED
 float distance_to_eye() {
     return length(INSIDE(way_from_eye));
 }

@@ -45,6 +45,17 @@ uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
 #include "relief/relief_light.glsl"
+#ifdef GRAIN
+#include "terrain/grain.glsl"
+
+// Of the surface at a place, along the turned axes.
+vec3 perpendicular_at(vec2 place) {
+    SurfaceCell cell = surface_cell(place);
+    vec2 rises = vec2(mix(cell.corners.z - cell.corners.w, cell.corners.y - cell.corners.x, cell.part.y),
+                      mix(cell.corners.x - cell.corners.w, cell.corners.y - cell.corners.z, cell.part.x));
+    return mat3(grain_normal_from_slopes) * vec3(-rises / cell.extent, 1.0);
+}
+#endif
 #ifdef HIT
 uniform vec4 origin_sample;   // xy: col, row of the search space's origin; zw: to be added
 uniform float samples_a_cell; // of a terrain in memory, 1; of streamed tiles, of the finest
@@ -188,7 +199,11 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
 }
 
 vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
-    return seen_through_air(lit_at(place, level, relative), metres);
+    vec3 lit = lit_at(place, level, relative);
+#ifdef GRAIN
+    lit = with_grain(lit, relative, perpendicular_at(place));
+#endif
+    return seen_through_air(lit, metres);
 }
 #endif
 

@@ -24,7 +24,7 @@ out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
 out vec3 local_from_eye; // metres
-#elif defined(MULTISAMPLED)
+#elif defined(MULTISAMPLED) || defined(GRAIN)
 out vec3 way_from_eye; // metres
 #endif
 #ifdef MULTISAMPLED
@@ -59,7 +59,7 @@ void main() {
     tile_place = place;
 #ifdef GROUND
     local_from_eye = from_eye;
-#elif defined(MULTISAMPLED)
+#elif defined(MULTISAMPLED) || defined(GRAIN)
     way_from_eye = relative;
 #endif
 #ifdef MULTISAMPLED

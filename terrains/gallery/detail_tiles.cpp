@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains {
 namespace {
@@ -25,7 +25,7 @@ struct SurfacePoint {
 };
 
 float noise(std::uint32_t seed, glm::vec2 place, int cells, int octaves = 4) {
-    return fractal_noise(seed, place * static_cast<float>(cells), {octaves, 0.5F, cells});
+    return material::fractal_noise(seed, place * static_cast<float>(cells), {octaves, 0.5F, cells});
 }
 
 glm::vec3 chosen(std::span<const glm::vec3> palette, float random) {
@@ -66,9 +66,9 @@ SurfacePoint brick_wall(glm::vec2 place, std::uint32_t seed) {
     constexpr glm::vec3 lime(0.44F, 0.40F, 0.34F);
     constexpr float joint = 0.0075F; // half its width, in texture widths
     const Brick brick = brick_at(place);
-    const float random = unit_hash(seed, brick.id.x, brick.id.y);
-    const glm::vec2 tilt(unit_hash(seed + 1, brick.id.x, brick.id.y) - 0.5F,
-                         unit_hash(seed + 2, brick.id.x, brick.id.y) - 0.5F);
+    const float random = material::unit_hash(seed, brick.id.x, brick.id.y);
+    const glm::vec2 tilt(material::unit_hash(seed + 1, brick.id.x, brick.id.y) - 0.5F,
+                         material::unit_hash(seed + 2, brick.id.x, brick.id.y) - 0.5F);
     const float worn = 0.0035F * noise(seed + 3, place, 24, 3);
     const float outside =
         to_round_box(brick.place * brick.sides, 0.5F * brick.sides - joint, 0.011F) + worn;
@@ -79,7 +79,7 @@ SurfacePoint brick_wall(glm::vec2 place, std::uint32_t seed) {
     const float top = 0.80F + 0.14F * (random - 0.5F) + 0.12F * glm::dot(tilt, brick.place) +
                       0.06F * rough + 0.02F * grain - 0.16F * pits;
     const float mortar = 0.26F + 0.10F * rough + 0.06F * grain;
-    const glm::vec3 clay = chosen(clays, unit_hash(seed + 7, brick.id.x, brick.id.y)) *
+    const glm::vec3 clay = chosen(clays, material::unit_hash(seed + 7, brick.id.x, brick.id.y)) *
                            (1.0F + 0.35F * rough + 0.25F * grain - 0.35F * pits);
     return {glm::mix(mortar, top, face),
             glm::mix(lime * (1.0F + 0.25F * rough + 0.2F * grain), clay, face)};
@@ -92,9 +92,9 @@ SurfacePoint cobbles(glm::vec2 place, std::uint32_t seed) {
         glm::vec3(0.28F, 0.23F, 0.19F)};
     constexpr int cells = 7;
     const glm::vec2 wobble(noise(seed + 1, place, 14, 2), noise(seed + 2, place, 14, 2));
-    const VoronoiCell cell =
-        voronoi(seed, place * static_cast<float>(cells) + 0.10F * wobble, cells, 0.62F);
-    const float random = unit_hash(seed + 3, cell.id.x, cell.id.y);
+    const material::VoronoiCell cell =
+        material::voronoi(seed, place * static_cast<float>(cells) + 0.10F * wobble, cells, 0.62F);
+    const float random = material::unit_hash(seed + 3, cell.id.x, cell.id.y);
     const float grain = noise(seed + 4, place, 64, 4);
     const float rough = noise(seed + 5, place, 20, 4);
     const float inside = glm::clamp((cell.to_edge - 0.055F) / 0.30F, 0.0F, 1.0F);
@@ -105,7 +105,7 @@ SurfacePoint cobbles(glm::vec2 place, std::uint32_t seed) {
     const glm::vec3 ground =
         glm::mix(glm::vec3(0.20F, 0.16F, 0.11F), glm::vec3(0.09F, 0.12F, 0.04F), moss) *
         (1.0F + 0.4F * grain);
-    const glm::vec3 rock = chosen(stones, unit_hash(seed + 8, cell.id.x, cell.id.y)) *
+    const glm::vec3 rock = chosen(stones, material::unit_hash(seed + 8, cell.id.x, cell.id.y)) *
                            (1.0F + 0.30F * rough + 0.30F * grain);
     return {std::max(stone * glm::smoothstep(0.0F, 0.02F, inside), sand),
             glm::mix(ground, rock,
@@ -117,12 +117,12 @@ SurfacePoint cobbles(glm::vec2 place, std::uint32_t seed) {
 float slabs(glm::vec2 place, std::uint32_t seed, int cells) {
     const glm::vec2 wobble(noise(seed + 1, place, 2 * cells, 3),
                            noise(seed + 2, place, 2 * cells, 3));
-    const VoronoiCell cell =
-        voronoi(seed, place * static_cast<float>(cells) + 0.35F * wobble, cells, 0.9F);
-    const glm::vec2 lean(unit_hash(seed + 3, cell.id.x, cell.id.y) - 0.5F,
-                         unit_hash(seed + 4, cell.id.x, cell.id.y) - 0.5F);
+    const material::VoronoiCell cell =
+        material::voronoi(seed, place * static_cast<float>(cells) + 0.35F * wobble, cells, 0.9F);
+    const glm::vec2 lean(material::unit_hash(seed + 3, cell.id.x, cell.id.y) - 0.5F,
+                         material::unit_hash(seed + 4, cell.id.x, cell.id.y) - 0.5F);
     const float crack = glm::smoothstep(0.07F, 0.0F, cell.to_edge);
-    return 0.55F * unit_hash(seed + 5, cell.id.x, cell.id.y) +
+    return 0.55F * material::unit_hash(seed + 5, cell.id.x, cell.id.y) +
            0.9F * glm::dot(lean, cell.from_seed) - 0.35F * crack;
 }
 
@@ -161,8 +161,9 @@ SurfacePoint wire_fence(glm::vec2 place, std::uint32_t seed) {
 
 SurfacePoint hammered_copper(glm::vec2 place, std::uint32_t seed) {
     constexpr int dents = 9;
-    const VoronoiCell cell = voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
-    const float random = unit_hash(seed + 1, cell.id.x, cell.id.y);
+    const material::VoronoiCell cell =
+        material::voronoi(seed, place * static_cast<float>(dents), dents, 0.75F);
+    const float random = material::unit_hash(seed + 1, cell.id.x, cell.id.y);
     const float off = glm::length(cell.from_seed);
     const float ridge = glm::smoothstep(0.16F, 0.0F, cell.to_edge);
     const float grain = noise(seed + 2, place, 64, 4);

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains {
 namespace {
@@ -84,8 +84,8 @@ glm::vec3 floor_albedo(glm::vec2 place, std::uint32_t seed) {
     const glm::ivec2 id(glm::floor(at));
     const glm::vec2 to_joint = 0.5F - glm::abs(glm::fract(at) - 0.5F);
     const float joint = glm::smoothstep(0.005F, 0.022F, std::min(to_joint.x, to_joint.y));
-    const float tone = 0.92F + 0.16F * unit_hash(seed, id.x, id.y);
-    const float grain = fractal_noise(seed + 1, 3.0F * place, {5, 0.6F, 0});
+    const float tone = 0.92F + 0.16F * material::unit_hash(seed, id.x, id.y);
+    const float grain = material::fractal_noise(seed + 1, 3.0F * place, {5, 0.6F, 0});
     const glm::vec3 stone = glm::vec3(0.335F, 0.315F, 0.285F) * tone * (1.0F + 0.14F * grain);
     return stone * glm::mix(0.62F, 1.0F, joint);
 }

@@ -5,7 +5,7 @@
 #include <queue>
 
 #include "engine/core/parallel_for.h"
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains {
 namespace {
@@ -80,7 +80,7 @@ void FlowRouter::find_steepest(int row) {
     for (int col = 0; col < cols_; ++col) {
         const std::int32_t cell = row * cols_ + col;
         const bool inner = col > 0 && row > 0 && col < cols_ - 1 && row < rows_ - 1;
-        std::uint32_t random_bits = hash(seed_, cell, 0);
+        std::uint32_t random_bits = material::hash(seed_, cell, 0);
         float steepest = 0.0F;
         drainage_.receiver[cell_index(cell)] = cell;
         drainage_.distance[cell_index(cell)] = 0.0F;

@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains::natural {
 namespace {
@@ -114,7 +114,7 @@ Site site_at(const Land& land, const Surroundings& around, int col, int row, std
     site.crowns = 0.5F * (around.fall(col, row).random + around.fall.clamped(col + 1, row).random +
                           around.fall.clamped(col, row + 1).random +
                           around.fall.clamped(col + 1, row + 1).random);
-    site.grain = 2.0F * unit_hash(seed + 77, col, row) - 1.0F;
+    site.grain = 2.0F * material::unit_hash(seed + 77, col, row) - 1.0F;
     return site;
 }
 
@@ -138,16 +138,17 @@ Tint rock(const Site& site) {
 
 /// Parcels of grass and crops on a valley floor, on a lattice whose direction varies.
 Tint parcels(const Site& site, std::uint32_t seed) {
-    const float turn = std::floor(2.0F * gradient_noise(seed + 81, site.place / 70.0F) + 0.5F);
+    const float turn =
+        std::floor(2.0F * material::gradient_noise(seed + 81, site.place / 70.0F) + 0.5F);
     const glm::vec2 axis = glm::vec2{1.0F, 0.35F + 0.6F * turn} /
                            std::sqrt(1.0F + (0.35F + 0.6F * turn) * (0.35F + 0.6F * turn));
     const float along = glm::dot(site.place, axis) / 6.5F;
     const float across = (site.place.y * axis.x - site.place.x * axis.y) / 3.2F;
     const auto strip = static_cast<std::int32_t>(std::floor(across));
-    const float shift = unit_hash(seed + 83, strip, 0);
+    const float shift = material::unit_hash(seed + 83, strip, 0);
     const auto parcel = static_cast<std::int32_t>(std::floor(along + shift));
-    const float kind = unit_hash(seed + 85, strip, parcel);
-    const float shade = 0.92F + 0.16F * unit_hash(seed + 87, strip, parcel);
+    const float kind = material::unit_hash(seed + 85, strip, parcel);
+    const float shade = 0.92F + 0.16F * material::unit_hash(seed + 87, strip, parcel);
     const float crops = 1.0F - smoothstep(650.0F, 950.0F, site.height);
     const Tint grass = glm::mix(lush_grass, hay, smoothstep(0.2F, 1.1F, kind));
     const Tint tint = kind < 0.13F * crops ? field : grass;
@@ -251,13 +252,13 @@ Tint cover_at(const Land& land, const Site& site, int col, int row, std::uint32_
     return tint;
 }
 
-SlowNoise slow_noise(std::uint32_t seed, int cells, float scale, const FractalOptions& fractal,
-                     const LandOptions& options) {
+SlowNoise slow_noise(std::uint32_t seed, int cells, float scale,
+                     const material::FractalOptions& fractal, const LandOptions& options) {
     const int size = options.size / cells + 2;
     SlowNoise noise{cells, Grid<float>(size, size)};
     for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
-        noise.values(col, row) =
-            fractal_noise(seed, glm::vec2(col, row) * (static_cast<float>(cells) / scale), fractal);
+        noise.values(col, row) = material::fractal_noise(
+            seed, glm::vec2(col, row) * (static_cast<float>(cells) / scale), fractal);
     });
     return noise;
 }
@@ -277,7 +278,7 @@ Surroundings surroundings_of(const Land& land, const LandOptions& options) {
         const glm::vec2 fall{around.near.clamped(col - 1, row) - around.near.clamped(col + 1, row),
                              around.near.clamped(col, row - 1) - around.near.clamped(col, row + 1)};
         around.fall(col, row) = {fall / (glm::length(fall) + 1.0e-3F),
-                                 unit_hash(options.seed + 71, col, row) - 0.5F};
+                                 material::unit_hash(options.seed + 71, col, row) - 0.5F};
     });
     return around;
 }

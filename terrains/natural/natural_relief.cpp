@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/parallel_for.h"
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains::natural {
 namespace {
@@ -74,10 +74,10 @@ Grid<float> warped(const Grid<float>& coarse, int size, const LandOptions& optio
     Grid<float> south(coarse.cols(), coarse.rows());
     for_each_cell(coarse.cols(), coarse.rows(), parallel, [&](int col, int row) {
         const glm::vec2 place(col, row);
-        east(col, row) = 1.1F * gradient_noise(options.seed + 51, place / 5.3F) +
-                         2.2F * gradient_noise(options.seed + 52, place / 13.0F);
-        south(col, row) = 1.1F * gradient_noise(options.seed + 53, place / 5.3F) +
-                          2.2F * gradient_noise(options.seed + 54, place / 13.0F);
+        east(col, row) = 1.1F * material::gradient_noise(options.seed + 51, place / 5.3F) +
+                         2.2F * material::gradient_noise(options.seed + 52, place / 13.0F);
+        south(col, row) = 1.1F * material::gradient_noise(options.seed + 53, place / 5.3F) +
+                          2.2F * material::gradient_noise(options.seed + 54, place / 13.0F);
     });
     Grid<float> fine(size, size);
     for_each_cell(size, size, parallel, [&](int col, int row) {
@@ -95,13 +95,13 @@ Level first_level(const LandOptions& options) {
                 Grid<float>(size, size, 0.8F)};
     for_each_cell(size, size, {options.threads, {}, {}}, [&](int col, int row) {
         const glm::vec2 place = kilometres * glm::vec2(col, row);
-        const float range = fractal_noise(options.seed, place / 13.0F, {.octaves = 3});
-        const float rock = fractal_noise(options.seed + 11, place / 3.5F, {.octaves = 3});
+        const float range = material::fractal_noise(options.seed, place / 13.0F, {.octaves = 3});
+        const float rock = material::fractal_noise(options.seed + 11, place / 3.5F, {.octaves = 3});
         level.uplift(col, row) = 0.26F + 0.74F * smoothstep(-0.35F, 0.35F, range);
         level.erodibility(col, row) =
             rock > 0.0F ? 1.0F + 1.2F * rock : 1.0F / (1.0F - 1.2F * rock);
-        level.heights(col, row) =
-            120.0F * unit_hash(options.seed + 17, col, row) + 300.0F * level.uplift(col, row);
+        level.heights(col, row) = 120.0F * material::unit_hash(options.seed + 17, col, row) +
+                                  300.0F * level.uplift(col, row);
     });
     return level;
 }
@@ -142,7 +142,7 @@ Grid<float> talus_of(const Grid<float>& heights, float kilometres, const LandOpt
     const ParallelOptions parallel{options.threads, {}, {}};
     for_each_cell(heights.cols(), heights.rows(), parallel, [&](int col, int row) {
         const glm::vec2 place = kilometres * glm::vec2(col, row);
-        const float rock = fractal_noise(options.seed + 23, place / 0.7F, {.octaves = 3});
+        const float rock = material::fractal_noise(options.seed + 23, place / 0.7F, {.octaves = 3});
         const float alpine = smoothstep(300.0F, 2300.0F, heights(col, row));
         talus(col, row) =
             (0.52F + 0.30F * alpine) * (1.0F + (0.5F + 0.9F * alpine) * std::max(rock, -0.35F));
@@ -153,7 +153,8 @@ Grid<float> talus_of(const Grid<float>& heights, float kilometres, const LandOpt
 void roughen(Grid<float>& heights, float spacing, const LandOptions& options) {
     const ParallelOptions parallel{options.threads, {}, {}};
     for_each_cell(heights.cols(), heights.rows(), parallel, [&](int col, int row) {
-        heights(col, row) += 0.12F * spacing * (unit_hash(options.seed + 31, col, row) - 0.5F);
+        heights(col, row) +=
+            0.12F * spacing * (material::unit_hash(options.seed + 31, col, row) - 0.5F);
     });
 }
 

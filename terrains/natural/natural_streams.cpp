@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains::natural {
 namespace {
@@ -71,8 +71,8 @@ void meander(std::vector<Point>& points, const LandOptions& options) {
     for (Point& point : points) {
         const float swing = 6.5F * smoothstep(0.3F, 1.1F, point.half_width);
         const glm::vec2 from = point.place / 12.0F;
-        point.place += swing * glm::vec2{gradient_noise(options.seed + 61, from),
-                                         gradient_noise(options.seed + 62, from)};
+        point.place += swing * glm::vec2{material::gradient_noise(options.seed + 61, from),
+                                         material::gradient_noise(options.seed + 62, from)};
         point.place = glm::clamp(point.place, 0.0F, last);
     }
 }
@@ -104,7 +104,7 @@ struct Stretch {
                            : 0.0F;
         const float distance = glm::length(place - (from.place + part * along));
         const float width = std::lerp(from.half_width, to.half_width, part);
-        const float random = gradient_noise(seed, place / 6.0F) + 0.35F;
+        const float random = material::gradient_noise(seed, place / 6.0F) + 0.35F;
         const float bank = width + smoothstep(0.35F, 1.0F, width) * 1.8F * std::max(random, 0.0F);
         const auto cover = [&](float half) {
             return std::clamp(half + 0.5F - distance, 0.0F, 1.0F) * std::min(1.0F, 2.0F * half);

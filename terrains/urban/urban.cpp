@@ -34,12 +34,12 @@ std::optional<Error> urban_option_error(const GeneratorOptions& options) {
 }
 
 Raster raster_of(const GeneratorOptions& options, double spacing, float period) {
-    Random random(hash(options.seed, 1, 1));
+    Random random(material::hash(options.seed, 1, 1));
     const float x = random.unit() * period;
     return {options.size,
             static_cast<float>(spacing),
             {x, random.unit() * period},
-            hash(options.seed, 2, 2),
+            material::hash(options.seed, 2, 2),
             spacing};
 }
 
@@ -115,7 +115,7 @@ Result<City> generate_city(const GeneratorOptions& options, building::CityForm f
     const double spacing = options.spacing == 0.0 ? default_spacing : options.spacing;
     const auto extent = static_cast<float>(spacing * options.size);
     const float period = options.tileable ? extent : std::max(extent, min_city);
-    const CityPlan city = build_city(period, hash(options.seed, 3, 3), options.threads);
+    const CityPlan city = build_city(period, material::hash(options.seed, 3, 3), options.threads);
     const Raster raster = raster_of(options, spacing, period);
     auto all = painted(city, raster, options, true);
     const bool has_meshes = form != building::CityForm::heights;

@@ -100,7 +100,7 @@ Use use_of(const Block& block, int index, int count, float period, std::uint32_t
     constexpr std::array<Use, 10> mixed{Use::perimeter, Use::downtown,  Use::perimeter, Use::houses,
                                         Use::park,      Use::perimeter, Use::downtown,  Use::square,
                                         Use::slabs,     Use::perimeter};
-    Random random(hash(seed, 31, index));
+    Random random(material::hash(seed, 31, index));
     if (count < 16) {
         return mixed[static_cast<std::size_t>(index) % mixed.size()];
     }
@@ -115,7 +115,7 @@ Use use_of(const Block& block, int index, int count, float period, std::uint32_t
     const auto cells = std::max(1, static_cast<std::int32_t>(std::lround(period / 420.0F)));
     const glm::vec2 place = centroid(block.lot) * (static_cast<float>(cells) / period);
     const float dense =
-        0.52F + 0.62F * gradient_noise(seed + 5U, place, cells) + 0.16F * random.bell();
+        0.52F + 0.62F * material::gradient_noise(seed + 5U, place, cells) + 0.16F * random.bell();
     if (dense > 0.7F) {
         return Use::downtown;
     }
@@ -188,7 +188,7 @@ CityPlan build_city(float period, std::uint32_t seed, unsigned threads) {
                      const Cell& cell = city.plan.cells[static_cast<std::size_t>(index)];
                      Block& block = city.blocks[static_cast<std::size_t>(index)];
                      block = block_of(city.plan, cell);
-                     BlockBuilder builder(block, hash(seed, 21, index));
+                     BlockBuilder builder(block, material::hash(seed, 21, index));
                      if (!block.lot.empty() && area(block.lot) > 60.0F) {
                          const Use use = use_of(block, index, count, period, seed);
                          builders[static_cast<std::size_t>(use)](builder);

@@ -160,8 +160,9 @@ private:
         Color color = surface_color(Surface::asphalt, tile, i) * arm.tone;
         const float wheel = std::abs(fract(across / 1.75F) - 0.5F);
         color *= 1.0F + (wheel < 0.2F ? -0.022F : 0.012F);
-        if (unit_hash(arm.street->seed, static_cast<std::int32_t>(std::floor(along / 13.0F)),
-                      static_cast<std::int32_t>(across / 3.3F)) > 0.93F) {
+        if (material::unit_hash(arm.street->seed,
+                                static_cast<std::int32_t>(std::floor(along / 13.0F)),
+                                static_cast<std::int32_t>(across / 3.3F)) > 0.93F) {
             color *= 0.92F;
         }
         tile.color[i] = color;
@@ -283,7 +284,7 @@ void paint_ground(Tile& tile, const StreetPlan& plan, const Block& block, glm::v
     Box box;
     for (std::size_t k = 0; k < block.cell.outline.size(); ++k) {
         const Street& street = plan.streets[block.cell.streets[k]];
-        const float tone = 0.86F + 0.3F * unit_hash(street.seed, 1, 1);
+        const float tone = 0.86F + 0.3F * material::unit_hash(street.seed, 1, 1);
         painter.arms.push_back({edge_plane(block.cell.outline, k), &street, tone});
         box.add(block.cell.outline.corners[k] + shift, 0.1F);
     }
@@ -292,7 +293,7 @@ void paint_ground(Tile& tile, const StreetPlan& plan, const Block& block, glm::v
 }
 
 void paint_patch(Tile& tile, const Warp& warp, const Patch& patch, glm::vec2 shift) {
-    const float tone = 0.9F + 0.2F * unit_hash(patch.seed, 2, 2);
+    const float tone = 0.9F + 0.2F * material::unit_hash(patch.seed, 2, 2);
     const bool sunken = patch.surface == Surface::water || patch.surface == Surface::pool;
     for_each_sample(tile, warp, patch.shape.bounds.moved(shift), [&](std::size_t i) {
         const glm::vec2 place = tile.place[i] - shift;

@@ -36,7 +36,8 @@ Slope slope_at(const Building& building, glm::vec2 place) {
 
 Color pitched_color(const Building& building, const Slope& slope, const Tile& tile, std::size_t i) {
     const bool metal = building.cover == Cover::metal;
-    const float facet = unit_hash(building.seed, static_cast<std::int32_t>(slope.facet), 3) - 0.5F;
+    const float facet =
+        material::unit_hash(building.seed, static_cast<std::int32_t>(slope.facet), 3) - 0.5F;
     const float rows = fract(slope.run / 1.1F) < 0.4F ? -0.025F : 0.012F;
     float light = 1.0F + 0.11F * facet + rows + (metal ? 0.03F : 0.075F) * tile.grain[i] +
                   0.05F * tile.fine[i] + 0.10F * tile.broad[i];

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 namespace reljef::terrains::urban {
 
@@ -17,7 +17,7 @@ class Random {
 public:
     explicit Random(std::uint32_t seed) : seed_(seed) {}
 
-    std::uint32_t bits() { return hash(seed_, ++count_, 7919); }
+    std::uint32_t bits() { return material::hash(seed_, ++count_, 7919); }
     /// In [0, 1).
     float unit() { return static_cast<float>(bits() >> 8U) * 0x1p-24F; }
     float range(float low, float high) { return low + (high - low) * unit(); }

@@ -177,8 +177,9 @@ void add_junction(Street& street, const Street& other, glm::vec2 place) {
     const bool known = std::any_of(street.junctions.begin(), street.junctions.end(),
                                    [&](const Junction& j) { return std::abs(j.at - at) < 2.0F; });
     if (!known) {
-        const bool crossing = street.kind != StreetKind::lane &&
-                              hash(street.seed, 5, static_cast<std::int32_t>(at)) % 8U != 0;
+        const bool crossing =
+            street.kind != StreetKind::lane &&
+            material::hash(street.seed, 5, static_cast<std::int32_t>(at)) % 8U != 0;
         street.junctions.push_back({at, other.roadway() / sine, crossing});
     }
 }
@@ -243,10 +244,10 @@ glm::vec2 Warp::ground_from_city(glm::vec2 city) const {
 }
 
 StreetPlan plan_streets(float period, std::uint32_t seed) {
-    Planner planner(hash(seed, 11, 0));
+    Planner planner(material::hash(seed, 11, 0));
     planner.plan.period = period;
     planner.scale = std::min(1.0F, period / 120.0F);
-    planner.plan.warp = Warp(period, hash(seed, 12, 0));
+    planner.plan.warp = Warp(period, material::hash(seed, 12, 0));
     for (Cell& cell : columns(planner)) {
         subdivide(planner, std::move(cell));
     }

@@ -25,8 +25,8 @@ std::vector<float> noise_of(const Raster& raster, const Tile& tile, const NoiseS
     for (int y = 0; y < nodes_y; ++y) {
         for (int x = 0; x < nodes_x; ++x) {
             const glm::vec2 sample(tile.col + x * scale.step, tile.row + y * scale.step);
-            nodes(x, y) =
-                fractal_noise(scale.seed, sample * per_sample, {scale.octaves, 0.6F, period});
+            nodes(x, y) = material::fractal_noise(scale.seed, sample * per_sample,
+                                                  {scale.octaves, 0.6F, period});
         }
     }
     std::vector<float> values(tile.place.size());
@@ -52,7 +52,8 @@ void place_samples(Tile& tile, const Raster& raster, const Warp& warp) {
             const glm::vec2 sample(tile.col + x, tile.row + y);
             tile.place[i] = warp.city_from_ground(raster.origin + sample * raster.spacing);
             tile.bounds.add(tile.place[i]);
-            tile.grain[i] = 2.0F * unit_hash(raster.seed, tile.col + x, tile.row + y) - 1.0F;
+            tile.grain[i] =
+                2.0F * material::unit_hash(raster.seed, tile.col + x, tile.row + y) - 1.0F;
         }
     }
 }

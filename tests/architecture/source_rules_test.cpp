@@ -56,7 +56,7 @@ TEST(IncludesOf, OverlooksCommentsAndStrings) {
 TEST(RoomOf, IsTheFolderOfCode) {
     EXPECT_EQ(room_of("engine/core/grid.h"), "engine/core");
     EXPECT_EQ(room_of("engine/io/raster/raster.h"), "engine/io/raster");
-    EXPECT_EQ(room_of("terrains/natural/noise.h"), "terrains/natural");
+    EXPECT_EQ(room_of("terrains/natural/erosion.h"), "terrains/natural");
     EXPECT_EQ(room_of("tests/core/grid_test.cpp"), "tests");
     EXPECT_EQ(room_of("engine/nowhere/a.h"), "");
     EXPECT_EQ(room_of("fmt/format.h"), "");

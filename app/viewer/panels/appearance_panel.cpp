@@ -74,6 +74,16 @@ PanelActions draw_air(const AppearanceContent& appearance) {
     return actions;
 }
 
+PanelActions draw_grain(const AppearanceContent& appearance) {
+    double strength = appearance.grain;
+    const bool is_moved =
+        draw_slider("Grain of near ground", strength, 0.0, scene::max_grain, "{:.2f}");
+    tip("Fine structure that the data do not have. Hits and errors are without it.");
+    constexpr double shown_parts = 100.0; // of 1
+    return is_moved ? PanelActions{SetGrain{std::round(strength * shown_parts) / shown_parts}}
+                    : PanelActions();
+}
+
 PanelActions draw_ramps(const AppearanceContent& appearance) {
     PanelActions actions;
     if (appearance.ramp.empty()) {
@@ -186,6 +196,7 @@ PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fon
     actions += draw_air(appearance);
     section(fonts.heading, "Picture");
     actions += draw_ramps(appearance);
+    actions += draw_grain(appearance);
     actions += draw_exaggeration(appearance);
     actions += draw_samples(appearance);
     actions += draw_switch("Wireframe  (F)", content.technique.wireframe, Key::f);

@@ -43,6 +43,11 @@ struct SetVisibility {
     double metres = 0.0; ///< > 0
 };
 
+/// Fine structure of near ground.
+struct SetGrain {
+    double strength = 0.0; ///< [0, scene::max_grain]
+};
+
 /// Colours of heights.
 struct SetRamp {
     std::string name; ///< of a built-in ramp
@@ -118,9 +123,10 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
-                 SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand, SetComparison,
-                 SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey, MovePathKey,
-                 RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo, ClearPoints>;
+                 SetGrain, SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand,
+                 SetComparison, SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey,
+                 MovePathKey, RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo,
+                 ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

@@ -56,6 +56,7 @@ struct AppearanceContent {
     double true_north = 0.0;               ///< there, degrees clockwise from the scene's north
     std::string ramp;                      ///< requested; empty: heights have no colours
     std::vector<std::string> ramps;        ///< the built-in ones
+    double grain = 0.0;                    ///< TerrainNode::grain
     double exaggeration = 1.0;             ///< requested
     std::string fixed_exaggeration;        ///< why it cannot change; empty: it can
     std::optional<int> samples;            ///< absent: chosen for each frame

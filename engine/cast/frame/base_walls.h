@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::cast {

@@ -15,7 +15,6 @@
 
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
-#include "engine/cast/frame/painter.h"
 #include "engine/cast/frame/sun_light.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/streaming/certain_sun.h"
@@ -304,6 +303,11 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     }
 }
 
+const GrainPaint* Driver::grain_of(const view::DrawList& list, PlacedTiles& placed) {
+    const std::vector<SeenTerrain> terrains = seen_terrains(list);
+    return terrains.empty() ? nullptr : grain_.prepare(list, terrains.front(), placed);
+}
+
 Result<std::unique_ptr<const MeshFrame>> Driver::mesh_frame(const StreamedList& frame,
                                                             const PlacedTiles& placed) {
     const view::DrawList& list = frame.list;
@@ -334,7 +338,8 @@ Result<std::unique_ptr<const MeshFrame>> Driver::mesh_frame(const StreamedList& 
         std::make_unique<MeshFrame>(list, std::move(*meshes), mesh_pictures_, std::move(options)));
 }
 
-void Driver::paint(const view::DrawList& list, const PlacedTiles& placed, const MeshFrame* meshes) {
+void Driver::paint(const view::DrawList& list, const PlacedTiles& placed,
+                   const PainterOptions& options) {
     // Of a pixel's width: a step of this depth shows another surface.
     constexpr double step_in_pixels = 2.0;
     const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
@@ -342,8 +347,7 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed, const 
     first_.samples_all = options_.samples_all;
     first_.disagreement =
         static_cast<float>(step_in_pixels) * (first_.is_perspective ? pixel.y : pixel.x);
-    Painter painter(list, placed, {options_.target, options_.skips, options_.samples, meshes},
-                    first_);
+    Painter painter(list, placed, options, first_);
     ParallelOptions parallel;
     parallel.threads = options_.threads;
     for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
@@ -390,12 +394,14 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
     }
     const StreamedList streamed = with_tiles_of_reliefs(frame.list);
     view::FrameStats stats = frame.list.stats;
-    const PlacedTiles placed = placed_tiles(streamed, true, stats);
+    PlacedTiles placed = placed_tiles(streamed, true, stats);
+    const GrainPaint* const grain = grain_of(streamed.list, placed);
     const auto meshes = mesh_frame(streamed, placed);
     if (!meshes) {
         return meshes.error();
     }
-    paint(streamed.list, placed, meshes->get());
+    paint(streamed.list, placed,
+          {options_.target, options_.skips, options_.samples, meshes->get(), grain});
     stats.rays = ray_count(streamed.list, placed);
     stats.tiles = tile_count(streamed.list, placed);
     stats.cpu_ms = watch.milliseconds();

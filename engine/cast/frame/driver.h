@@ -10,7 +10,9 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/ground_grain.h"
 #include "engine/cast/frame/mesh_frame.h"
+#include "engine/cast/frame/painter.h"
 #include "engine/cast/frame/ray_support.h"
 #include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/tile_contents.h"
@@ -106,10 +108,13 @@ private:
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
+    // Null without grain.
+    const GrainPaint* grain_of(const view::DrawList& list, PlacedTiles& placed);
     // Null without meshes.
     Result<std::unique_ptr<const MeshFrame>> mesh_frame(const StreamedList& frame,
                                                         const PlacedTiles& placed);
-    void paint(const view::DrawList& list, const PlacedTiles& placed, const MeshFrame* meshes);
+    void paint(const view::DrawList& list, const PlacedTiles& placed,
+               const PainterOptions& options);
     view::PictureWork count(const view::DrawList& list, const PlacedTiles& placed);
 
     DriverOptions options_;
@@ -118,6 +123,7 @@ private:
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     view::PictureRounding rounding_;
     TileContents streamed_;
+    GroundGrain grain_;
     MeshTrees mesh_trees_;
     MeshPictures mesh_pictures_;
 };

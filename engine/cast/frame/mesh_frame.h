@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/cast/mesh/mesh_surface.h"
@@ -65,8 +65,6 @@ public:
 
     /// Shadows of the meshes on ground; none without ShadowGround.
     [[nodiscard]] MeshShadow shadow() const;
-    /// Where rays begin, metres from the eye.
-    [[nodiscard]] const PictureRays::Vectors& origin() const { return rays_.origin; }
 
     /// Replaces hits behind meshes. False if it was stopped early.
     bool add_hits(HitBuffer& hits, const ParallelOptions& parallel) const;

@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "engine/cast/frame/base_walls.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/daylight.h"
@@ -19,15 +21,9 @@ bool is_perspective(const view::DrawList& list) {
     return list.camera.projection == scene::ProjectionKind::perspective;
 }
 
-// World directions of the rays.
-PictureRays::Vectors view_of(const view::DrawList& list) {
-    const auto at = [&](glm::dvec2 pixel) {
-        return scene::view_ray(list.camera, list.size, pixel).direction;
-    };
-    const glm::dvec2 extent(list.size);
-    const glm::dvec3 first = at({0.0, 0.0});
-    return {first, (at({extent.x, 0.0}) - first) / extent.x,
-            (at({0.0, extent.y}) - first) / extent.y};
+// The rays in world metres from the eye.
+PictureRays rays_from_eye(const view::DrawList& list) {
+    return local_rays(list.camera, list.size, glm::translate(glm::dmat4(1.0), list.camera.eye), {});
 }
 
 BlockPaint backdrop_of(const view::DrawList& list) {
@@ -99,7 +95,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
                  const PainterOptions& options, FirstSamples& first)
     : placed_(placed), skips_(options.skips), meshes_(options.meshes),
       kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)), shared_(backdrop_of(list)),
-      view_(view_of(list)), walls_(base_walls(list)),
+      rays_(rays_from_eye(list)), walls_(base_walls(list)),
       corner_(view::dither_origin(list.camera, list.size)), picture_{-list.camera.first,
                                                                      scene::whole_picture(
                                                                          list.camera, list.size)},
@@ -110,6 +106,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     samples_.samples = static_cast<int>(places.size());
     shared_.is_perspective = first.is_perspective;
     shared_.needs_nearness = has_samples();
+    shared_.grain = options.grain;
     shared_.mesh_shadow = meshes_ != nullptr ? meshes_->shadow() : MeshShadow{};
     std::transform(places.begin(), places.end(), samples_.places.begin(),
                    [](glm::ivec2 place) { return glm::vec2(place) / 16.0F; });
@@ -179,12 +176,12 @@ BlockPaint Painter::paint_of(const PixelBlock& block, std::size_t index) const {
         paint.walls = walls_[index];
     }
     const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
-    if (meshes_ != nullptr) {
-        const PictureRays::Vectors& origin = meshes_->origin();
-        paint.origin = {glm::vec3(origin.at(middle)), glm::vec3(origin.right),
-                        glm::vec3(origin.down)};
-    }
-    paint.view = {glm::vec3(view_.at(middle)), glm::vec3(view_.right), glm::vec3(view_.down)};
+    const auto in_block = [&](const PictureRays::Vectors& vectors) {
+        return BlockRays::Vectors{glm::vec3(vectors.at(middle)), glm::vec3(vectors.right),
+                                  glm::vec3(vectors.down)};
+    };
+    paint.origin = in_block(rays_.origin);
+    paint.view = in_block(rays_.direction);
     paint.from_corner = corner_ + glm::vec2(middle.x, first_.picture.rows() - middle.y);
     return paint;
 }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/mesh_frame.h"
 #include "engine/cast/picture_rays.h"
@@ -22,6 +22,7 @@ struct PainterOptions {
     RaySkips skips = {};
     int samples = 1;                   ///< of a pixel
     const MeshFrame* meshes = nullptr; ///< null: none; outlives the painter
+    const GrainPaint* grain = nullptr; ///< null: none; outlives the painter
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.
@@ -52,7 +53,7 @@ private:
     const MeshFrame* meshes_;
     BlockKernel kernel_;
     BlockPaint shared_;
-    PictureRays::Vectors view_;
+    PictureRays rays_;                             // in world metres from the eye
     std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
     glm::vec2 corner_;                             // see view::dither_origin()
     PixelBlock picture_;                           // a part may reach beyond its picture

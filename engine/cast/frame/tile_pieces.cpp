@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 
 namespace reljef::cast {
 namespace {

@@ -30,6 +30,7 @@ constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_w
 constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange turbidities{1.0, 10.0, false};
+constexpr NumberRange grains{0.0, 2.0, false};
 constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
@@ -91,6 +92,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("imagery", scene.imagery, folder);
     table.read("gaps", scene.gaps, kinds_of_gaps);
     table.read("exaggeration", scene.exaggeration, exaggerations);
+    table.read("grain", scene.grain, grains);
     std::string placement;
     table.read("placement", placement, placements);
     if (!placement.empty()) {

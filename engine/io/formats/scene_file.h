@@ -72,6 +72,7 @@ struct SceneDescription {
     std::string gaps = "holes";                 ///< folder only: "holes" or "sea" outside the tiles
     double exaggeration = 1.0;                  ///< (0, 1000]
     std::optional<std::string> placement;       ///< "plane" or "ellipsoid"; absent: by the data
+    std::optional<double> grain; ///< fine structure of near ground, [0, 2]; absent: the program's
     /// Colours by height: a built-in ramp, or a colour file relative to the scene file.
     std::string ramp;
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/core/geometry.h"
+#include "engine/render/passes/grain_pass.h"
 #include "engine/render/passes/ground_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
@@ -100,8 +101,9 @@ private:
         }
         if (is_warped(terrain)) {
             frame_.residency.warped(terrain).bind(bindings::warped_places_unit);
+            return {};
         }
-        return {};
+        return set_grain(frame_, terrain, world_from_local);
     }
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
@@ -112,7 +114,9 @@ private:
         if (detail != view::DetailLevel::none) {
             return ground_variant(*terrain.detail, detail, features);
         }
-        return {ShaderKind::terrain, features | (is_warped(terrain) ? feature_warped : 0U)};
+        return {ShaderKind::terrain,
+                features | (is_warped(terrain) ? std::uint32_t{feature_warped}
+                                               : grain_feature(frame_, terrain))};
     }
 
     // Of a terrain in memory.

@@ -9,6 +9,7 @@
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
+#include "engine/render/residency/grain_residency.h"
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
@@ -55,6 +56,8 @@ public:
     [[nodiscard]] const ResidentRelief& relief(const view::TerrainDraw& draw) const;
     [[nodiscard]] const MeshResidency& meshes() const { return meshes_; }
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
+    /// Precondition: a terrain of the prepared list has grain, and it was prepared with maps.
+    [[nodiscard]] const GrainResidency& grain() const { return grain_; }
     [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
     /// What is certain of the sun in each cell (scene::CertainSun as a float), for exact with hard
     /// shadows on a plane; else null.
@@ -104,6 +107,7 @@ private:
     CertainSuns certain_suns_;                                  // of the last picture
     MeshResidency meshes_;
     GroundResidency ground_;
+    GrainResidency grain_;
 };
 
 } // namespace reljef::render

@@ -30,9 +30,9 @@ static_assert(sizeof(FrameBlock) == 64 + 16 * 16);
 inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_block_binding,
                                                 sizeof(FrameBlock)};
 
-inline constexpr std::array block_layouts{FrameBlock::layout, TechniqueBlock::layout,
+inline constexpr std::array block_layouts{FrameBlock::layout,  TechniqueBlock::layout,
                                           ReliefBlock::layout, DetailBlock::layout,
-                                          CourseBlock::layout};
+                                          CourseBlock::layout, GrainBlock::layout};
 
 FrameBlock frame_block(const view::DrawList& list);
 

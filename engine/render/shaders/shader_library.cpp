@@ -18,13 +18,13 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 29> feature_names{
-    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",    "BISECT",
-    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",        "HARD_SHADOW",
-    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",        "NORMAL_MAP",
-    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",      "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH"};
-static_assert(std::bit_width(std::uint32_t{feature_corner_depth}) == feature_names.size());
+constexpr std::array<std::string_view, 30> feature_names{
+    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
+    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "GRAIN"};
+static_assert(std::bit_width(std::uint32_t{feature_grain}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -198,6 +198,10 @@ std::uint32_t sliver_of(std::uint32_t features) {
                                             : 0U;
 }
 
+std::uint32_t grain_of(std::uint32_t features) {
+    return (features & feature_hit) != 0 ? 0U : features & feature_grain;
+}
+
 // Features of a kind of shader except light, fog and hit.
 std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
@@ -211,10 +215,12 @@ std::uint32_t own_features(ShaderVariant variant) {
     const std::uint32_t search = search_of(variant.features & ~foreign);
     switch (variant.kind) {
     case ShaderKind::terrain:
-        return (variant.features & feature_warped) != 0 ? feature_warped
-                                                        : sliver_of(variant.features);
+        return (variant.features & feature_warped) != 0
+                   ? feature_warped
+                   : sliver_of(variant.features) | grain_of(variant.features);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
+               grain_of(variant.features) |
                (variant.features & (feature_streamed | feature_curved));
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
@@ -259,7 +265,7 @@ bool counts_work(ShaderVariant variant) {
 
 ShaderVariant counting_variant(ShaderVariant variant) {
     constexpr std::uint32_t looks =
-        feature_counting | feature_fog | feature_write_depth | feature_multisampled;
+        feature_counting | feature_fog | feature_write_depth | feature_multisampled | feature_grain;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;

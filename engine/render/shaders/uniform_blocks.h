@@ -70,6 +70,20 @@ static_assert(sizeof(DetailBlock) == 5 * 16);
 inline constexpr BlockLayout DetailBlock::layout{"DetailBlock", bindings::detail_block_binding,
                                                  sizeof(DetailBlock)};
 
+struct GrainBlock {
+    using mat4 = glm::mat4;
+    using vec4 = glm::vec4;
+    static const BlockLayout layout;
+#include "shaders/frame/grain_block.inc"
+};
+static_assert(offsetof(GrainBlock, grain_pattern_0) == 0);
+static_assert(offsetof(GrainBlock, grain_up) == 3 * 16);
+static_assert(offsetof(GrainBlock, grain_turn) == 5 * 16);
+static_assert(offsetof(GrainBlock, grain_normal_from_slopes) == 6 * 16);
+static_assert(sizeof(GrainBlock) == 10 * 16);
+inline constexpr BlockLayout GrainBlock::layout{"GrainBlock", bindings::grain_block_binding,
+                                                sizeof(GrainBlock)};
+
 struct CourseBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;

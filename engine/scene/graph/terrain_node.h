@@ -48,6 +48,9 @@ struct TerrainDetail {
 /// can. Only the options `steps` and `shadow` are allowed.
 Result<void> check_terrain_detail_technique(const Technique& technique);
 
+/// TerrainNode::grain, at most.
+inline constexpr double max_grain = 2.0;
+
 class TileStream;
 
 struct MeshNode;
@@ -58,6 +61,9 @@ struct TerrainNode {
     /// Finer tiles of the same terrain; the surface is their overview. Null: none.
     std::shared_ptr<TileStream> stream = {};
     std::shared_ptr<const TerrainDetail> detail = {}; ///< for polygons only; null: none
+    /// Contrast of fine structure on near ground that the data do not have (material::GrainMap),
+    /// [0, max_grain]; 0: none, 1: as in nature. It does not change hits.
+    float grain = 0.0F;
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
     /// Samples of a terrain in memory that may all be vertices; see triangle_bound().

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-// As engine/cast/block_kernel.cpp.
+// As engine/cast/packet/block_kernel.cpp.
 #define RELJEF_UNUSED_TARGETS                                                                      \
     (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
 #ifdef __SANITIZE_ADDRESS__ // two of them show the same errors

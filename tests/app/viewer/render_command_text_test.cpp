@@ -60,6 +60,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     StartOptions start = start_of("my hill.tif");
     start.source.imagery = {"photo 1.tif"};
     start.source.index = session::IndexUse::none;
+    scene.terrain->get<scene::TerrainNode>()->grain = 0.5F;
     ShownState shown = shown_of(scene);
     shown.technique = scene::Technique{scene::Relief{}};
     shown.exaggeration = 2.5;
@@ -72,7 +73,8 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--compare errors --wipe 0.250", "--size 400x300", "-o view.png"}) {
+          "--placement plane", "--grain 0.5", "--compare errors --wipe 0.250", "--size 400x300",
+          "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }
 }

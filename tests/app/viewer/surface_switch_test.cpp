@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/viewer/viewer.h"
+#include "app/viewer/viewer_content.h"
 #include "tests/app/made_hill.h"
 
 namespace reljef::app {
@@ -135,6 +136,18 @@ TEST_F(ExaggerationTest, ColoursChangeAndTheHeightsStay) {
     EXPECT_NEAR(*surface().height_at(0.0, 0.0), 2.0 * height, 1e-6); // of float heights
     EXPECT_FALSE(viewer.act(SetRamp{"mauve"}));
     EXPECT_EQ(viewer.ramp().name, "swiss");
+}
+
+TEST_F(ExaggerationTest, GrainChangesInFlight) {
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    EXPECT_EQ(terrain.grain, 0.0F);
+    ASSERT_TRUE(viewer.act(SetGrain{0.75}));
+    EXPECT_EQ(terrain.grain, 0.75F);
+    EXPECT_TRUE(viewer.take_redraw());
+    EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.grain, 0.75);
+    viewer.set_exaggeration(2.0);
+    wait_for_maps(viewer);
+    EXPECT_EQ(terrain.grain, 0.75F) << "of the new surface, too";
 }
 
 TEST_F(ExaggerationTest, ALowSunIsWarmAndItsSkyFollows) {

@@ -29,8 +29,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 29;
-static_assert(1U << (feature_count - 1) == feature_corner_depth, "the last feature");
+constexpr std::size_t feature_count = 30;
+static_assert(1U << (feature_count - 1) == feature_grain, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
@@ -265,7 +265,8 @@ TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
         {"TechniqueBlock", member_offsets("frame/technique_block.inc")},
         {"ReliefBlock", member_offsets("frame/relief_block.inc")},
         {"DetailBlock", member_offsets("frame/detail_block.inc")},
-        {"CourseBlock", member_offsets("frame/course_block.inc")}};
+        {"CourseBlock", member_offsets("frame/course_block.inc")},
+        {"GrainBlock", member_offsets("frame/grain_block.inc")}};
     std::set<std::string_view> seen;
     for (const CompiledVariant& variant : compiled_variants()) {
         std::map<std::string, int> expected;

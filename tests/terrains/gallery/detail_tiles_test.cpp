@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::terrains {
@@ -81,8 +81,9 @@ TEST(Voronoi, RepeatsAndIsNeverFartherFromAnotherSeedThanFromItsOwn) {
     test::Chance chance(2);
     for (int i = 0; i < 3000; ++i) {
         const glm::vec2 point(chance.between(0.0, 5.0), chance.between(0.0, 5.0));
-        const VoronoiCell cell = voronoi(7, point, 5, 0.8F);
-        const VoronoiCell copy = voronoi(7, point + glm::vec2(5.0F, -5.0F), 5, 0.8F);
+        const material::VoronoiCell cell = material::voronoi(7, point, 5, 0.8F);
+        const material::VoronoiCell copy =
+            material::voronoi(7, point + glm::vec2(5.0F, -5.0F), 5, 0.8F);
         ASSERT_EQ(cell.id, copy.id);
         ASSERT_NEAR(cell.to_edge, copy.to_edge, 1e-5F);
         ASSERT_GE(cell.to_edge, -1e-5F);

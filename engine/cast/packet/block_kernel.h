@@ -6,8 +6,10 @@
 #include <limits>
 #include <span>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace reljef::cast {
 
@@ -79,6 +81,28 @@ struct TilePaint {
     glm::vec2 first{0.0F};
     /// Texels of level 0 along a pixel, at most: x, plus y per metre of distance.
     glm::vec2 longest_texels{0.0F};
+    /// For grain, along its axes: normal = z − slope along columns · x − slope along rows · y.
+    glm::mat3 normal_from_slopes{1.0F};
+};
+
+/// The fine structure of near ground (view::GrainView), and how bright it is.
+struct GrainPaint {
+    static constexpr int max_patterns = 3;
+    static constexpr int max_levels = 8;
+
+    const std::uint32_t* texels = nullptr;        ///< material::GrainMap::texels()
+    std::array<std::int32_t, max_levels> begin{}; ///< of a level in its layer
+    int layer_texels = 0;
+    int side = 0; ///< of level 0, a power of two
+    int level_count = 0;
+    float strength = 0.0F;
+    int pattern_count = 0;
+    /// xyz: the eye's place, in widths of the pattern; w: widths in a metre.
+    std::array<glm::vec4, max_patterns> patterns{};
+    glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
+    glm::vec3 up{0.0F};             ///< at the eye, along the turned axes
+    glm::vec3 to_sun{0.0F};         ///< along the turned axes; 0 without a sun
+    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 
 /// What is certain of the sun in a cell; 0: nothing.
@@ -192,6 +216,7 @@ struct BlockPaint {
     glm::vec3 to_sun{0.0F};
     std::span<const WallTriangle> walls = {}; ///< in front of all ground
     const BlockMeshes* meshes = nullptr;      ///< null: none
+    const GrainPaint* grain = nullptr;        ///< null: none
     MeshShadow mesh_shadow = {};
 };
 

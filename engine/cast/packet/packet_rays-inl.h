@@ -15,7 +15,7 @@
 
 #include <hwy/highway.h>
 
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {

@@ -6,7 +6,7 @@
 #define RELJEF_PACKET_WALK_INL_H
 #endif
 
-#include "engine/cast/packet_rays-inl.h"
+#include "engine/cast/packet/packet_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {

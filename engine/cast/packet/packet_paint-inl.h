@@ -9,8 +9,9 @@
 
 #include <limits>
 
-#include "engine/cast/packet_light-inl.h"
-#include "engine/cast/packet_walk-inl.h"
+#include "engine/cast/packet/packet_grain-inl.h"
+#include "engine/cast/packet/packet_light-inl.h"
+#include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
@@ -24,12 +25,6 @@ HWY_INLINE Color mixed(const Color& a, const Color& b, Floats part) {
     return {mixed(a.r, b.r, part), mixed(a.g, b.g, part), mixed(a.b, b.b, part)};
 }
 
-// Cubic polynomials interpolate at Chebyshev's places; the errors are relative to the result's
-// range.
-HWY_INLINE Floats cubic(Floats x, float c0, float c1, float c2, float c3) {
-    return hn::MulAdd(hn::MulAdd(hn::MulAdd(all(c3), x, all(c2)), x, all(c1)), x, all(c0));
-}
-
 // 2^x within 1.2e-4, for x <= 0; 0 below the smallest float.
 HWY_INLINE Floats exp2_of(Floats x) {
     const Floats smallest = all(-126.0F);
@@ -39,16 +34,6 @@ HWY_INLINE Floats exp2_of(Floats x) {
         cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
     return hn::IfThenElseZero(hn::Gt(x, smallest),
                               hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
-}
-
-// log2(x) within 8.3e-4, for positive x.
-HWY_INLINE Floats log2_of(Floats x) {
-    const Ints bits = hn::BitCast(ints, x);
-    const Ints exponent = hn::Sub(hn::ShiftRight<23>(bits), all(127));
-    const Floats mantissa =
-        hn::BitCast(floats, hn::Or(hn::And(bits, all(0x007FFFFF)), all(std::int32_t{0x3F800000})));
-    return hn::Add(hn::ConvertTo(floats, exponent),
-                   cubic(mantissa, -2.1362321F, 3.0111622F, -1.0268049F, 0.15270028F));
 }
 
 // The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light.
@@ -245,16 +230,25 @@ HWY_INLINE Floats level_of(const BlockJob& job, const Rays& rays, const PacketHi
     return hn::Min(level, all(static_cast<float>(paint.level_count - 1)));
 }
 
+HWY_INLINE GroundPlace place_of(const BlockPaint& paint, const PixelOffsets& pixels,
+                                const ViewRays& view, Floats t, Floats metres) {
+    GroundPlace place{{}, {view.x, view.y, view.z}, metres, view.length};
+    const Floats depth = hn::Add(t, all(paint.anchor));
+    for (std::size_t axis = 0; axis < place.from_eye.size(); ++axis) {
+        const Floats origin = pixels.of(paint.origin, static_cast<int>(axis));
+        place.from_eye[axis] = hn::MulAdd(place.view[axis], depth, origin);
+    }
+    return place;
+}
+
 // The lanes from whose hits no mesh hides the sun.
 HWY_INLINE Lanes beside_meshes(const BlockPaint& paint, const PixelOffsets& pixels,
                                const ViewRays& view, Floats t, Lanes sunny) {
     constexpr auto count = static_cast<std::size_t>(lane_count);
     alignas(64) std::array<std::array<float, count>, 3> places;
-    const Floats depth = hn::Add(t, all(paint.anchor));
-    const std::array<Floats, 3> directions{view.x, view.y, view.z};
+    const GroundPlace place = place_of(paint, pixels, view, t, hn::Zero(floats));
     for (std::size_t axis = 0; axis < places.size(); ++axis) {
-        const Floats origin = pixels.of(paint.origin, static_cast<int>(axis));
-        hn::Store(hn::MulAdd(directions[axis], depth, origin), floats, places[axis].data());
+        hn::Store(place.from_eye[axis], floats, places[axis].data());
     }
     std::array<std::uint8_t, 8> bytes{};
     hn::StoreMaskBits(floats, sunny, bytes.data());
@@ -277,8 +271,11 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
             Mode::counts || paint.mesh_shadow.hidden == nullptr || hn::AllFalse(floats, sunny);
         return is_open ? sunny : beside_meshes(paint, pixels, view, hits.t, sunny);
     };
-    const Color lit =
-        lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), without_shadow, work);
+    Color lit = lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), without_shadow, work);
+    if (!Mode::counts && paint.grain != nullptr) {
+        lit =
+            with_grain(paint, *job.paint, place_of(paint, pixels, view, hits.t, metres), hits, lit);
+    }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }
 

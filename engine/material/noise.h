@@ -4,7 +4,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace reljef::terrains {
+namespace reljef::material {
 
 /// 32 well-mixed bits of three integers (the finalizer of MurmurHash3 over a chain of products).
 /// They are the same on every machine.
@@ -36,4 +36,4 @@ struct VoronoiCell {
 /// `period` squares (Worley 1996).
 VoronoiCell voronoi(std::uint32_t seed, glm::vec2 point, int period, float jitter);
 
-} // namespace reljef::terrains
+} // namespace reljef::material

@@ -1,4 +1,4 @@
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 #include <cmath>
 #include <random>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace reljef::terrains {
+namespace reljef::material {
 namespace {
 
 constexpr int cases = 20000;
@@ -154,4 +154,4 @@ TEST(Noise, SeedsGiveOtherNoise) {
 }
 
 } // namespace
-} // namespace reljef::terrains
+} // namespace reljef::material

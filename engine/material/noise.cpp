@@ -1,4 +1,4 @@
-#include "terrains/natural/noise.h"
+#include "engine/material/noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace reljef::terrains {
+namespace reljef::material {
 namespace {
 
 float fade(float t) {
@@ -130,4 +130,4 @@ VoronoiCell voronoi(std::uint32_t seed, glm::vec2 point, int period, float jitte
     return {wrap(nearest, period), point - place, to_edge};
 }
 
-} // namespace reljef::terrains
+} // namespace reljef::material

@@ -10,7 +10,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "engine/cast/packet_walk-inl.h"
+#include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
@@ -28,6 +28,22 @@ HWY_INLINE Color all(glm::vec3 color) {
 
 HWY_INLINE Color scaled(const Color& color, Floats by) {
     return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
+}
+
+// Cubic polynomials interpolate at Chebyshev's places; the errors are relative to the result's
+// range.
+HWY_INLINE Floats cubic(Floats x, float c0, float c1, float c2, float c3) {
+    return hn::MulAdd(hn::MulAdd(hn::MulAdd(all(c3), x, all(c2)), x, all(c1)), x, all(c0));
+}
+
+// log2(x) within 8.3e-4, for positive x.
+HWY_INLINE Floats log2_of(Floats x) {
+    const Ints bits = hn::BitCast(ints, x);
+    const Ints exponent = hn::Sub(hn::ShiftRight<23>(bits), all(127));
+    const Floats mantissa =
+        hn::BitCast(floats, hn::Or(hn::And(bits, all(0x007FFFFF)), all(std::int32_t{0x3F800000})));
+    return hn::Add(hn::ConvertTo(floats, exponent),
+                   cubic(mantissa, -2.1362321F, 3.0111622F, -1.0268049F, 0.15270028F));
 }
 
 // How the surface lies: its slopes at the hits, metres per sample.

@@ -1,4 +1,4 @@
-#include "engine/cast/block_kernel.h"
+#include "engine/cast/packet/block_kernel.h"
 
 #include <cstring>
 #include <limits>
@@ -14,15 +14,15 @@
 #endif
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "engine/cast/block_kernel.cpp"
+#define HWY_TARGET_INCLUDE "engine/cast/packet/block_kernel.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>
 
-#include "engine/cast/packet_light-inl.h"
-#include "engine/cast/packet_paint-inl.h"
-#include "engine/cast/packet_rays-inl.h"
-#include "engine/cast/packet_walk-inl.h"
+#include "engine/cast/packet/packet_light-inl.h"
+#include "engine/cast/packet/packet_paint-inl.h"
+#include "engine/cast/packet/packet_rays-inl.h"
+#include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {

@@ -1,0 +1,58 @@
+#include "engine/render/passes/grain_pass.h"
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/scene/streaming/light.h"
+#include "engine/view/grain_view.h"
+
+namespace reljef::render {
+namespace {
+
+// Metres along the turned axes per unit of a search space.
+glm::dmat3 metres_per_unit(const view::GrainView& view, const scene::TerrainNode& terrain,
+                           const glm::dmat4& world_from_local, const ReliefSpace& space) {
+    const bool is_curved = terrain.surface->placement().kind() == terrain::PlacementKind::ellipsoid;
+    const glm::dmat3 on_plane = glm::dmat3(world_from_local) * glm::inverse(space.space_from_local);
+    glm::dmat3 metres(1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        metres[axis] = is_curved ? view.metres_per_sample[axis] * space.samples_per_unit[axis]
+                                 : view::turned(on_plane[axis]);
+    }
+    return metres;
+}
+
+// `metres`: per unit of a relief's search space.
+GrainBlock grain_block(const view::DrawList& list, const view::GrainView& view,
+                       const glm::dmat3& metres) {
+    return {.grain_pattern_0 = view.patterns[0],
+            .grain_pattern_1 = view.patterns[1],
+            .grain_pattern_2 = view.patterns[2],
+            .grain_up = glm::vec4(view.up, view.strength),
+            .grain_sun = list.sun ? glm::vec4(view::turned(scene::to_light(*list.sun)), 0.0)
+                                  : glm::vec4(0.0F),
+            .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, 0.0F),
+            .grain_normal_from_slopes = glm::mat4(glm::mat3(glm::transpose(glm::inverse(metres))))};
+}
+
+} // namespace
+
+std::uint32_t grain_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
+    return terrain.grain > 0.0F && !frame.hits && !frame.counts() ? feature_grain : 0U;
+}
+
+Result<void> set_grain(const FrameContext& frame, const scene::TerrainNode& terrain,
+                       const glm::dmat4& world_from_local, const ReliefSpace* space) {
+    if (grain_feature(frame, terrain) == 0) {
+        return {};
+    }
+    frame.residency.grain().bind();
+    ++frame.state.stats().state_changes;
+    const view::GrainView view = view::grain_view(frame.list, terrain, world_from_local);
+    const glm::dmat3 metres = space != nullptr
+                                  ? metres_per_unit(view, terrain, world_from_local, *space)
+                                  : glm::dmat3(1.0);
+    return frame.state.set(grain_block(frame.list, view, metres));
+}
+
+} // namespace reljef::render

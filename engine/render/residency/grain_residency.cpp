@@ -1,0 +1,79 @@
+#include "engine/render/residency/grain_residency.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "engine/core/color.h"
+#include "engine/core/grid.h"
+#include "engine/material/grain_map.h"
+#include "engine/render/shaders/bindings.h"
+
+namespace reljef::render {
+namespace {
+
+bool has_grain(const std::vector<view::TerrainDraw>& draws) {
+    return std::any_of(draws.begin(), draws.end(),
+                       [](const view::TerrainDraw& draw) { return draw.terrain->grain > 0.0F; });
+}
+
+Grid<Rgba8> level_of(const material::GrainMap& map, material::GrainMap::Layer layer, int level) {
+    const int side = material::GrainMap::side >> level;
+    Grid<Rgba8> texels(side, side);
+    const auto from = map.level(layer, level);
+    std::transform(from.begin(), from.end(), texels.samples().begin(), [](std::uint32_t texel) {
+        const glm::vec3 share = 0.5F * material::grain_of(texel) + 0.5F;
+        const auto byte = [](float channel) {
+            return static_cast<std::uint8_t>(std::lround(255.0F * channel));
+        };
+        return Rgba8{byte(share.x), byte(share.y), byte(share.z), 255};
+    });
+    return texels;
+}
+
+Result<gl::Texture2D> uploaded(const material::GrainMap& map, material::GrainMap::Layer layer,
+                               view::FrameStats& stats) {
+    auto texture = gl::Texture2D::create({.size = glm::ivec2(material::GrainMap::side),
+                                          .format = gl::Format::rgba8,
+                                          .levels = material::GrainMap::level_count,
+                                          .filter = gl::Filter::trilinear,
+                                          .wrap = gl::Wrap::repeat});
+    if (!texture) {
+        return texture;
+    }
+    for (int level = 0; level < material::GrainMap::level_count; ++level) {
+        texture->upload(level, level_of(map, layer, level));
+    }
+    ++stats.uploads;
+    stats.upload_bytes += texture->bytes();
+    return texture;
+}
+
+} // namespace
+
+Result<void> GrainResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
+    if (rock_ || !(has_grain(list.terrains) || has_grain(list.reliefs))) {
+        return {};
+    }
+    const material::GrainMap map;
+    auto soil = uploaded(map, material::GrainMap::soil, stats);
+    if (!soil) {
+        return soil.error();
+    }
+    auto rock = uploaded(map, material::GrainMap::rock, stats);
+    if (!rock) {
+        return rock.error();
+    }
+    soil_ = std::move(*soil);
+    rock_ = std::move(*rock);
+    return {};
+}
+
+void GrainResidency::bind() const {
+    soil_->bind(bindings::soil_grain_unit);
+    rock_->bind(bindings::rock_grain_unit);
+}
+
+} // namespace reljef::render

@@ -1,0 +1,80 @@
+#include "engine/view/grain_view.h"
+
+#include <algorithm>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "engine/scene/streaming/tile_stream.h"
+
+namespace reljef::view {
+namespace {
+
+// Elevation data show no waves that are shorter than two samples. Those of a pattern are up to a
+// fifth of its width long.
+constexpr double samples_a_width = 10.0;
+// The shortest waves of a pattern are 1/47 of it, and the longest of the next one half as long.
+constexpr double widths_a_width = 17.0;
+constexpr double narrowest = 0.5; // metres
+
+double finest_spacing(const scene::TerrainNode& terrain) {
+    if (terrain.stream != nullptr) {
+        return terrain.stream->maker().spacing(0);
+    }
+    const glm::dvec2 spacing = terrain.surface->placement().spacing();
+    return std::max(spacing.x, spacing.y);
+}
+
+// The sample of the terrain's surface that is nearest to the eye.
+glm::dvec3 sample_near(const scene::TerrainNode& terrain, glm::dvec3 local_eye) {
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    const glm::dvec2 last(heights.cols() - 1, heights.rows() - 1);
+    const auto sample = terrain.surface->placement().sample_from_world(local_eye);
+    return {glm::clamp(sample ? glm::dvec2(*sample) : 0.5 * last, glm::dvec2(0.0), last), 0.0};
+}
+
+glm::dmat3 metres_per_sample(const terrain::Placement& placement, glm::dvec3 sample) {
+    glm::dmat3 metres(1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 half(0.0);
+        half[axis] = 0.5;
+        metres[axis] =
+            placement.world_from_sample(sample + half) - placement.world_from_sample(sample - half);
+    }
+    return metres;
+}
+
+} // namespace
+
+glm::dvec3 turned(glm::dvec3 world) {
+    const glm::dvec2 turn(GrainView::turn);
+    return {turn.x * world.x + turn.y * world.y, turn.x * world.y - turn.y * world.x, world.z};
+}
+
+GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
+                     const glm::dmat4& world_from_local) {
+    const glm::dvec3 eye = turned(list.camera.eye);
+    const glm::dmat3 directions(world_from_local);
+    const glm::dvec3 local_eye(glm::inverse(world_from_local) * glm::dvec4(list.camera.eye, 1.0));
+    const terrain::Placement& placement = terrain.surface->placement();
+    GrainView view;
+    view.strength = terrain.grain;
+    view.up = glm::vec3(turned(glm::normalize(directions * placement.up(local_eye))));
+    view.metres_per_sample =
+        directions * metres_per_sample(placement, sample_near(terrain, local_eye));
+    for (int axis = 0; axis < 3; ++axis) {
+        view.metres_per_sample[axis] = turned(view.metres_per_sample[axis]);
+    }
+    double width = samples_a_width * finest_spacing(terrain);
+    double copies = GrainView::copies;
+    do {
+        view.patterns.at(static_cast<std::size_t>(view.pattern_count++)) = {
+            glm::vec3(copies * glm::fract(eye / (copies * width))), 1.0 / width};
+        width /= widths_a_width;
+        copies = 1.0;
+    } while (width > narrowest && view.pattern_count < GrainView::max_patterns);
+    return view;
+}
+
+} // namespace reljef::view

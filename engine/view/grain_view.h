@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "engine/view/draw_list.h"
+
+namespace reljef::view {
+
+/// The fine structure (material::GrainMap) of near ground, as a view shows it. Patterns of
+/// successive widths lie over each other, at places in the world, each along the axis that the
+/// ground faces most. The axes are those of the world, turned about z by atan(turn.y / turn.x):
+/// repetitions do not show along rows and columns of the data.
+struct GrainView {
+    static constexpr int max_patterns = 3;
+    static constexpr glm::vec2 turn{0.8F, 0.6F}; ///< cosine and sine
+
+    float strength = 0.0F;          ///< TerrainNode::grain
+    glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, unit vector along the turned axes
+    /// The widest pattern is bent by waves of 7 and 11 widths, so that its copies differ.
+    static constexpr double copies = 77.0;
+
+    int pattern_count = 0;
+    /// The widest first. xyz: the eye's place in the pattern, in its widths, modulo 1, or of the
+    /// widest modulo `copies`; w: widths in a metre.
+    std::array<glm::vec4, max_patterns> patterns{};
+    /// Metres along the turned axes per column, row (of the terrain's surface) and metre of height,
+    /// near the eye.
+    glm::dmat3 metres_per_sample{1.0};
+};
+
+/// Along the turned axes.
+glm::dvec3 turned(glm::dvec3 world);
+
+/// Precondition: the terrain is drawn by the list.
+GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
+                     const glm::dmat4& world_from_local);
+
+} // namespace reljef::view

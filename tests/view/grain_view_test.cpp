@@ -1,0 +1,98 @@
+#include "engine/view/grain_view.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/render/made_scene.h"
+#include "tests/terrain/chance.h"
+
+namespace reljef::view {
+namespace {
+
+constexpr int cases = 1000;
+
+struct Ground {
+    scene::Scene scene;
+    scene::Node* terrain = nullptr;
+    DrawList list;
+
+    explicit Ground(glm::dvec2 spacing, double exaggeration = 1.0) {
+        terrain = &test::add_terrain(
+            scene, test::plane_heightfield(test::hills(65, 33, 20.0), spacing), {},
+            {.placement = terrain::PlacementKind::plane, .exaggeration = exaggeration});
+    }
+    GrainView from(glm::dvec3 eye) {
+        list.camera.eye = eye;
+        return grain_view(list, *terrain->get<scene::TerrainNode>(), terrain->world_from_local());
+    }
+};
+
+TEST(GrainView, BeginsWhereTheDataEnd) {
+    for (const double spacing : {0.02, 0.5, 1.0, 30.0, 90.0, 1e4}) {
+        const GrainView view = Ground(glm::dvec2(spacing)).from({});
+        // The longest waves are a fifth of a pattern, the shortest of the data two samples.
+        const double longest = 0.2 / static_cast<double>(view.patterns[0].w);
+        EXPECT_NEAR(longest, 2.0 * spacing, 1e-6 * spacing);
+        ASSERT_GE(view.pattern_count, 1);
+        for (int i = 1; i < view.pattern_count; ++i) {
+            const auto index = static_cast<std::size_t>(i);
+            EXPECT_GT(view.patterns[index].w, 10.0F * view.patterns[index - 1].w);
+        }
+    }
+}
+
+// From every eye, a place has the same grain: patterns do not swim.
+TEST(GrainView, APlaceHasTheSameGrainFromEveryEye) {
+    Ground ground({3.0, 2.0});
+    test::Chance chance(31);
+    for (int i = 0; i < cases; ++i) {
+        const auto anywhere = [&](double reach) {
+            return glm::dvec3(chance.between(-reach, reach), chance.between(-reach, reach),
+                              chance.between(0.0, 50.0));
+        };
+        const glm::dvec3 place = anywhere(90.0);
+        const auto in_pattern = [&](glm::dvec3 eye, std::size_t pattern) {
+            const GrainView view = ground.from(eye);
+            return glm::dvec3(view.patterns[pattern]) +
+                   turned(place - eye) * static_cast<double>(view.patterns[pattern].w);
+        };
+        const glm::dvec3 one_eye = place + 0.01 * anywhere(90.0);
+        const glm::dvec3 other_eye = place + anywhere(2.0);
+        for (std::size_t pattern = 0; pattern < 2; ++pattern) {
+            const glm::dvec3 way = in_pattern(one_eye, pattern) - in_pattern(other_eye, pattern);
+            const double copies = pattern == 0 ? GrainView::copies : 1.0;
+            const glm::dvec3 off = glm::abs(way - copies * glm::round(way / copies));
+            EXPECT_LT(std::max({off.x, off.y, off.z}), 2e-5);
+        }
+    }
+}
+
+TEST(GrainView, TurnsWithoutStretching) {
+    test::Chance chance(32);
+    for (int i = 0; i < cases; ++i) {
+        const glm::dvec3 a(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
+                           chance.between(-1.0, 1.0));
+        const glm::dvec3 b(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
+                           chance.between(-1.0, 1.0));
+        // GrainView::turn are floats.
+        EXPECT_NEAR(glm::dot(turned(a), turned(b)), glm::dot(a, b), 1e-6);
+        EXPECT_EQ(turned(a).z, a.z);
+    }
+}
+
+TEST(GrainView, KnowsTheMetresOfASample) {
+    for (const double exaggeration : {1.0, 3.0}) {
+        const GrainView view = Ground({3.0, 2.0}, exaggeration).from({10.0, -20.0, 5.0});
+        const glm::dmat3 expected(turned({3.0, 0.0, 0.0}), turned({0.0, -2.0, 0.0}),
+                                  turned({0.0, 0.0, exaggeration}));
+        for (int axis = 0; axis < 3; ++axis) {
+            EXPECT_LT(glm::distance(view.metres_per_sample[axis], expected[axis]), 1e-6);
+        }
+        EXPECT_EQ(view.up, glm::vec3(0.0F, 0.0F, 1.0F));
+    }
+}
+
+} // namespace
+} // namespace reljef::view
