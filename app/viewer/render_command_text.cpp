@@ -100,7 +100,11 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     if (start.scene.base) {
         command.add("--base", session::to_string(*start.scene.base));
     }
-    command.add("--grain", fmt::format("{}", scene.terrain->get<scene::TerrainNode>()->grain));
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    command.add("--grain", fmt::format("{}", terrain.grain));
+    if (terrain.contours > 0.0) {
+        command.add("--contours", fmt::format("{}", terrain.contours));
+    }
     if (start.scene.hides_sky) {
         command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");
     }

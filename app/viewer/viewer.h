@@ -106,6 +106,7 @@ public:
     Result<void> act(const SetSun& sun);
     Result<void> act(const SetTurbidity& set);
     Result<void> act(const SetGrain& set);
+    Result<void> act(const SetContours& set);
     Result<void> act(const SetVisibility& set);
     Result<void> act(const SetRamp& set);
     Result<void> act(const SetExaggeration& set);

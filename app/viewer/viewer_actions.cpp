@@ -314,6 +314,12 @@ Result<void> Viewer::act(const SetGrain& set) {
     return {};
 }
 
+Result<void> Viewer::act(const SetContours& set) {
+    scene_.terrain->get<scene::TerrainNode>()->contours = set.metres;
+    redraw_ = true;
+    return {};
+}
+
 Result<void> Viewer::act(const SetVisibility& set) {
     if (auto sky = scene_.scene.sky()) {
         scene_.surroundings.visibility = set.metres;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Draws the pictures of the README's gallery into docs/pictures/terrains:
+# Draws the pictures of the README, its gallery into docs/pictures/terrains:
 #   docs/pictures/terrains.sh DATA
 # DATA holds the elevation files named below: SRTM, a USGS DEM, and city models of Delft and Ann Arbor.
 # Needs ./dev build.
@@ -24,12 +24,12 @@ draw kauai "$nature/srtm3/N22W160v2.3a.hgt.zip" --camera 22.32,-159.62,2600,165,
 draw mont-blanc "$nature/srtm3/N45E006.hgt" --camera 45.74,6.78,3600,50,-5 --sun 250,14 --grain 1
 draw normandy "$nature/srtm3/N49E001.hgt" --camera 49.93,1.25,700,215,-10 --exaggeration 3 --sun 300,12 --grain 1
 draw natural natural --pose low --grain 1
-draw map "$nature/srtm3/N45E006.hgt" --projection orthographic --ramp swiss --sun 315,30
+draw map "$nature/srtm3/N45E006.hgt" --projection orthographic --eye 20000,10000,9000 --look 20000,10000,0 --ramp swiss --sun 315,30 --contours 100
 draw clay "$nature/srtm3/N45E006.hgt" --ramp clay --base solid --sun 300,18
 draw urban urban --pose overview --technique exact:shadow=hard --sun 240,30
 draw delft "$cities/delft/tud-dsm-5m.tif" --camera 51.9935,4.363,140,25,-10 --ramp clay --sun 245,18
 draw ann-arbor "$cities/annarbor/test_dsm.tif" --camera 42.2702,-83.7375,370,0,-18 --ramp stretched --sun 245,25
 "$reljef" render natural --pose low --technique relief --compare errors --size 640x400 --quiet \
     -o docs/pictures/terrains/errors.jpg
-"$reljef" render "$nature/srtm3/N45E006.hgt" --camera 45.60,6.70,5200,20,-18 --grain 1 --samples 4 --size 1100x620 --quiet \
-    -o terrains/pictures/alps.jpg
+"$reljef" render "$nature/srtm3/N45E006.hgt" --camera 45.72,6.72,4300,38,-10 --fov 45 --sun 270,18 --grain 1 \
+    --samples 4 --size 1100x620 --quiet -o terrains/pictures/alps.jpg

@@ -118,6 +118,7 @@ struct SceneOptions {
     /// TerrainNode::grain; absent: the scene file's, else default_grain.
     std::optional<double> grain;
     double default_grain = 0.0;
+    std::optional<double> contours; ///< TerrainNode::contours; absent: the scene file's, else none
     std::vector<io::ObjectDescription> objects;        ///< besides the scene file's
     std::vector<io::FootprintsDescription> footprints; ///< besides the scene file's
     bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)

@@ -1,5 +1,5 @@
 // Metres from the eye to this fragment, in perspective.
-#if defined(MULTISAMPLED) || defined(GRAIN)
+#if defined(MULTISAMPLED) || defined(OVERLAY)
 in vec3 way_from_eye; // metres
 #endif
 

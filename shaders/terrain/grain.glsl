@@ -1,8 +1,4 @@
 // Fine structure of near ground, as packets of rays paint it (packet_grain-inl.h).
-layout(std140, binding = grain_block_binding) uniform GrainBlock {
-#include "frame/grain_block.inc"
-};
-
 // Slopes along u and v, change of the brightness: 2 · texel - 1.
 layout(binding = soil_grain_unit) uniform sampler2D soil_grain;
 layout(binding = rock_grain_unit) uniform sampler2D rock_grain;

@@ -20,8 +20,11 @@ uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
 layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
-#ifdef GRAIN
-#include "terrain/grain.glsl"
+#ifdef OVERLAY
+#include "terrain/overlay.glsl"
+#ifndef SLIVER
+in float ground_height; // true metres
+#endif
 #endif
 #ifdef WARPED
 // Visible column, row (< 0: none) and height per sample.
@@ -96,13 +99,16 @@ void main() {
 #else
     vec3 lit = texture(lit_map, place * lit_from_sample.xy + lit_from_sample.zw).rgb;
 #endif
-#if defined(GRAIN) && defined(SLIVER)
+#if defined(OVERLAY) && defined(SLIVER)
     vec3 perpendicular = cross(world_from_local * local_per_pixel[0], world_from_local * local_per_pixel[1]);
     lit = with_grain(lit, way_from_eye, along_turned_axes(perpendicular));
-#elif defined(GRAIN)
+    lit = with_contours(lit, true_height, length(vec2(dFdx(true_height), dFdy(true_height))));
+#elif defined(OVERLAY)
     vec3 perpendicular =
         cross(dFdx(FROM_PIXEL_TO_PIXEL(way_from_eye)), dFdy(FROM_PIXEL_TO_PIXEL(way_from_eye)));
     lit = with_grain(lit, INSIDE(way_from_eye), along_turned_axes(perpendicular));
+    vec2 change = vec2(dFdx(FROM_PIXEL_TO_PIXEL(ground_height)), dFdy(FROM_PIXEL_TO_PIXEL(ground_height)));
+    lit = with_contours(lit, INSIDE(ground_height), length(change));
 #endif
 #ifndef HIT
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);

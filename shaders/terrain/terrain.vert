@@ -11,7 +11,7 @@ uniform mat3 world_from_local;
 flat out int first_corner;
 #else
 layout(location = 1) in vec2 place; // samples from the tile's first
-#ifdef HIT
+#if defined(HIT) || defined(OVERLAY)
 layout(location = 2) in float height; // true metres
 #endif
 
@@ -24,11 +24,14 @@ out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
 out vec3 local_from_eye; // metres
-#elif defined(MULTISAMPLED) || defined(GRAIN)
+#elif defined(MULTISAMPLED) || defined(OVERLAY)
 out vec3 way_from_eye; // metres
 #endif
 #ifdef MULTISAMPLED
 out float one;
+#endif
+#ifdef OVERLAY
+out float ground_height; // true metres
 #endif
 #endif
 
@@ -59,11 +62,14 @@ void main() {
     tile_place = place;
 #ifdef GROUND
     local_from_eye = from_eye;
-#elif defined(MULTISAMPLED) || defined(GRAIN)
+#elif defined(MULTISAMPLED) || defined(OVERLAY)
     way_from_eye = relative;
 #endif
 #ifdef MULTISAMPLED
     one = vertex_grid.z;
+#endif
+#ifdef OVERLAY
+    ground_height = height;
 #endif
 #ifdef HIT
     precise vec2 from_eye_sample = (place - eye_in_tile.xy) - eye_in_tile.zw;

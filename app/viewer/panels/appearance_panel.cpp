@@ -84,6 +84,25 @@ PanelActions draw_grain(const AppearanceContent& appearance) {
                     : PanelActions();
 }
 
+PanelActions draw_contours(const AppearanceContent& appearance) {
+    constexpr std::array intervals{0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0};
+    const auto name_of = [](double metres) {
+        return metres > 0.0 ? fmt::format("each {} m", metres) : std::string("none");
+    };
+    PanelActions actions;
+    muted_text("Contours");
+    ImGui::SetNextItemWidth(-1.0F);
+    if (ImGui::BeginCombo("##contours", name_of(appearance.contours).c_str())) {
+        for (const double metres : intervals) {
+            if (ImGui::Selectable(name_of(metres).c_str(), appearance.contours == metres)) {
+                actions.emplace_back(SetContours{metres});
+            }
+        }
+        ImGui::EndCombo();
+    }
+    return actions;
+}
+
 PanelActions draw_ramps(const AppearanceContent& appearance) {
     PanelActions actions;
     if (appearance.ramp.empty()) {
@@ -196,6 +215,7 @@ PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fon
     actions += draw_air(appearance);
     section(fonts.heading, "Picture");
     actions += draw_ramps(appearance);
+    actions += draw_contours(appearance);
     actions += draw_grain(appearance);
     actions += draw_exaggeration(appearance);
     actions += draw_samples(appearance);

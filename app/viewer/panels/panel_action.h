@@ -48,6 +48,10 @@ struct SetGrain {
     double strength = 0.0; ///< [0, scene::max_grain]
 };
 
+struct SetContours {
+    double metres = 0.0; ///< of height from one to the next; 0: none
+};
+
 /// Colours of heights.
 struct SetRamp {
     std::string name; ///< of a built-in ramp
@@ -123,7 +127,7 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
-                 SetGrain, SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand,
+                 SetGrain, SetContours, SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand,
                  SetComparison, SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey,
                  MovePathKey, RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo,
                  ClearPoints>;

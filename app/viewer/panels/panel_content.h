@@ -57,6 +57,7 @@ struct AppearanceContent {
     std::string ramp;                      ///< requested; empty: heights have no colours
     std::vector<std::string> ramps;        ///< the built-in ones
     double grain = 0.0;                    ///< TerrainNode::grain
+    double contours = 0.0;                 ///< TerrainNode::contours
     double exaggeration = 1.0;             ///< requested
     std::string fixed_exaggeration;        ///< why it cannot change; empty: it can
     std::optional<int> samples;            ///< absent: chosen for each frame

@@ -303,9 +303,14 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     }
 }
 
-const GrainPaint* Driver::grain_of(const view::DrawList& list, PlacedTiles& placed) {
+PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& placed) {
+    PainterOptions options{options_.target, options_.skips, options_.samples};
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
-    return terrains.empty() ? nullptr : grain_.prepare(list, terrains.front(), placed);
+    if (!terrains.empty()) {
+        options.grain = grain_.prepare(list, terrains.front(), placed);
+        options.contours = static_cast<float>(terrains.front().node->contours);
+    }
+    return options;
 }
 
 Result<std::unique_ptr<const MeshFrame>> Driver::mesh_frame(const StreamedList& frame,
@@ -395,13 +400,13 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
     const StreamedList streamed = with_tiles_of_reliefs(frame.list);
     view::FrameStats stats = frame.list.stats;
     PlacedTiles placed = placed_tiles(streamed, true, stats);
-    const GrainPaint* const grain = grain_of(streamed.list, placed);
+    PainterOptions painting = painter_options(streamed.list, placed);
     const auto meshes = mesh_frame(streamed, placed);
     if (!meshes) {
         return meshes.error();
     }
-    paint(streamed.list, placed,
-          {options_.target, options_.skips, options_.samples, meshes->get(), grain});
+    painting.meshes = meshes->get();
+    paint(streamed.list, placed, painting);
     stats.rays = ray_count(streamed.list, placed);
     stats.tiles = tile_count(streamed.list, placed);
     stats.cpu_ms = watch.milliseconds();

@@ -108,8 +108,8 @@ private:
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
-    // Null without grain.
-    const GrainPaint* grain_of(const view::DrawList& list, PlacedTiles& placed);
+    // With grain and contours; adds to the paints of `placed`.
+    PainterOptions painter_options(const view::DrawList& list, PlacedTiles& placed);
     // Null without meshes.
     Result<std::unique_ptr<const MeshFrame>> mesh_frame(const StreamedList& frame,
                                                         const PlacedTiles& placed);

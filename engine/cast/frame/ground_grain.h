@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/seen_terrain.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/material/grain_map.h"
 #include "engine/view/draw_list.h"
 

@@ -11,11 +11,11 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/cast/mesh/mesh_surface.h"
 #include "engine/cast/mesh/mesh_trees.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/core/hit.h"
 #include "engine/core/parallel_for.h"

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/mesh_frame.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/picture_samples.h"
 #include "engine/cast/simd_target.h"
@@ -23,6 +23,7 @@ struct PainterOptions {
     int samples = 1;                   ///< of a pixel
     const MeshFrame* meshes = nullptr; ///< null: none; outlives the painter
     const GrainPaint* grain = nullptr; ///< null: none; outlives the painter
+    float contours = 0.0F;             ///< BlockPaint::contours
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.

@@ -217,6 +217,7 @@ struct BlockPaint {
     std::span<const WallTriangle> walls = {}; ///< in front of all ground
     const BlockMeshes* meshes = nullptr;      ///< null: none
     const GrainPaint* grain = nullptr;        ///< null: none
+    float contours = 0.0F; ///< metres of height from one line to the next; 0: none
     MeshShadow mesh_shadow = {};
 };
 

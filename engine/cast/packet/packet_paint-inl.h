@@ -9,6 +9,7 @@
 
 #include <limits>
 
+#include "engine/cast/packet/packet_contours-inl.h"
 #include "engine/cast/packet/packet_grain-inl.h"
 #include "engine/cast/packet/packet_light-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
@@ -192,37 +193,70 @@ HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
                     chosen(below, plane_color(paint, angles), above_horizon(paint, angles)));
 }
 
-// Squared texels by which the hit moves from a pixel to its neighbour in the plane that touches the
-// surface. `origin`, `direction`: the changes of the ray.
-HWY_INLINE Floats texels_moved(const TilePaint& paint, const Rays& rays, const PacketHits& hits,
-                               const Slopes& slopes, Floats per_facing, glm::vec3 origin,
-                               glm::vec3 direction) {
+// How hits lie to their rays.
+struct Facing {
+    Slopes slopes;
+    Floats per_facing; // t per metre of height above the plane that touches the surface
+};
+
+HWY_INLINE Facing facing_of(const Rays& rays, const PacketHits& hits) {
+    const Slopes slopes = slopes_of(hits);
+    const Floats facing = hn::Sub(rays.rise, hn::MulAdd(slopes.col, rays.col.direction,
+                                                        hn::Mul(slopes.row, rays.row.direction)));
+    return {slopes, hn::Div(all(1.0F), moving(facing))};
+}
+
+// How far the hit moves from a pixel to its neighbour in the plane that touches the surface,
+// samples.
+struct Moved {
+    Floats col;
+    Floats row;
+};
+
+// `origin`, `direction`: the changes of the ray.
+HWY_INLINE Moved moved_in_plane(const Rays& rays, const PacketHits& hits, const Facing& facing,
+                                glm::vec3 origin, glm::vec3 direction) {
     const auto moved = [&](int axis) HWY_ATTR {
         return hn::MulAdd(hits.t, all(direction[axis]), all(origin[axis]));
     };
+    const Slopes& slopes = facing.slopes;
     const Floats col = moved(0);
     const Floats row = moved(1);
     const Floats above = hn::Sub(moved(2), hn::MulAdd(slopes.col, col, hn::Mul(slopes.row, row)));
-    const Floats later = hn::Neg(hn::Mul(above, per_facing)); // t
-    const glm::vec2 scale = paint.texels_per_sample;
-    const Floats u = hn::Mul(hn::MulAdd(later, rays.col.direction, col), all(scale.x));
-    const Floats v = hn::Mul(hn::MulAdd(later, rays.row.direction, row), all(scale.y));
+    const Floats later = hn::Neg(hn::Mul(above, facing.per_facing)); // t
+    return {hn::MulAdd(later, rays.col.direction, col), hn::MulAdd(later, rays.row.direction, row)};
+}
+
+HWY_INLINE Floats squared_texels(const TilePaint& paint, const Moved& moved) {
+    const Floats u = hn::Mul(moved.col, all(paint.texels_per_sample.x));
+    const Floats v = hn::Mul(moved.row, all(paint.texels_per_sample.y));
     return hn::MulAdd(u, u, hn::Mul(v, v));
+}
+
+// By which the height changes from a pixel to its neighbours, metres.
+HWY_INLINE Floats change_of_height(const BlockJob& job, const Rays& rays, const PacketHits& hits) {
+    const Facing facing = facing_of(rays, hits);
+    const BlockRays& block = job.rays;
+    const auto change = [&](const Moved& moved) HWY_ATTR {
+        return hn::MulAdd(facing.slopes.col, moved.col, hn::Mul(facing.slopes.row, moved.row));
+    };
+    const Floats right =
+        change(moved_in_plane(rays, hits, facing, block.origin.right, block.direction.right));
+    const Floats down =
+        change(moved_in_plane(rays, hits, facing, block.origin.down, block.direction.down));
+    return hn::Sqrt(hn::MulAdd(right, right, hn::Mul(down, down)));
 }
 
 // The mip level of a packet's hits, limited to an anisotropy of 8 by `longest_texels`.
 HWY_INLINE Floats level_of(const BlockJob& job, const Rays& rays, const PacketHits& hits,
                            Floats metres) {
     const TilePaint& paint = *job.paint;
-    const Slopes slopes = slopes_of(hits);
-    const Floats facing = hn::Sub(rays.rise, hn::MulAdd(slopes.col, rays.col.direction,
-                                                        hn::Mul(slopes.row, rays.row.direction)));
-    const Floats per_facing = hn::Div(all(1.0F), moving(facing));
+    const Facing facing = facing_of(rays, hits);
     const BlockRays& block = job.rays;
-    const Floats right = texels_moved(paint, rays, hits, slopes, per_facing, block.origin.right,
-                                      block.direction.right);
-    const Floats down = texels_moved(paint, rays, hits, slopes, per_facing, block.origin.down,
-                                     block.direction.down);
+    const Floats right = squared_texels(
+        paint, moved_in_plane(rays, hits, facing, block.origin.right, block.direction.right));
+    const Floats down = squared_texels(
+        paint, moved_in_plane(rays, hits, facing, block.origin.down, block.direction.down));
     const Floats longest =
         hn::MulAdd(metres, all(paint.longest_texels.y), all(paint.longest_texels.x));
     const Floats square = hn::Min(hn::Max(right, down), hn::Mul(longest, longest));
@@ -273,8 +307,12 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
     };
     Color lit = lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), without_shadow, work);
     if (!Mode::counts && paint.grain != nullptr) {
-        lit =
-            with_grain(paint, *job.paint, place_of(paint, pixels, view, hits.t, metres), hits, lit);
+        const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
+        lit = with_grain(paint, *job.paint, place, hits, lit);
+    }
+    if (!Mode::counts && paint.contours > 0.0F) {
+        const Floats height = hn::Add(hits.height, all(job.rays.base_height));
+        lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);
     }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }

@@ -93,6 +93,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("gaps", scene.gaps, kinds_of_gaps);
     table.read("exaggeration", scene.exaggeration, exaggerations);
     table.read("grain", scene.grain, grains);
+    table.read("contours", scene.contours, not_negative);
     std::string placement;
     table.read("placement", placement, placements);
     if (!placement.empty()) {

@@ -73,6 +73,7 @@ struct SceneDescription {
     double exaggeration = 1.0;                  ///< (0, 1000]
     std::optional<std::string> placement;       ///< "plane" or "ellipsoid"; absent: by the data
     std::optional<double> grain; ///< fine structure of near ground, [0, 2]; absent: the program's
+    double contours = 0.0;       ///< metres of height from one line to the next; 0: none
     /// Colours by height: a built-in ramp, or a colour file relative to the scene file.
     std::string ramp;
 

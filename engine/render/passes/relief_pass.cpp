@@ -7,7 +7,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/render/passes/beams.h"
-#include "engine/render/passes/grain_pass.h"
+#include "engine/render/passes/overlay_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
@@ -285,7 +285,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     }
     set_certain_sun(program, frame, draw);
     set_origin(program, drawn);
-    if (auto set = set_grain(frame, *draw.terrain, draw.world_from_local, &space); !set) {
+    if (auto set = set_overlay(frame, *draw.terrain, draw.world_from_local, &space); !set) {
         return set;
     }
     set_space(program, frame.list.camera, space, draw.world_from_local);
@@ -316,7 +316,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     const std::uint32_t unused = uses_beams(frame, technique) ? 0U : feature_beams;
     auto program = state.use(
         {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
-                                 surface_features(draw) | grain_feature(frame, *draw.terrain)});
+                                 surface_features(draw) | overlay_feature(frame, *draw.terrain)});
     if (!program) {
         return program.error();
     }

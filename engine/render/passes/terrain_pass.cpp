@@ -4,8 +4,8 @@
 #include <span>
 
 #include "engine/core/geometry.h"
-#include "engine/render/passes/grain_pass.h"
 #include "engine/render/passes/ground_pass.h"
+#include "engine/render/passes/overlay_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
@@ -103,7 +103,7 @@ private:
             frame_.residency.warped(terrain).bind(bindings::warped_places_unit);
             return {};
         }
-        return set_grain(frame_, terrain, world_from_local);
+        return set_overlay(frame_, terrain, world_from_local);
     }
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
@@ -116,7 +116,7 @@ private:
         }
         return {ShaderKind::terrain,
                 features | (is_warped(terrain) ? std::uint32_t{feature_warped}
-                                               : grain_feature(frame_, terrain))};
+                                               : overlay_feature(frame_, terrain))};
     }
 
     // Of a terrain in memory.

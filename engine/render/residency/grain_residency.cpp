@@ -14,9 +14,11 @@
 namespace reljef::render {
 namespace {
 
-bool has_grain(const std::vector<view::TerrainDraw>& draws) {
-    return std::any_of(draws.begin(), draws.end(),
-                       [](const view::TerrainDraw& draw) { return draw.terrain->grain > 0.0F; });
+// Their programs have the maps, also without grain.
+bool has_overlay(const std::vector<view::TerrainDraw>& draws) {
+    return std::any_of(draws.begin(), draws.end(), [](const view::TerrainDraw& draw) {
+        return scene::has_overlay(*draw.terrain);
+    });
 }
 
 Grid<Rgba8> level_of(const material::GrainMap& map, material::GrainMap::Layer layer, int level) {
@@ -54,7 +56,7 @@ Result<gl::Texture2D> uploaded(const material::GrainMap& map, material::GrainMap
 } // namespace
 
 Result<void> GrainResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
-    if (rock_ || !(has_grain(list.terrains) || has_grain(list.reliefs))) {
+    if (rock_ || !(has_overlay(list.terrains) || has_overlay(list.reliefs))) {
         return {};
     }
     const material::GrainMap map;

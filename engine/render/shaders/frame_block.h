@@ -32,7 +32,7 @@ inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_bl
 
 inline constexpr std::array block_layouts{FrameBlock::layout,  TechniqueBlock::layout,
                                           ReliefBlock::layout, DetailBlock::layout,
-                                          CourseBlock::layout, GrainBlock::layout};
+                                          CourseBlock::layout, OverlayBlock::layout};
 
 FrameBlock frame_block(const view::DrawList& list);
 

@@ -23,8 +23,8 @@ constexpr std::array<std::string_view, 30> feature_names{
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "GRAIN"};
-static_assert(std::bit_width(std::uint32_t{feature_grain}) == feature_names.size());
+    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY"};
+static_assert(std::bit_width(std::uint32_t{feature_overlay}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -198,8 +198,8 @@ std::uint32_t sliver_of(std::uint32_t features) {
                                             : 0U;
 }
 
-std::uint32_t grain_of(std::uint32_t features) {
-    return (features & feature_hit) != 0 ? 0U : features & feature_grain;
+std::uint32_t overlay_of(std::uint32_t features) {
+    return (features & feature_hit) != 0 ? 0U : features & feature_overlay;
 }
 
 // Features of a kind of shader except light, fog and hit.
@@ -217,10 +217,10 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::terrain:
         return (variant.features & feature_warped) != 0
                    ? feature_warped
-                   : sliver_of(variant.features) | grain_of(variant.features);
+                   : sliver_of(variant.features) | overlay_of(variant.features);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
-               grain_of(variant.features) |
+               overlay_of(variant.features) |
                (variant.features & (feature_streamed | feature_curved));
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
@@ -264,8 +264,8 @@ bool counts_work(ShaderVariant variant) {
 }
 
 ShaderVariant counting_variant(ShaderVariant variant) {
-    constexpr std::uint32_t looks =
-        feature_counting | feature_fog | feature_write_depth | feature_multisampled | feature_grain;
+    constexpr std::uint32_t looks = feature_counting | feature_fog | feature_write_depth |
+                                    feature_multisampled | feature_overlay;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;

@@ -67,7 +67,7 @@ enum ShaderFeature : std::uint32_t {
     feature_counting = 1U << 26U, ///< of a terrain: writes its work instead of colours
     feature_sliver = 1U << 27U,   ///< of a terrain: triangles from their corners (view::SliverView)
     feature_corner_depth = 1U << 28U, ///< of slivers: depth from their corners, too
-    feature_grain = 1U << 29U,        ///< of a terrain: fine structure (view::GrainView)
+    feature_overlay = 1U << 29U,      ///< of a terrain: grain and contours
 };
 
 struct ShaderVariant {
@@ -80,7 +80,7 @@ struct ShaderVariant {
 /// The variant without features that have no effect. Hits have no light, fog, shadows, smooth edges
 /// or samples. The sky has no fog. Sky and surface detail on terrains are never hit. A terrain's
 /// light is in its map unless a relief casts shadows. Parallax follows no ray. Work is that of a
-/// colour, whose air, depth and grain cost no taps.
+/// colour, whose air, depth and overlay cost no taps.
 ShaderVariant canonical_variant(ShaderVariant variant);
 
 /// Programs by variant, compiled on first use. Needs a current context.

@@ -70,19 +70,20 @@ static_assert(sizeof(DetailBlock) == 5 * 16);
 inline constexpr BlockLayout DetailBlock::layout{"DetailBlock", bindings::detail_block_binding,
                                                  sizeof(DetailBlock)};
 
-struct GrainBlock {
+struct OverlayBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;
     static const BlockLayout layout;
-#include "shaders/frame/grain_block.inc"
+#include "shaders/frame/overlay_block.inc"
 };
-static_assert(offsetof(GrainBlock, grain_pattern_0) == 0);
-static_assert(offsetof(GrainBlock, grain_up) == 3 * 16);
-static_assert(offsetof(GrainBlock, grain_turn) == 5 * 16);
-static_assert(offsetof(GrainBlock, grain_normal_from_slopes) == 6 * 16);
-static_assert(sizeof(GrainBlock) == 10 * 16);
-inline constexpr BlockLayout GrainBlock::layout{"GrainBlock", bindings::grain_block_binding,
-                                                sizeof(GrainBlock)};
+static_assert(offsetof(OverlayBlock, grain_pattern_0) == 0);
+static_assert(offsetof(OverlayBlock, grain_up) == 3 * 16);
+static_assert(offsetof(OverlayBlock, grain_turn) == 5 * 16);
+static_assert(offsetof(OverlayBlock, contours) == 6 * 16);
+static_assert(offsetof(OverlayBlock, grain_normal_from_slopes) == 7 * 16);
+static_assert(sizeof(OverlayBlock) == 11 * 16);
+inline constexpr BlockLayout OverlayBlock::layout{"OverlayBlock", bindings::overlay_block_binding,
+                                                  sizeof(OverlayBlock)};
 
 struct CourseBlock {
     using mat4 = glm::mat4;

@@ -64,6 +64,7 @@ struct TerrainNode {
     /// Contrast of fine structure on near ground that the data do not have (material::GrainMap),
     /// [0, max_grain]; 0: none, 1: as in nature. It does not change hits.
     float grain = 0.0F;
+    double contours = 0.0; ///< metres of height from one line to the next; 0: none
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
     /// Samples of a terrain in memory that may all be vertices; see triangle_bound().
@@ -76,6 +77,11 @@ struct TerrainNode {
 
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
+
+/// Whether grain or contours are drawn over its ground.
+inline bool has_overlay(const TerrainNode& terrain) {
+    return terrain.grain > 0.0F || terrain.contours > 0.0;
+}
 
 /// The error bound of triangles that stand in for those of every sample, pixels.
 inline constexpr double bound_for_many_samples = 0.5;

@@ -61,6 +61,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     start.source.imagery = {"photo 1.tif"};
     start.source.index = session::IndexUse::none;
     scene.terrain->get<scene::TerrainNode>()->grain = 0.5F;
+    scene.terrain->get<scene::TerrainNode>()->contours = 25.0;
     ShownState shown = shown_of(scene);
     shown.technique = scene::Technique{scene::Relief{}};
     shown.exaggeration = 2.5;
@@ -73,7 +74,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--grain 0.5", "--compare errors --wipe 0.250", "--size 400x300",
+          "--placement plane", "--grain 0.5", "--contours 25", "--compare errors --wipe 0.250", "--size 400x300",
           "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }

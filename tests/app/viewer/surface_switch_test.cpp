@@ -138,13 +138,16 @@ TEST_F(ExaggerationTest, ColoursChangeAndTheHeightsStay) {
     EXPECT_EQ(viewer.ramp().name, "swiss");
 }
 
-TEST_F(ExaggerationTest, GrainChangesInFlight) {
+TEST_F(ExaggerationTest, GrainAndContoursChangeInFlight) {
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     EXPECT_EQ(terrain.grain, 0.0F);
     ASSERT_TRUE(viewer.act(SetGrain{0.75}));
     EXPECT_EQ(terrain.grain, 0.75F);
     EXPECT_TRUE(viewer.take_redraw());
     EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.grain, 0.75);
+    ASSERT_TRUE(viewer.act(SetContours{20.0}));
+    EXPECT_TRUE(viewer.take_redraw());
+    EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.contours, 20.0);
     viewer.set_exaggeration(2.0);
     wait_for_maps(viewer);
     EXPECT_EQ(terrain.grain, 0.75F) << "of the new surface, too";

@@ -33,6 +33,7 @@ exaggeration = 1.5
 placement = "ellipsoid"
 ramp = "colors.txt"
 grain = 0.5
+contours = 20
 [sun]
 azimuth = 200
 altitude = 12.5
@@ -64,6 +65,7 @@ look = [0, 0, 0]
     EXPECT_FALSE(scene->hides_sky);
     EXPECT_EQ(scene->turbidity, 3.0);
     EXPECT_EQ(scene->grain, 0.5);
+    EXPECT_EQ(scene->contours, 20.0);
     EXPECT_EQ(scene->base, "none");
     EXPECT_EQ(parse("[terrain]\ngenerator = \"urban\"\n[air]\nbase = \"solid\"")->base, "solid");
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));

@@ -1,4 +1,4 @@
-#include "engine/render/passes/grain_pass.h"
+#include "engine/render/passes/overlay_pass.h"
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -23,8 +23,8 @@ glm::dmat3 metres_per_unit(const view::GrainView& view, const scene::TerrainNode
 }
 
 // `metres`: per unit of a relief's search space.
-GrainBlock grain_block(const view::DrawList& list, const view::GrainView& view,
-                       const glm::dmat3& metres) {
+OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& view,
+                           const glm::dmat3& metres) {
     return {.grain_pattern_0 = view.patterns[0],
             .grain_pattern_1 = view.patterns[1],
             .grain_pattern_2 = view.patterns[2],
@@ -32,18 +32,19 @@ GrainBlock grain_block(const view::DrawList& list, const view::GrainView& view,
             .grain_sun = list.sun ? glm::vec4(view::turned(scene::to_light(*list.sun)), 0.0)
                                   : glm::vec4(0.0F),
             .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, 0.0F),
+            .contours = glm::vec4(0.0F),
             .grain_normal_from_slopes = glm::mat4(glm::mat3(glm::transpose(glm::inverse(metres))))};
 }
 
 } // namespace
 
-std::uint32_t grain_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
-    return terrain.grain > 0.0F && !frame.hits && !frame.counts() ? feature_grain : 0U;
+std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
+    return scene::has_overlay(terrain) && !frame.hits && !frame.counts() ? feature_overlay : 0U;
 }
 
-Result<void> set_grain(const FrameContext& frame, const scene::TerrainNode& terrain,
-                       const glm::dmat4& world_from_local, const ReliefSpace* space) {
-    if (grain_feature(frame, terrain) == 0) {
+Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& terrain,
+                         const glm::dmat4& world_from_local, const ReliefSpace* space) {
+    if (overlay_feature(frame, terrain) == 0) {
         return {};
     }
     frame.residency.grain().bind();
@@ -52,7 +53,9 @@ Result<void> set_grain(const FrameContext& frame, const scene::TerrainNode& terr
     const glm::dmat3 metres = space != nullptr
                                   ? metres_per_unit(view, terrain, world_from_local, *space)
                                   : glm::dmat3(1.0);
-    return frame.state.set(grain_block(frame.list, view, metres));
+    OverlayBlock block = overlay_block(frame.list, view, metres);
+    block.contours.x = static_cast<float>(terrain.contours);
+    return frame.state.set(block);
 }
 
 } // namespace reljef::render
