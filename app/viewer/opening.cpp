@@ -142,7 +142,7 @@ Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, ses
     }
     relayed_.relay_to(log);
     auto opened = opening.take();
-    if (is_closed) {
+    if (is_closed || stop.stop_requested()) {
         return std::optional<OpenedScene>();
     }
     return opened ? Result<std::optional<OpenedScene>>(std::move(*opened)) : opened.error();

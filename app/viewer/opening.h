@@ -37,7 +37,7 @@ public:
             FirstSamples first = FirstSamples::few);
 
     /// Opens the scene in the background while the window shows the progress. Empty if the user
-    /// closes the window. Fails as session::open_scene or when stopped. Does not make the maps of
+    /// closes the window, or when stopped. Fails as session::open_scene. Does not make the maps of
     /// the technique. `largest_side`: SceneRenderer::max_texture_side(). Call it once.
     Result<std::optional<OpenedScene>> finish(platform::Window& window, session::RayUse rays,
                                               int largest_side, session::Log& log,

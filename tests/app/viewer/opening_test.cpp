@@ -79,6 +79,21 @@ TEST(Opening, BeginsWithFewerSamplesOfALargeFile) {
     }
 }
 
+// As Esc does: Ctrl-C before there is a picture is no error.
+TEST(Opening, IsEmptyIfItIsStopped) {
+    TitledWindow window;
+    session::SourceOptions terrain;
+    terrain.terrain = "natural";
+    Opening opening(terrain, session::SceneOptions{});
+    std::stop_source stop;
+    stop.request_stop();
+    session::Log silent;
+    const auto opened =
+        opening.finish(window, session::RayUse::none, 4096, silent, stop.get_token());
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_FALSE(*opened);
+}
+
 TEST(Opening, EndsInTheMiddleOfReading) {
     session::SourceOptions terrain;
     terrain.terrain = "urban";
