@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
 
@@ -37,7 +38,7 @@ Terrain any_terrain(test::Chance& chance) {
 
 TEST(CoarseTerrain, IsTheSameGroundWithFewerSamples) {
     test::Chance chance(1);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < test::rounds(1000, 200); ++i) {
         const Terrain fine = any_terrain(chance);
         const auto max_samples = static_cast<std::size_t>(chance.whole(4, 20000));
         const Terrain coarse = coarse_terrain(fine, max_samples);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/support/release_only.h"
 #include "tests/terrain/brute_force.h"
 #include "tests/terrain/chance.h"
 #include "tests/terrain/made_heightfield.h"
@@ -361,7 +362,7 @@ TEST(Pick, IsWatertightOnAnEllipsoid) {
         test::random_heights(65, 65, 0.0F, 500.0F, 19), 60.0, 20.0, 0.01);
     const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < test::rounds(3000, 500); ++i) {
         const glm::dvec3 from = placement.world_from_sample(
             {chance.between(1.0, 63.0), chance.between(1.0, 63.0), chance.between(501.0, 4000.0)});
         const glm::dvec3 to = placement.world_from_sample(
@@ -377,7 +378,7 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
     const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
     test::Chance chance(12);
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < test::rounds(3000, 500); ++i) {
         // Steep short rays; whatever the joints' places, the ground is in between.
         const glm::dvec3 ground = placement.world_from_sample(
             {chance.between(10.0, 118.0), chance.between(10.0, 118.0), 100.0});

@@ -267,7 +267,7 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanItsTrianglesError) {
     int small = 0;
     for (MadeTerrain& made : hard_terrains()) {
         const PlacedTerrain terrain(std::move(made));
-        for (int i = 0; i < 20; ++i) {
+        for (int i = 0; i < test::rounds(20, 5); ++i) {
             const ErrorView view = random_view(chance, terrain.heightfield);
             const auto triangles = all_triangles(terrain, view);
             for (int j = 0; view.perspective && j < 10; ++j) {
@@ -279,7 +279,7 @@ TEST(Bisection, NoVisiblePointIsSeenFartherOffThanItsTrianglesError) {
             }
         }
     }
-    EXPECT_GT(small, 300);
+    EXPECT_GT(small, test::rounds(300, 60));
 }
 
 TEST(Bisection, StatesTheErrorOfTheSmallestSquares) {
