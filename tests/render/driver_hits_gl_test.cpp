@@ -209,11 +209,14 @@ TEST_P(DriverHitsGlTest, HitsOnAnEllipsoid) {
 
 // What the exact rays say: whether each pixel shows the terrain.
 Grid<std::uint8_t> exact_cover(const Camera& camera, const Node& node) {
+    const scene::TerrainSurface& surface = surface_of(node);
+    const terrain::SurfaceCaster exact(surface.heightfield().heights.view(), surface.pyramid(),
+                                       surface.placement());
     Grid<std::uint8_t> cover(size.x, size.y, 0);
     for (int y = 0; y < size.y; ++y) {
         for (int x = 0; x < size.x; ++x) {
             const Ray ray = scene::view_ray(camera, size, {x + 0.5, y + 0.5});
-            cover(x, y) = surface_of(node).pick(ray) ? 1 : 0;
+            cover(x, y) = exact.first_hit(ray) ? 1 : 0;
         }
     }
     return cover;

@@ -46,14 +46,15 @@ struct Setting {
 // What an exact ray cast through each pixel's centre meets, rounded to the hit's floats.
 HitBuffer picked(const Setting& setting, glm::ivec2 size) {
     const glm::dmat4 local_from_world = glm::inverse(setting.world_from_local);
+    const terrain::SurfaceCaster exact(setting.heightfield.heights.view(), setting.pyramid,
+                                       setting.placement);
     HitBuffer hits(size.x, size.y);
     for (int row = 0; row < size.y; ++row) {
         for (int col = 0; col < size.x; ++col) {
             const Ray ray = scene::view_ray(setting.camera, size, glm::dvec2(col, row) + 0.5);
             const Ray local{glm::dvec3(local_from_world * glm::dvec4(ray.origin, 1.0)),
                             glm::dmat3(local_from_world) * ray.direction};
-            if (const auto hit = terrain::pick(setting.heightfield.heights.view(), setting.pyramid,
-                                               setting.placement, local)) {
+            if (const auto hit = exact.first_hit(local)) {
                 hits(col, row) = {static_cast<float>(hit->sample.x),
                                   static_cast<float>(hit->sample.y),
                                   static_cast<float>(hit->sample.z), static_cast<float>(hit->t)};

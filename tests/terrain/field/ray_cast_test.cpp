@@ -362,12 +362,13 @@ TEST(Pick, IsWatertightOnAnEllipsoid) {
         test::random_heights(65, 65, 0.0F, 500.0F, 19), 60.0, 20.0, 0.01);
     const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
+    const SurfaceCaster caster(heightfield.heights.view(), pyramid, placement);
     for (int i = 0; i < test::rounds(3000, 500); ++i) {
         const glm::dvec3 from = placement.world_from_sample(
             {chance.between(1.0, 63.0), chance.between(1.0, 63.0), chance.between(501.0, 4000.0)});
         const glm::dvec3 to = placement.world_from_sample(
             {chance.between(1.0, 63.0), chance.between(1.0, 63.0), chance.between(-2000.0, -1.0)});
-        ASSERT_TRUE(pick(heightfield.heights.view(), pyramid, placement, {from, to - from})) << i;
+        ASSERT_TRUE(caster.first_hit({from, to - from})) << i;
     }
 }
 
@@ -377,6 +378,7 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
         test::geographic_heightfield(Grid<float>(129, 129, 100.0F), 46.5, 7.0, 0.01);
     const Placement placement = test::placed(heightfield);
     const MinMaxPyramid pyramid(heightfield.heights.view());
+    const SurfaceCaster caster(heightfield.heights.view(), pyramid, placement);
     test::Chance chance(12);
     for (int i = 0; i < test::rounds(3000, 500); ++i) {
         // Steep short rays; whatever the joints' places, the ground is in between.
@@ -385,7 +387,7 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
         const glm::dvec3 up = placement.up(ground);
         const glm::dvec3 lean(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0), 0.0);
         const Ray ray{ground + 900.0 * (up + lean), -(up + lean)};
-        const auto hit = pick(heightfield.heights.view(), pyramid, placement, ray);
+        const auto hit = caster.first_hit(ray);
         ASSERT_TRUE(hit) << i;
         ASSERT_NEAR(hit->t, 900.0, 0.05);
     }

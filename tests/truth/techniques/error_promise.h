@@ -11,6 +11,7 @@
 
 #include "engine/render/driver.h"
 #include "engine/session/scene_renderer.h"
+#include "engine/terrain/field/surface_caster.h"
 #include "engine/truth/geometric_error.h"
 #include "tests/render/made_scene.h"
 #include "tests/support/test_data.h"
@@ -45,12 +46,12 @@ struct Promise {
 
 // A hole shows no terrain though the exact rays around it all meet some: farther from a silhouette
 // than the error that is allowed.
-inline bool is_hole(const scene::TerrainSurface& surface, const scene::Camera& camera,
+inline bool is_hole(const terrain::SurfaceCaster& surface, const scene::Camera& camera,
                     glm::dvec2 center, double error) {
     const double reach = error + 1.0;
     for (int i = 0; i < 9; ++i) {
         const glm::dvec2 place = center + reach * glm::dvec2(i % 3 - 1, i / 3 - 1);
-        if (!surface.pick(scene::view_ray(camera, picture, place))) {
+        if (!surface.first_hit(scene::view_ray(camera, picture, place))) {
             return false;
         }
     }
@@ -62,14 +63,14 @@ inline void judge(const scene::Scene& scene, const scene::Node& node, const HitB
     const auto& surface = test::surface_of(node);
     const SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
                            node.world_from_local(), scene.camera()};
+    const terrain::SurfaceCaster exact(view.heights, surface.pyramid(), surface.placement());
     for (int y = 0; y < picture.y; ++y) {
         for (int x = 0; x < picture.x; ++x) {
             const Hit& hit = hits(x, y);
             if (!shows_terrain(hit)) {
                 const bool is_sampled = (x * 7 + y * 13) % 23 == 0;
                 promise.holes +=
-                    is_sampled && is_hole(surface, scene.camera(), {x + 0.5, y + 0.5}, error) ? 1
-                                                                                              : 0;
+                    is_sampled && is_hole(exact, scene.camera(), {x + 0.5, y + 0.5}, error) ? 1 : 0;
                 continue;
             }
             const double found = reprojection_error(view, picture, {x, y}, hit);
