@@ -1,6 +1,11 @@
 #include "engine/scene/motion/camera_path.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -89,6 +94,32 @@ Keyframe CameraPath::at(double time) const {
     return key;
 }
 
+namespace {
+
+// At least the values, without their steps: means of the highest values nearby.
+std::vector<double> smooth_above(const std::vector<double>& values, int reach) {
+    const auto count = static_cast<int>(values.size());
+    const auto near = [&](const std::vector<double>& all, int index) {
+        const int first = std::max(index - reach, 0);
+        const int last = std::min(index + reach, count - 1);
+        return std::span(all).subspan(static_cast<std::size_t>(first),
+                                      static_cast<std::size_t>(last - first + 1));
+    };
+    std::vector<double> highest;
+    for (int i = 0; i < count; ++i) {
+        highest.push_back(std::ranges::max(near(values, i)));
+    }
+    std::vector<double> means;
+    for (int i = 0; i < count; ++i) {
+        const auto around = near(highest, i);
+        means.push_back(std::accumulate(around.begin(), around.end(), 0.0) /
+                        static_cast<double>(around.size()));
+    }
+    return means;
+}
+
+} // namespace
+
 CameraPath orbit_path(const Box& bounds, double seconds) {
     constexpr int steps = 64;
     const glm::dvec3 middle = bounds.center();
@@ -106,16 +137,16 @@ CameraPath orbit_path(const Box& bounds, double seconds) {
 CameraPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
                         double seconds) {
     constexpr int steps = 48;
+    constexpr double ahead = 0.3; // of the flight: what the eye looks at
     const glm::dvec3 size = bounds.size();
     const glm::dvec3 middle = bounds.center();
     const double width = std::max(size.x, size.y);
     const auto track = [&](double share) {
-        const double bend = std::sin(share * 3.14159265358979323846);
-        return glm::dvec2(middle.x + size.x * (-0.18 + 0.5 * share * share - 0.12 * bend),
-                          middle.y + size.y * (-0.62 + 0.95 * share));
+        const double bend = std::sin(share * std::numbers::pi);
+        return glm::dvec2(middle.x + size.x * (-0.18 + 0.28 * share * share - 0.12 * bend),
+                          middle.y + size.y * (-0.47 + 0.62 * share));
     };
-    // Relative to the highest ground nearby, so that the flight clears ridges.
-    const auto altitude = [&](glm::dvec2 at, double above) {
+    const auto highest_near = [&](glm::dvec2 at) {
         double highest = bounds.low.z;
         for (int j = -2; j <= 2; ++j) {
             for (int i = -2; i <= 2; ++i) {
@@ -123,18 +154,23 @@ CameraPath flyover_path(const Box& bounds, const std::function<double(double, do
                     std::max(highest, ground(at.x + 0.02 * width * i, at.y + 0.02 * width * j));
             }
         }
-        return highest + above;
+        return highest;
     };
+    std::vector<double> highest;
+    for (int i = 0; i <= steps; ++i) {
+        highest.push_back(highest_near(track(static_cast<double>(i) / steps)));
+    }
+    const std::vector<double> cleared = smooth_above(highest, 4);
     std::vector<Keyframe> keys;
     for (int i = 0; i <= steps; ++i) {
         const double share = static_cast<double>(i) / steps;
         const glm::dvec2 at = track(share);
-        const glm::dvec2 ahead = track(share + 0.2);
+        const glm::dvec2 seen = track(share + ahead);
         const double above = std::lerp(0.16, 0.05, std::min(1.0, 1.6 * share)) * width;
-        const double eye_z = altitude(at, above);
+        const double eye_z = cleared[static_cast<std::size_t>(i)] + above;
         keys.push_back({seconds * share,
                         {at.x, at.y, eye_z},
-                        {ahead.x, ahead.y, eye_z - 0.32 * 0.2 * width - 0.5 * above}});
+                        {seen.x, seen.y, eye_z - 0.07 * width - 0.5 * above}});
     }
     return CameraPath::create(std::move(keys)).value();
 }

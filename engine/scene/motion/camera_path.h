@@ -59,8 +59,8 @@ private:
 /// Once around the bounds, looking down at their middle.
 CameraPath orbit_path(const Box& bounds, double seconds = 20.0);
 
-/// From the south over the middle to the north-east, low above the ground. `ground`: height of the
-/// surface at x, y, metres.
+/// From the south over the middle to the north-east, low above the ground. Eye and target stay
+/// within the bounds. `ground`: height of the surface at x, y, metres.
 CameraPath flyover_path(const Box& bounds, const std::function<double(double, double)>& ground,
                         double seconds = 20.0);
 

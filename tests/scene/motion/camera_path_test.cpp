@@ -217,8 +217,12 @@ TEST(OrbitPath, GoesOnceAroundAndKeepsItsDistance) {
     EXPECT_LE(glm::length(sum) / 100.0, 0.05 * radius);
 }
 
+// And looks at it, to the last frame.
 TEST(FlyoverPath, StaysAboveTheGround) {
     const Box bounds{{-500.0, -500.0, 0.0}, {500.0, 500.0, 120.0}};
+    const auto is_over = [&](glm::dvec3 place) {
+        return std::abs(place.x) < 500.0 && std::abs(place.y) < 500.0;
+    };
     const auto ground = [](double x, double y) {
         return 60.0 + 60.0 * std::sin(0.02 * x) * std::cos(0.017 * y);
     };
@@ -227,8 +231,24 @@ TEST(FlyoverPath, StaysAboveTheGround) {
         const Keyframe at = path.at(time);
         ASSERT_TRUE(is_finite(at));
         ASSERT_GT(at.eye.z, ground(at.eye.x, at.eye.y)) << time;
+        ASSERT_TRUE(is_over(at.eye)) << time;
+        ASSERT_TRUE(is_over(at.target)) << time;
+        const glm::dvec3 way = at.target - at.eye;
+        ASSERT_LT(way.z, -0.2 * glm::length(glm::dvec2(way))) << "nearly level, at " << time;
     }
-    EXPECT_LT(path.at(0.0).eye.y, bounds.low.y) << "comes in from the south";
+}
+
+// A tower lifts the eye over it, but in no step.
+TEST(FlyoverPath, RisesGentlyOverATower) {
+    const Box bounds{{-500.0, -500.0, 0.0}, {500.0, 500.0, 200.0}};
+    const auto ground = [](double /*x*/, double y) { return std::abs(y) < 30.0 ? 200.0 : 0.0; };
+    const CameraPath path = flyover_path(bounds, ground, 30.0);
+    for (double time = 0.1; time <= 30.0; time += 0.1) {
+        const glm::dvec3 before = path.at(time - 0.1).eye;
+        const glm::dvec3 after = path.at(time).eye;
+        ASSERT_GT(after.z, ground(after.x, after.y) + 40.0) << time;
+        ASSERT_LT(std::abs(after.z - before.z), 3.0 * std::abs(after.y - before.y)) << time;
+    }
 }
 
 TEST(BuiltInPaths, AreFiniteOverAPointlikeTerrain) {
