@@ -92,6 +92,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     if (!scene) {
         return scene.error();
     }
+    scene->terrain->get<scene::TerrainNode>()->hides_overlay = choice.compare.request.has_value();
     auto drawn = draw_outputs({choice, *scene, *maker->frames, log, interrupt}, has_camera_of_file);
     if (!drawn) {
         return drawn;

@@ -279,7 +279,7 @@ void add_daylight_options(CLI::App& command, ViewChoice& choice) {
                "M");
     add_parsed(command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
                "contrast of fine structure on near ground, which the data do not have: 0 (none) to "
-               "2; hits and errors are without it (view: 1, render: 0)",
+               "2; hits, errors and --compare are without it (view: 1, render: 0)",
                "G");
 }
 

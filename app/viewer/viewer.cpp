@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -191,6 +192,8 @@ bool Viewer::is_moving() const {
 void Viewer::update_appearance() {
     redraw_ = switch_.update() || redraw_;
     redraw_ = comparison_.take_redraw() || redraw_;
+    bool& hides_overlay = scene_.terrain->get<scene::TerrainNode>()->hides_overlay;
+    redraw_ = std::exchange(hides_overlay, comparison_.is_on()) != comparison_.is_on() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     if (surface_switch_.update(switch_.technique(), switch_.light())) {
         if (!measuring_.points().empty()) { // they are no longer on the ground

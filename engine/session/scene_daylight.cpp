@@ -152,4 +152,12 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
     scene.scene.set_sky(sky);
 }
 
+void set_overlay(scene::TerrainNode& terrain, const io::SceneDescription& description,
+                 const SceneOptions& view) {
+    terrain.grain =
+        static_cast<float>(view.grain.value_or(description.grain.value_or(view.default_grain)));
+    const double contours = view.contours.value_or(description.contours);
+    terrain.contours = contours > 0.0 ? std::max(contours, scene::min_contours) : 0.0;
+}
+
 } // namespace reljef::session

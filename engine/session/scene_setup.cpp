@@ -350,10 +350,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
     shown.max_vertices = vertices_within(terrain.memory_megabytes);
-    shown.contours = view.contours.value_or(source.description.contours);
-    const double usual_grain = result.is_gallery ? 0.0 : view.default_grain;
-    shown.grain =
-        static_cast<float>(view.grain.value_or(source.description.grain.value_or(usual_grain)));
+    if (!result.is_gallery) {
+        set_overlay(shown, source.description, view);
+    }
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
     auto detail = open_detail(source.description, terrain, view, log, stop);

@@ -18,6 +18,8 @@ constexpr double samples_a_width = 10.0;
 constexpr double widths_a_width = 17.0;
 constexpr double narrowest = 0.5; // metres
 
+constexpr double mean_earth_radius = 6371008.8; // metres (IUGG)
+
 double finest_spacing(const scene::TerrainNode& terrain) {
     if (terrain.stream != nullptr) {
         return terrain.stream->maker().spacing(0);
@@ -59,8 +61,12 @@ GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
     const glm::dvec3 local_eye(glm::inverse(world_from_local) * glm::dvec4(list.camera.eye, 1.0));
     const terrain::Placement& placement = terrain.surface->placement();
     GrainView view;
-    view.strength = terrain.grain;
+    view.strength = scene::shown_grain(terrain);
     view.up = glm::vec3(turned(glm::normalize(directions * placement.up(local_eye))));
+    if (const auto place = placement.geodetic_from_world(local_eye);
+        place && placement.kind() == terrain::PlacementKind::ellipsoid) {
+        view.radius = mean_earth_radius + place->height;
+    }
     view.metres_per_sample =
         directions * metres_per_sample(placement, sample_near(terrain, local_eye));
     for (int axis = 0; axis < 3; ++axis) {

@@ -12,18 +12,19 @@
 namespace reljef::view {
 
 /// The fine structure (material::GrainMap) of near ground, as a view shows it. Patterns of
-/// successive widths lie over each other, at places in the world, each along the axis that the
-/// ground faces most. The axes are those of the world, turned about z by atan(turn.y / turn.x):
+/// successive widths lie over each other, at places in the world, in the planes between two axes
+/// that the ground faces. The axes are those of the world, turned about z by atan(turn.y / turn.x):
 /// repetitions do not show along rows and columns of the data.
 struct GrainView {
     static constexpr int max_patterns = 3;
     static constexpr glm::vec2 turn{0.8F, 0.6F}; ///< cosine and sine
 
-    float strength = 0.0F;          ///< TerrainNode::grain
+    float strength = 0.0F;          ///< scene::shown_grain()
     glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, unit vector along the turned axes
     /// The widest pattern is bent by waves of 7 and 11 widths, so that its copies differ.
     static constexpr double copies = 77.0;
 
+    double radius = 0.0; ///< from the eye to the Earth's middle, metres; 0: a plane
     int pattern_count = 0;
     /// The widest first. xyz: the eye's place in the pattern, in its widths, modulo 1, or of the
     /// widest modulo `copies`; w: widths in a metre.

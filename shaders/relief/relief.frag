@@ -48,13 +48,6 @@ uniform float texels_per_metre_away; // per pixel
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 
-// Of the hit, from a pixel to its neighbours: metres.
-float change_of_height = 0.0;
-
-float true_height_at(vec2 place) {
-    return height_span.x + height_span.y * height_in(surface_cell(place));
-}
-
 // Of the surface at a place, along the turned axes.
 vec3 perpendicular_at(vec2 place) {
     SurfaceCell cell = surface_cell(place);
@@ -208,8 +201,8 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
 vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
     vec3 lit = lit_at(place, level, relative);
 #ifdef OVERLAY
-    lit = with_grain(lit, relative, perpendicular_at(place));
-    lit = with_contours(lit, true_height_at(place), change_of_height);
+    float height = height_span.x + height_span.y * height_in(surface_cell(place));
+    lit = overlaid(lit, relative, perpendicular_at(place), height);
 #endif
     return seen_through_air(lit, metres);
 }
@@ -269,10 +262,6 @@ void main() {
 #else
     float metres = length(relative);
     float level = level_of(place, metres);
-#ifdef OVERLAY
-    float height = true_height_at(place);
-    change_of_height = length(vec2(dFdx(height), dFdy(height)));
-#endif
     vec3 shown = color_at(place, level, relative, metres);
 #ifdef SMOOTH_EDGES
     vec2 missed;

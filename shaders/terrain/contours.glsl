@@ -1,17 +1,26 @@
-// Lines of equal height, as packets of rays paint them (packet_contours-inl.h).
+// Lines of equal height.
 
-// `height`: true metres; `change`: its change from a pixel to its neighbours, metres.
-vec3 with_contours(vec3 lit, float height, float change) {
-    const float bold_every = 5.0;
-    const float flattest = 1.0 / 65536.0; // intervals a pixel
+// By which the true height changes from a pixel to its neighbours in the plane that touches the ground, metres.
+float change_of_height(GroundPlace place) {
+    float facing = dot(place.normal, place.view);
+    facing = facing < 0.0 ? min(facing, -1e-6) : max(facing, 1e-6);
+    vec3 rise = place.up - place.normal * (dot(place.up, place.view) / facing);
+    return place.pixel * length(rise) / contours.y;
+}
+
+// Each fifth line is bold. Crowded lines fade.
+vec3 with_contours(vec3 lit, GroundPlace place, float height) {
     float interval = contours.x;
-    if (interval <= 0.0 || change < flattest * interval) {
+    float change = change_of_height(place);
+    if (change <= height_rounding * abs(height)) {
         return lit;
     }
     float number = round(height / interval);
     float pixels = abs(height - number * interval) / change;
-    bool is_bold = mod(number, bold_every) == 0.0;
+    float fifth = number / bold_every;
+    bool is_bold = abs(fifth - round(fifth)) < 0.5 / bold_every;
     float apart = interval / change * (is_bold ? bold_every : 1.0);
-    float ink = clamp((is_bold ? 1.3 : 1.0) - pixels, 0.0, 1.0) * smoothstep(3.0, 8.0, apart);
-    return lit * (1.0 - ink * (is_bold ? 0.6 : 0.4));
+    float line = clamp((is_bold ? bold_reach : thin_reach) - pixels, 0.0, 1.0);
+    float ink = line * smoothstep(crowded_pixels, apart_pixels, apart);
+    return lit * (1.0 - ink * (is_bold ? bold_ink : thin_ink));
 }

@@ -101,14 +101,11 @@ void main() {
 #endif
 #if defined(OVERLAY) && defined(SLIVER)
     vec3 perpendicular = cross(world_from_local * local_per_pixel[0], world_from_local * local_per_pixel[1]);
-    lit = with_grain(lit, way_from_eye, along_turned_axes(perpendicular));
-    lit = with_contours(lit, true_height, length(vec2(dFdx(true_height), dFdy(true_height))));
+    lit = overlaid(lit, way_from_eye, along_turned_axes(perpendicular), true_height);
 #elif defined(OVERLAY)
     vec3 perpendicular =
         cross(dFdx(FROM_PIXEL_TO_PIXEL(way_from_eye)), dFdy(FROM_PIXEL_TO_PIXEL(way_from_eye)));
-    lit = with_grain(lit, INSIDE(way_from_eye), along_turned_axes(perpendicular));
-    vec2 change = vec2(dFdx(FROM_PIXEL_TO_PIXEL(ground_height)), dFdy(FROM_PIXEL_TO_PIXEL(ground_height)));
-    lit = with_contours(lit, INSIDE(ground_height), length(change));
+    lit = overlaid(lit, INSIDE(way_from_eye), along_turned_axes(perpendicular), INSIDE(ground_height));
 #endif
 #ifndef HIT
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);

@@ -308,7 +308,7 @@ PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& 
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     if (!terrains.empty()) {
         options.grain = grain_.prepare(list, terrains.front(), placed);
-        options.contours = static_cast<float>(terrains.front().node->contours);
+        options.contours = static_cast<float>(scene::shown_contours(*terrains.front().node));
     }
     return options;
 }

@@ -41,7 +41,7 @@ glm::mat3 normal_from_slopes(const view::GrainView& view, const PlacedTile& tile
 
 const GrainPaint* GroundGrain::prepare(const view::DrawList& list, const SeenTerrain& seen,
                                        PlacedTiles& placed) {
-    if (seen.node->grain <= 0.0F) {
+    if (scene::shown_grain(*seen.node) <= 0.0F) {
         return nullptr;
     }
     if (!map_) {

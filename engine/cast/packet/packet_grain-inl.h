@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-// Where hits are, from the eye, and what is seen of them.
+// Where hits are from the eye, and their rays.
 struct GroundPlace {
     std::array<Floats, 3> from_eye; // metres
     std::array<Floats, 3> view;     // direction of the ray
@@ -160,32 +160,32 @@ HWY_INLINE Floats wave(Floats x) {
 HWY_INLINE PatternPlace bent(const PatternPlace& place) {
     const auto bend = [](Floats across) HWY_ATTR {
         const Floats slow = wave(hn::MulAdd(across, all(1.0F / 11.0F), all(0.3F)));
-        return hn::Mul(all(0.2F), hn::Add(wave(hn::Mul(across, all(1.0F / 7.0F))), slow));
+        return hn::Mul(all(bend_height), hn::Add(wave(hn::Mul(across, all(1.0F / 7.0F))), slow));
     };
     return {hn::Add(place.u, bend(place.v)), hn::Add(place.v, bend(place.u))};
 }
 
-// The plane that a pattern lies in: its two axes, and what is seen of it.
+// A plane between two axes, and its share.
 struct PatternPlane {
-    Lanes along_x; // u is x, not y
-    Lanes along_y; // v is y, not z
+    int u = 0;
+    int v = 1;
     Floats share;
 
     HWY_INLINE PatternPlace of(const std::array<Floats, 3>& vector) const {
-        return {hn::IfThenElse(along_x, vector[0], vector[1]),
-                hn::IfThenElse(along_y, vector[1], vector[2])};
+        return {vector[static_cast<std::size_t>(u)], vector[static_cast<std::size_t>(v)]};
     }
 };
 
-// The level plane, and the upright one that the ground faces most.
-HWY_INLINE std::array<PatternPlane, 2> pattern_planes(const std::array<Floats, 3>& normal) {
-    const Lanes always = hn::Not(no_lanes());
-    const Lanes faces_y = hn::Lt(hn::Abs(normal[0]), hn::Abs(normal[1]));
-    const Floats level = smooth_step(0.6F, 0.75F, hn::Abs(normal[2]));
-    return {{{always, always, level}, {faces_y, no_lanes(), hn::Sub(all(1.0F), level)}}};
+// Level ground lies in the plane xy, steep ground in the upright plane that it faces.
+HWY_INLINE std::array<PatternPlane, 3> pattern_planes(const std::array<Floats, 3>& normal) {
+    const Floats level = smooth_step(upright_end, upright_begin, hn::Abs(normal[2]));
+    const Floats turn = hn::Sub(hn::Abs(normal[0]), hn::Abs(normal[1]));
+    const Floats upright = hn::Sub(all(1.0F), level);
+    const Floats along_y = hn::Mul(upright, smooth_step(-upright_turn, upright_turn, turn));
+    return {{{0, 2, hn::Sub(upright, along_y)}, {1, 2, along_y}, {0, 1, level}}};
 }
 
-// What patterns change: the cosine of the angle to the sun, and the brightness.
+// Changes of the cosine of the angle to the sun, and of the brightness.
 struct GrainLook {
     Floats to_sun;
     Floats brightness;
@@ -209,27 +209,26 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternPlane& plane,
     sum.brightness = hn::Add(sum.brightness, slopes.brightness);
 }
 
-// The sum of all patterns, as far as they are seen.
+// The sum of the visible patterns.
 HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
                               const std::array<Floats, 3>& normal, Lanes found) {
-    constexpr float last_seen = 5.0F; // level: the longest waves are two pixels long
     const Floats zero = hn::Zero(floats);
     const Floats facing =
         hn::Div(hn::Abs(dot(normal, turned(grain, place.view))), place.view_length);
-    const Floats longer = hn::Div(all(1.0F), hn::Max(facing, all(0.0625F)));
-    const Floats pixel = hn::Mul(
-        hn::MulAdd(place.distance, all(grain.metres_a_pixel.y), all(grain.metres_a_pixel.x)),
-        hn::Sqrt(longer));
-    const Floats rock = smooth_step(0.90F, 0.76F, dot(normal, all_of(grain.up)));
-    const std::array<PatternPlane, 2> planes = pattern_planes(normal);
+    const Floats longer = hn::Sqrt(hn::Div(all(1.0F), hn::Max(facing, all(flattest_facing))));
+    const Floats width =
+        hn::MulAdd(place.distance, all(grain.metres_a_pixel.y), all(grain.metres_a_pixel.x));
+    const Floats pixel = hn::Mul(width, hn::Mul(longer, hn::Sqrt(longer))); // and its length
+    const Floats rock = smooth_step(rock_begin, rock_end, dot(normal, all_of(grain.up)));
+    const std::array<PatternPlane, 3> planes = pattern_planes(normal);
     const std::array<Floats, 3> from_eye = turned(grain, place.from_eye);
     GrainLook sum{zero, zero};
     for (int i = 0; i < grain.pattern_count; ++i) {
         const glm::vec4 pattern = grain.patterns[static_cast<std::size_t>(i)];
         const Floats texels = hn::Mul(pixel, all(pattern.w * static_cast<float>(grain.side)));
         const Floats fine = hn::Max(log2_of(texels), zero);
-        const Floats level = hn::Min(fine, all(last_seen + 1.0F));
-        const Floats seen = hn::Min(hn::Sub(all(last_seen + 1.0F), level), all(1.0F));
+        const Floats level = hn::Min(fine, all(last_seen_level + 1.0F));
+        const Floats seen = hn::Min(hn::Sub(all(last_seen_level + 1.0F), level), all(1.0F));
         const std::array<Floats, 3> at{hn::MulAdd(from_eye[0], all(pattern.w), all(pattern.x)),
                                        hn::MulAdd(from_eye[1], all(pattern.w), all(pattern.y)),
                                        hn::MulAdd(from_eye[2], all(pattern.w), all(pattern.z))};
@@ -245,38 +244,34 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
 }
 
 // The strength of grain. Snow, the brightest ground, is smoother, and level water has none.
-HWY_INLINE Floats strength_on(const GrainPaint& grain, const PacketHits& hits, const Color& lit) {
-    constexpr float blue_of_water = 2.0F; // times its red
+HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 3>& normal,
+                              const Color& lit) {
     const Floats luminance = hn::MulAdd(
         lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
-    const Floats rough = hn::NegMulAdd(all(0.8F), smooth_step(0.35F, 0.65F, luminance), all(1.0F));
-    const Slopes slopes = slopes_of(hits);
-    const Floats zero = hn::Zero(floats);
-    const Lanes is_level = hn::And(hn::Eq(slopes.col, zero), hn::Eq(slopes.row, zero));
+    const Floats rough = hn::NegMulAdd(all(snow_smoothness),
+                                       smooth_step(snow_begin, snow_end, luminance), all(1.0F));
+    const Lanes is_level = hn::Gt(dot(normal, all_of(grain.up)), all(level_cosine));
     const Lanes is_water = hn::And(is_level, hn::Gt(lit.b, hn::Mul(all(blue_of_water), lit.r)));
     return hn::IfThenZeroElse(is_water, hn::Mul(all(grain.strength), rough));
 }
 
 // The colour of ground with its grain: slopes change the share of the sun's light, and the
-// brightness changes all. Ground that the sun hardly
-// reaches is as grainy as if it did: else the steps of normals from cell to cell would show.
+// brightness changes all light. Ground that the sun hardly reaches is as grainy as if it did: else
+// the steps of normals from cell to cell would show.
 HWY_INLINE Color with_grain(const BlockPaint& paint, const TilePaint& tile,
                             const GroundPlace& place, const PacketHits& hits, const Color& lit) {
-    constexpr float sky_share = 0.45F; // of the sun's light on ground that faces it
-    constexpr float grazing = 0.2F;    // cosine of the angle to the sun
-    constexpr float slope_scale = 0.55F;
-    constexpr float brightness_scale = 0.35F;
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
     const std::array<Floats, 3> normal = grain_normal(tile, hits);
     const GrainLook look = grain_at(grain, place, normal, hits.found);
-    const Floats strength = strength_on(grain, hits, lit);
-    const Floats to_sun = hn::Max(dot(normal, all_of(grain.to_sun)), all(grazing));
-    const Floats grainy = hn::MulAdd(look.to_sun, hn::Mul(strength, all(slope_scale)), to_sun);
-    const Floats light =
-        hn::Div(hn::Add(hn::Max(grainy, zero), all(sky_share)), hn::Add(to_sun, all(sky_share)));
+    const Floats strength = strength_on(grain, normal, lit);
+    const Floats to_sun = hn::Max(dot(normal, all_of(grain.to_sun)), all(grain_grazing));
+    const Floats grainy =
+        hn::MulAdd(look.to_sun, hn::Mul(strength, all(grain_slope_scale)), to_sun);
+    const Floats light = hn::Div(hn::Add(hn::Max(grainy, zero), all(grain_sky_share)),
+                                 hn::Add(to_sun, all(grain_sky_share)));
     const Floats brightness =
-        hn::MulAdd(look.brightness, hn::Mul(strength, all(brightness_scale)), all(1.0F));
+        hn::MulAdd(look.brightness, hn::Mul(strength, all(grain_brightness_scale)), all(1.0F));
     return scaled(lit, hn::Mul(light, hn::Max(brightness, zero)));
 }
 

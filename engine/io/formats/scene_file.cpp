@@ -31,6 +31,7 @@ constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange turbidities{1.0, 10.0, false};
 constexpr NumberRange grains{0.0, 2.0, false};
+constexpr NumberRange contour_intervals{0.0, 1e6, false};
 constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
@@ -93,7 +94,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("gaps", scene.gaps, kinds_of_gaps);
     table.read("exaggeration", scene.exaggeration, exaggerations);
     table.read("grain", scene.grain, grains);
-    table.read("contours", scene.contours, not_negative);
+    table.read("contours", scene.contours, contour_intervals);
     std::string placement;
     table.read("placement", placement, placements);
     if (!placement.empty()) {

@@ -31,7 +31,7 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
             .grain_up = glm::vec4(view.up, view.strength),
             .grain_sun = list.sun ? glm::vec4(view::turned(scene::to_light(*list.sun)), 0.0)
                                   : glm::vec4(0.0F),
-            .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, 0.0F),
+            .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, view.radius),
             .contours = glm::vec4(0.0F),
             .grain_normal_from_slopes = glm::mat4(glm::mat3(glm::transpose(glm::inverse(metres))))};
 }
@@ -39,7 +39,10 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
 } // namespace
 
 std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
-    return scene::has_overlay(terrain) && !frame.hits && !frame.counts() ? feature_overlay : 0U;
+    const bool shows_ground = !frame.hits && !frame.counts() && !terrain.material.wireframe;
+    const bool has_overlay =
+        scene::shown_grain(terrain) > 0.0F || scene::shown_contours(terrain) > 0.0;
+    return has_overlay && shows_ground ? feature_overlay : 0U;
 }
 
 Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& terrain,
@@ -47,14 +50,17 @@ Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& te
     if (overlay_feature(frame, terrain) == 0) {
         return {};
     }
-    frame.residency.grain().bind();
-    ++frame.state.stats().state_changes;
+    if (scene::shown_grain(terrain) > 0.0F) {
+        frame.residency.grain().bind();
+        ++frame.state.stats().state_changes;
+    }
     const view::GrainView view = view::grain_view(frame.list, terrain, world_from_local);
     const glm::dmat3 metres = space != nullptr
                                   ? metres_per_unit(view, terrain, world_from_local, *space)
                                   : glm::dmat3(1.0);
     OverlayBlock block = overlay_block(frame.list, view, metres);
-    block.contours.x = static_cast<float>(terrain.contours);
+    block.contours = {scene::shown_contours(terrain), terrain.surface->placement().exaggeration(),
+                      0.0, 0.0};
     return frame.state.set(block);
 }
 

@@ -14,10 +14,9 @@
 namespace reljef::render {
 namespace {
 
-// Their programs have the maps, also without grain.
-bool has_overlay(const std::vector<view::TerrainDraw>& draws) {
+bool has_grain(const std::vector<view::TerrainDraw>& draws) {
     return std::any_of(draws.begin(), draws.end(), [](const view::TerrainDraw& draw) {
-        return scene::has_overlay(*draw.terrain);
+        return scene::shown_grain(*draw.terrain) > 0.0F;
     });
 }
 
@@ -56,7 +55,7 @@ Result<gl::Texture2D> uploaded(const material::GrainMap& map, material::GrainMap
 } // namespace
 
 Result<void> GrainResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
-    if (rock_ || !(has_overlay(list.terrains) || has_overlay(list.reliefs))) {
+    if (rock_ || !(has_grain(list.terrains) || has_grain(list.reliefs))) {
         return {};
     }
     const material::GrainMap map;

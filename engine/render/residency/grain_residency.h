@@ -9,12 +9,12 @@
 
 namespace reljef::render {
 
-/// The patterns of material::GrainMap in GPU memory, once a terrain with an overlay is drawn.
+/// The patterns of material::GrainMap in GPU memory, once a terrain with grain is drawn.
 class GrainResidency {
 public:
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
-    /// Preconditions: prepared; a terrain of the list has an overlay.
+    /// Preconditions: prepared; a terrain of the list has grain.
     void bind() const;
 
 private:

@@ -48,6 +48,9 @@ struct TerrainDetail {
 /// can. Only the options `steps` and `shadow` are allowed.
 Result<void> check_terrain_detail_technique(const Technique& technique);
 
+/// No picture shows closer lines, metres.
+inline constexpr double min_contours = 1e-3;
+
 /// TerrainNode::grain, at most.
 inline constexpr double max_grain = 2.0;
 
@@ -64,7 +67,9 @@ struct TerrainNode {
     /// Contrast of fine structure on near ground that the data do not have (material::GrainMap),
     /// [0, max_grain]; 0: none, 1: as in nature. It does not change hits.
     float grain = 0.0F;
-    double contours = 0.0; ///< metres of height from one line to the next; 0: none
+    /// Metres of height from one line to the next, min_contours or more; 0: none.
+    double contours = 0.0;
+    bool hides_overlay = false; ///< shows neither: as in pictures that the truth is compared with
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
     /// Samples of a terrain in memory that may all be vertices; see triangle_bound().
@@ -78,9 +83,11 @@ struct TerrainNode {
     friend bool operator==(const TerrainNode&, const TerrainNode&) = default;
 };
 
-/// Whether grain or contours are drawn over its ground.
-inline bool has_overlay(const TerrainNode& terrain) {
-    return terrain.grain > 0.0F || terrain.contours > 0.0;
+inline float shown_grain(const TerrainNode& terrain) {
+    return terrain.hides_overlay ? 0.0F : terrain.grain;
+}
+inline double shown_contours(const TerrainNode& terrain) {
+    return terrain.hides_overlay ? 0.0 : terrain.contours;
 }
 
 /// The error bound of triangles that stand in for those of every sample, pixels.
