@@ -48,7 +48,7 @@ private:
 
     std::vector<Part> parts_;
     int first_row_;                      // of the closed raster
-    int rows_before_; // above the parts, of the closed raster
+    int rows_before_;                    // above the parts, of the closed raster
     int last_row_;                       // of the closed raster
     std::optional<float> north_, south_; // added poles, metres
     std::vector<FileError> errors_;
