@@ -53,6 +53,8 @@ struct GlobalWrap {
     /// Distance of an added pole row from the outermost row, in rows, (0, 1]; 0: none.
     double north = 0.0;
     double south = 0.0;
+    bool begins_at_pole = false; ///< the first row lies on a pole, added or not
+    bool ends_at_pole = false;   ///< so does the last one
 
     [[nodiscard]] int cols() const { return east ? 1 : 0; }
     [[nodiscard]] int north_rows() const { return north > 0.0 ? 1 : 0; }
@@ -71,6 +73,14 @@ public:
     /// Converts between rows of the closed raster and rows of the source.
     [[nodiscard]] double source_row(double row) const;
     [[nodiscard]] double closed_row(double source_row) const;
+    /// Rows of the closed raster at their distances on the Earth: those of the source, from an
+    /// added pole row on.
+    [[nodiscard]] double even_row(double row) const {
+        return source_row(row) + closing_.north_rows();
+    }
+    [[nodiscard]] double from_even_row(double even_row) const {
+        return closed_row(even_row - closing_.north_rows());
+    }
 
 private:
     GlobalWrap closing_;

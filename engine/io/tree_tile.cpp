@@ -1,12 +1,14 @@
 #include "engine/io/tree_tile.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/mixed_overviews.h"
+#include "engine/io/raster/sample_decoder.h"
 
 namespace reljef::io {
 namespace {
@@ -40,18 +42,14 @@ void add_read(const TileWindow& other, TileWindow& window) {
     window.bytes_read += other.bytes_read;
 }
 
-/// Copies the heights of the first two columns to the columns from `last`.
-void close_east(const TileSet& tiles, const WrappedGrid& ground, const TileGrid& part, int last,
-                Gaps gaps, const std::stop_token& stop, TileWindow& window) {
-    TileGrid first = part;
-    first.first.x = ground.grid.first.x - part.step.x;
-    first.cols = 3;
-    const TileWindow again = tiles.read(first, gaps, stop);
+/// Replaces the columns from `at` on.
+void replace_cols(int at, const TileWindow& cols, TileWindow& window) {
     for (int row = 0; row < window.heights.rows(); ++row) {
-        window.heights(last, row) = again.heights(1, row);
-        window.heights(last + 1, row) = again.heights(2, row);
+        for (int col = 0; col < cols.heights.cols(); ++col) {
+            window.heights(at + col, row) = cols.heights(col, row);
+        }
     }
-    add_read(again, window);
+    add_read(cols, window);
 }
 
 /// Interpolates between a pole and the outermost row of the source. `from_pole(row)`: distance of a
@@ -81,6 +79,19 @@ WrappedGrid wrapped_grid(const TileGrid& grid, const geo::GlobalWrap& wrap, int 
     return result;
 }
 
+Result<PoleHeights> pole_heights(const TileSet& tiles, const geo::GlobalWrap& wrap) {
+    if (wrap.rows() == 0) {
+        return PoleHeights{};
+    }
+    const auto found = tiles.heights(std::array{glm::dvec2(90.0, 0.0), glm::dvec2(-90.0, 0.0)});
+    const auto height_of = [](const HeightSample& answer) {
+        return answer.kind == HeightSample::Kind::height ? answer.height : void_value;
+    };
+    return found.errors.empty() ? Result<PoleHeights>(PoleHeights{height_of(found.answers[0]),
+                                                                  height_of(found.answers[1])})
+                                : Error{found.errors.front().message};
+}
+
 TileWindow read_tree_tile(const TileSet& tiles, const WrappedGrid& ground,
                           const terrain::TileTree& tree, terrain::TreeTile tile, Gaps gaps,
                           std::stop_token stop) {
@@ -93,11 +104,22 @@ TileWindow read_tree_tile(const TileSet& tiles, const WrappedGrid& ground,
     const TileGrid part{grid.first + grid.step * glm::dvec2(first - step),
                         grid.step * static_cast<double>(step), end.x + 3, end.y + 3};
     TileWindow window = tiles.read(part, gaps, stop);
-    Inside cols = inside_of(first.x, step, part.cols, grid.cols);
-    cols.first = ground.wrap.east ? 0 : cols.first;
+    const Inside cols = inside_of(first.x, step, part.cols, grid.cols);
     repeat_border(window.heights, cols, inside_of(first.y, step, part.rows, grid.rows));
-    if (ground.wrap.east && first.x + end.x * step >= last.x) {
-        close_east(tiles, ground, part, end.x + 1, gaps, stop, window);
+    const auto read_cols = [&](int first_vertex, int count) {
+        TileGrid cols = part;
+        cols.first.x = grid.first.x + cols.step.x * first_vertex;
+        cols.cols = count;
+        return tiles.read(cols, gaps, stop);
+    };
+    if (ground.wrap.around && first.x == 0) {
+        const int cells_around = (last.x + step - 1) / step;
+        replace_cols(0, read_cols(cells_around - 1, 1), window);
+    }
+    if (ground.wrap.around && first.x + end.x * step >= last.x) {
+        const bool has_sample = !ground.wrap.east && step <= ground.refinement;
+        const int seam = has_sample ? 1 : 0; // the first vertex that is not there
+        replace_cols(end.x + 1 + seam, read_cols(seam, 2 - seam), window);
     }
     const double refinement = ground.refinement;
     const auto read_row = [&](double y) {

@@ -21,6 +21,14 @@ struct WrappedGrid {
 /// Refines a grid and adds the samples of its wrap.
 WrappedGrid wrapped_grid(const TileGrid& grid, const geo::GlobalWrap& wrap, int refinement);
 
+/// Heights of the added poles of a grid, metres: means of the rows beside them; NaN without any.
+struct PoleHeights {
+    double north = 0.0;
+    double south = 0.0;
+};
+/// Fails if a file cannot be read.
+Result<PoleHeights> pole_heights(const TileSet& tiles, const geo::GlobalWrap& wrap);
+
 /// Heights at the vertices of a tree's tile and one step around them; repeats the border outside
 /// the grid. Averages over a step above level 0. NaN at voids and holes.
 TileWindow read_tree_tile(const TileSet& tiles, const WrappedGrid& ground,

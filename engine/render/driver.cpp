@@ -120,6 +120,34 @@ Result<void> Driver::check_drawn() {
     return check_context();
 }
 
+namespace {
+
+/// Of the one globe that the tiles of a stream show, if its poles are none of its source's rows.
+const geo::WrappedRows* rows_of_globe(const view::DrawList& list) {
+    const geo::WrappedRows* rows = nullptr;
+    for (const view::TileDraw& draw : list.tiles) {
+        const bool is_same = draw.terrain == list.tiles.front().terrain;
+        rows = is_same && !draw.tile->borrows ? &draw.terrain->stream->maker().rows() : nullptr;
+        if (rows == nullptr) {
+            break;
+        }
+    }
+    return rows != nullptr && rows->wrap().rows() > 0 && list.reliefs.empty() ? rows : nullptr;
+}
+
+// Between vertices, only even rows are linear.
+void close_rows(const view::DrawList& list, HitBuffer& hits) {
+    const geo::WrappedRows* const rows = rows_of_globe(list);
+    for (Hit& hit : hits.samples()) {
+        if (rows != nullptr && hit.row != Hit().row) {
+            const glm::dvec2 place = hit.place();
+            hit = hit_at({place.x, rows->from_even_row(place.y)}, hit.height, hit.depth);
+        }
+    }
+}
+
+} // namespace
+
 Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     if (hit_target_.size() != size()) {
         auto target = gl::Framebuffer::create(
@@ -150,6 +178,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
                            [](const glm::vec4& hit, const glm::vec4& rest) {
                                return Hit{hit.x, hit.y, hit.z, hit.w, rest.x, rest.y};
                            });
+    close_rows(list, hits);
     return view::DrawnHits{std::move(hits), stats};
 }
 

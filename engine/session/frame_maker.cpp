@@ -296,7 +296,7 @@ std::string DeviceFrames::unproven_note() const {
                              "than {}: --memory {} reads all samples",
                              bound, *megabytes_for_all_samples_)
                : fmt::format("the errors of {} tiles are estimates, and pixels may be farther off "
-                             "than {}: 'reljef index' proves them, except near voids",
+                             "than {}: 'reljef index' proves them except on voids and flat globes",
                              max_unproven_, bound);
 }
 

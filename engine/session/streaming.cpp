@@ -86,10 +86,11 @@ scene::TileContent content_or_overview(const scene::TileBuilder& maker, int redu
 /// Reads the tiles of a stream.
 class TileReader {
 public:
-    /// Precondition: the source is streamed.
-    TileReader(const TerrainSource& source, const io::WrappedGrid& ground, scene::TileBuilder maker)
+    /// `proofs`: null without any. Precondition: the source is streamed.
+    TileReader(const TerrainSource& source, std::shared_ptr<const ProvenTiles> proofs,
+               const io::WrappedGrid& ground, scene::TileBuilder maker)
         : tiles_(*source.tiles), stream_(*source.stream), images_(source.imagery),
-          proofs_(source.proofs), ground_(ground), maker_(std::move(maker)) {}
+          proofs_(std::move(proofs)), ground_(ground), maker_(std::move(maker)) {}
 
     [[nodiscard]] scene::TileContent heights(terrain::TreeTile tile,
                                              const std::stop_token& stop) const {
@@ -220,12 +221,15 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     const scene::ImageryDetail imagery = source.stream->imagery;
     const io::WrappedGrid ground =
         ground_of(*source.tiles, *source.stream, overview->heightfield().heights);
-    const bool wraps_longitude =
-        ground.wrap.around && overview->placement().kind() == terrain::PlacementKind::ellipsoid;
-    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows, wraps_longitude);
+    const bool is_curved = overview->placement().kind() == terrain::PlacementKind::ellipsoid;
+    const terrain::TileTree tree(ground.grid.cols, ground.grid.rows,
+                                 {.around = ground.wrap.around && is_curved});
     scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                              ground.wrap);
-    const TileReader reader(source, ground, maker);
+    // Over a plane, the overview's poles lie farther from its rows than those of the terrain.
+    const bool moves_rows = !is_curved && ground.wrap.rows() > 0;
+    const auto proofs = moves_rows ? nullptr : source.proofs;
+    const TileReader reader(source, proofs, ground, maker);
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
     options.threads = source.stream->threads;
@@ -234,10 +238,8 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     };
     options.reported = std::move(reported);
     options.source_changes = [reader] { return reader.changes(); };
-    if (source.proofs != nullptr) {
-        options.find_proof = [proofs = source.proofs](terrain::TreeTile tile) {
-            return proofs->find(tile);
-        };
+    if (proofs != nullptr) {
+        options.find_proof = [proofs](terrain::TreeTile tile) { return proofs->find(tile); };
     }
     const auto read = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
         return reader.with_picture(tile, stop);

@@ -8,10 +8,10 @@ namespace {
 // On a tile of 12 km (128 samples, 3″ apart) the chord of an eighth stays within 5 cm of the arc.
 constexpr int flat_ellipsoid_quads = 8;
 
-// Samples of the terrain from the tile's first.
+// Samples of the terrain from the tile's first. Between vertices, places are linear.
 glm::dvec2 place_in_tile(const terrain::Placement& placement, const terrain::TileCells& tile,
                          glm::dvec2 sample) {
-    return placement.on_terrain(sample) - placement.on_terrain(glm::dvec2(tile.first));
+    return placement.on_even_rows(sample) - placement.on_terrain(glm::dvec2(tile.first));
 }
 
 template <class HeightAt>

@@ -17,6 +17,7 @@
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/index/index_format.h"
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/tree_tile.h"
 
 namespace reljef::io {
 namespace fs = std::filesystem;
@@ -37,23 +38,19 @@ glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {
 
 fs::path index_file(const TileSet& tiles, const TileGrid& grid, Gaps gaps,
                     const fs::path& cache_folder) {
-    const std::string what = fmt::format(
-        "{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}", full_name(tiles.name()),
-        grid.first.x, grid.first.y, grid.step.x, grid.step.y, grid.cols, grid.rows,
-        gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale, tiles.options().height_offset);
+    const std::string what =
+        fmt::format("{}\n{:.17g} {:.17g} {:.17g} {:.17g} {} {} {} {:.17g} {:.17g}{}",
+                    full_name(tiles.name()), grid.first.x, grid.first.y, grid.step.x, grid.step.y,
+                    grid.cols, grid.rows, gaps == Gaps::sea ? 1 : 0, tiles.options().height_scale,
+                    tiles.options().height_offset, tiles.wrap(grid).around ? " globe" : "");
     return cache_folder / fmt::format("{:016x}.index", fnv_hash(what));
 }
 
 Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
                                  const fs::path& cache_folder) {
-    const geo::GlobalWrap wrap = tiles.wrap(grid);
-    if (wrap.cols() > 0 || wrap.rows() > 0) {
-        return Error{fmt::format("{}: closes around the Earth; a terrain that does not was "
-                                 "expected, as others cannot be indexed yet",
-                                 tiles.name())};
-    }
-    if (std::min(grid.cols, grid.rows) < 2 ||
-        std::max(grid.cols, grid.rows) > terrain::max_tree_samples) {
+    const WrappedGrid closed = wrapped_grid(grid, tiles.wrap(grid), 1);
+    const int longer = std::max(closed.grid.cols, closed.grid.rows);
+    if (std::min(grid.cols, grid.rows) < 2 || longer > terrain::max_tree_samples) {
         return Error{fmt::format("{}: {}×{} samples found, 2 to {} a side were expected",
                                  tiles.name(), grid.cols, grid.rows, terrain::max_tree_samples)};
     }
@@ -61,9 +58,19 @@ Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
     if (!fingerprint) {
         return fingerprint.error();
     }
+    const auto poles = pole_heights(tiles, closed.wrap);
+    if (!poles) {
+        return poles.error();
+    }
     const fs::path file = index_file(tiles, grid, gaps, cache_folder);
-    return IndexSource{std::move(tiles), grid, gaps, terrain::TileTree(grid.cols, grid.rows),
-                       *fingerprint,     file};
+    return IndexSource{std::move(tiles),
+                       grid,
+                       gaps,
+                       terrain::TileTree(closed.grid.cols, closed.grid.rows, closed.wrap),
+                       *fingerprint,
+                       file,
+                       static_cast<float>(poles->north),
+                       static_cast<float>(poles->south)};
 }
 
 ErrorIndex::ErrorIndex(const IndexSource& source, Descriptor file)

@@ -20,9 +20,11 @@ struct IndexSource {
     TileSet tiles;
     TileGrid grid;
     Gaps gaps = Gaps::holes;
-    terrain::TileTree tree;
+    terrain::TileTree tree;        ///< over the grid and the samples that close it
     std::uint64_t fingerprint = 0; ///< TileSet::fingerprint
     std::filesystem::path file;    ///< of the index
+    float north_height = 0.0F;     ///< added poles, metres; NaN: void
+    float south_height = 0.0F;
 };
 
 /// The file of a terrain's index. Its name depends on the terrain's path and on all that changes
@@ -30,8 +32,8 @@ struct IndexSource {
 std::filesystem::path index_file(const TileSet& tiles, const TileGrid& grid, Gaps gaps,
                                  const std::filesystem::path& cache_folder);
 
-/// The source and the file of its index. Fails as TileSet::fingerprint, and for a grid that closes
-/// around the Earth or is larger than a tree.
+/// The source and the file of its index. Fails as TileSet::fingerprint, for a grid that is larger
+/// than a tree, and if the rows beside added poles cannot be read.
 Result<IndexSource> index_source(TileSet tiles, const TileGrid& grid, Gaps gaps,
                                  const std::filesystem::path& cache_folder);
 

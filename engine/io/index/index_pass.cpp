@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "engine/io/index/column_runs.h"
 #include "engine/io/index/sample_source.h"
 
 namespace reljef::io {
@@ -52,26 +53,42 @@ void put(const Grid<float>& part, glm::ivec2 first, Grid<float>& grid) {
 
 /// What a chunk above level 0 needs of the index.
 struct StoredBase {
-    Grid<float> heights; ///< of the raster's vertices in the chunk and its border
+    /// Of the raster's vertices in the chunk and its border; on a globe also of those beyond its
+    /// seam.
+    Grid<float> heights;
     glm::ivec2 first{0}; ///< their first vertex
     terrain::Residuals residuals;
     Grid<TileProof> tiles;
 };
 
+/// Vertices of a level from `first` on; false if a tile is missing.
 bool add_heights(const terrain::TileTree& tree, const ErrorIndex& index, int level,
-                 StoredBase& base) {
-    const glm::ivec2 size(base.heights.cols(), base.heights.rows());
+                 glm::ivec2 first, Grid<float>& heights) {
+    const glm::ivec2 size(heights.cols(), heights.rows());
     const glm::ivec2 last =
-        glm::min((base.first + size - 1) / tree_tile_cells, level_tiles(tree, level) - 1);
-    for (int row = base.first.y / tree_tile_cells; row <= last.y; ++row) {
-        for (int col = base.first.x / tree_tile_cells; col <= last.x; ++col) {
+        glm::min((first + size - 1) / tree_tile_cells, level_tiles(tree, level) - 1);
+    for (int row = first.y / tree_tile_cells; row <= last.y; ++row) {
+        for (int col = first.x / tree_tile_cells; col <= last.x; ++col) {
             const auto stored = index.stored({level, col, row});
             if (!stored) {
                 return false;
             }
-            put(stored->heights, glm::ivec2(col, row) * tree_tile_cells - 1 - base.first,
-                base.heights);
+            put(stored->heights, glm::ivec2(col, row) * tree_tile_cells - 1 - first, heights);
         }
+    }
+    return true;
+}
+
+bool add_heights(const terrain::TileTree& tree, const ErrorIndex& index, int level,
+                 StoredBase& base) {
+    const int last = level_cells(tree, level).x;
+    const ColumnRange range{last + 1, tree.wrap().around ? last : 0};
+    for (const ColumnRun& run : column_runs(base.first.x, base.heights.cols(), range)) {
+        Grid<float> part(run.count, base.heights.rows());
+        if (!add_heights(tree, index, level, {run.first, base.first.y}, part)) {
+            return false;
+        }
+        put(part, {run.at, 0}, base.heights);
     }
     return true;
 }
@@ -116,8 +133,12 @@ std::optional<StoredBase> stored_base(const terrain::TileTree& tree, const Error
     constexpr float infinite = std::numeric_limits<float>::infinity();
     const glm::ivec2 begin = first_vertex(chunk);
     const glm::ivec2 size = chunk_size(tree, chunk);
-    const glm::ivec2 first = glm::max(begin - chunk_border, glm::ivec2(0));
-    const glm::ivec2 end = glm::min(begin + size + chunk_border, level_cells(tree, chunk.base)) + 1;
+    glm::ivec2 first = glm::max(begin - chunk_border, glm::ivec2(0));
+    glm::ivec2 end = glm::min(begin + size + chunk_border, level_cells(tree, chunk.base)) + 1;
+    if (tree.wrap().around) {
+        first.x = begin.x - chunk_border;
+        end.x = begin.x + size.x + chunk_border + 1;
+    }
     const glm::ivec2 tiles = glm::min(level_tiles(tree, chunk.base) - begin / tree_tile_cells,
                                       glm::ivec2(chunk_cells / tree_tile_cells));
     StoredBase base{Grid<float>(end.x - first.x, end.y - first.y),
@@ -328,25 +349,17 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
         result.parts = stored->parts;
     } else {
         const int border = terrain::sample_border(tile.level);
-        const glm::ivec2 size =
-            source.tree.cells(tile) * terrain::TileTree::step(tile) + 1 + 2 * border;
-        const glm::ivec2 first = terrain::TileTree::first(tile) - border;
-        const glm::ivec2 last(source.grid.cols - 1, source.grid.rows - 1);
-        const glm::ivec2 from = glm::clamp(first, glm::ivec2(0), last);
-        const glm::ivec2 count = glm::min(first + size - 1, last) - from + 1;
-        TileWindow window =
-            source.tiles.read({source.grid.first + source.grid.step * glm::dvec2(from),
-                               source.grid.step, count.x, count.y},
-                              source.gaps, stop);
-        samples = Grid<float>(size.x, size.y);
-        for (int row = 0; row < size.y; ++row) {
-            for (int col = 0; col < size.x; ++col) {
-                samples(col, row) = static_cast<float>(
-                    window.heights.clamped(first.x + col - from.x, first.y + row - from.y));
-            }
+        samples =
+            Grid<float>(source.tree.cells(tile).x * terrain::TileTree::step(tile) + 1 + 2 * border,
+                        source.tree.cells(tile).y * terrain::TileTree::step(tile) + 1 + 2 * border);
+        const SampleWindow window =
+            read_sample_window(source, terrain::TileTree::first(tile) - border,
+                               {samples.cols(), samples.rows()}, stop);
+        for (int row = 0; row < samples.rows(); ++row) {
+            window.copy_row(row, samples.row(row));
         }
-        result.errors = std::move(window.errors);
-        result.bytes_read = window.bytes_read;
+        result.errors = window.errors();
+        result.bytes_read = window.bytes_read();
         result.heights = heights_from_samples(source.tree, tile, samples);
     }
     result.proof = index.find(tile);

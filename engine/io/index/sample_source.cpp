@@ -5,6 +5,7 @@
 
 #include <glm/common.hpp>
 
+#include "engine/io/index/column_runs.h"
 #include "engine/io/remote/read_scope.h"
 
 namespace reljef::io {
@@ -36,28 +37,76 @@ bool is_readable(GDALDataset& dataset, const IndexSource& source) {
 
 } // namespace
 
-void SampleWindow::copy_row(int row, std::span<float> heights) const {
-    const int inside = std::clamp(row - before_.y, 0, size_.y - 1);
-    const auto begin = static_cast<std::size_t>(before_.x);
-    const auto count = static_cast<std::size_t>(size_.x);
-    if (height_of_code_ !=
-        nullptr) { // plain pointers: checks of bounds would take half of the time
-        const std::uint16_t* const codes = codes_.get() + static_cast<std::size_t>(inside) * count;
-        const float* const table = height_of_code_->data();
-        float* const into = heights.data() + begin;
+void SampleWindow::Part::copy_row(int row, std::span<float> into) const {
+    const auto count = static_cast<std::size_t>(size.x);
+    const std::size_t begin = static_cast<std::size_t>(row) * count;
+    if (height_of_code != nullptr) { // plain pointers: checks of bounds would take half of the time
+        const std::uint16_t* const from = codes.get() + begin;
+        const float* const table = height_of_code->data();
+        float* const to = into.data();
         for (std::size_t i = 0; i < count; ++i) {
-            into[i] = table[codes[i]];
+            to[i] = table[from[i]];
         }
-    } else if (floats_ != nullptr) {
-        std::copy_n(floats_.get() + static_cast<std::size_t>(inside) * count, count,
-                    heights.begin() + before_.x);
+    } else if (floats != nullptr) {
+        std::copy_n(floats.get() + begin, count, into.begin());
     } else {
-        const auto from = heights_.row(inside);
-        std::transform(from.begin(), from.end(), heights.begin() + before_.x,
+        const auto from = heights.row(row);
+        std::transform(from.begin(), from.end(), into.begin(),
                        [](double height) { return static_cast<float>(height); });
     }
+}
+
+SampleWindow::SampleWindow(const IndexSource& source, glm::ivec2 first, glm::ivec2 size)
+    : first_row_(first.y), last_row_(source.tree.rows() - 1) {
+    const geo::GlobalWrap& wrap = source.tree.wrap();
+    north_ = wrap.north > 0.0 ? std::optional(source.north_height) : std::nullopt;
+    south_ = wrap.south > 0.0 ? std::optional(source.south_height) : std::nullopt;
+    const int begin = std::clamp(first.y - wrap.north_rows(), 0, source.grid.rows - 1);
+    const int last = std::clamp(first.y + size.y - 1 - wrap.north_rows(), 0, source.grid.rows - 1);
+    rows_before_ = wrap.north_rows() + begin;
+    const ColumnRange range{source.grid.cols, wrap.around ? source.tree.cols() - 1 : 0};
+    for (const ColumnRun& run : column_runs(first.x, size.x, range)) {
+        parts_.push_back(
+            {.at = run.at, .first = {run.first, begin}, .size = {run.count, last - begin + 1}});
+    }
+}
+
+void SampleWindow::read(const IndexSource& source, Part& part, const std::stop_token& stop) {
+    const TileGrid& grid = source.grid;
+    TileWindow read = source.tiles.read(
+        {grid.first + grid.step * glm::dvec2(part.first), grid.step, part.size.x, part.size.y},
+        source.gaps, stop);
+    part.heights = std::move(read.heights);
+    part.codes.reset();
+    part.floats.reset();
+    errors_.insert(errors_.end(), read.errors.begin(), read.errors.end());
+    bytes_read_ += read.bytes_read;
+}
+
+void SampleWindow::copy_row(int row, std::span<float> heights) const {
+    const int closed = std::clamp(first_row_ + row, 0, last_row_);
+    if (const auto pole = closed == 0 ? north_ : closed == last_row_ ? south_ : std::nullopt) {
+        std::fill(heights.begin(), heights.end(), *pole);
+        return;
+    }
+    const int inside = std::clamp(closed - rows_before_, 0, parts_.front().size.y - 1);
+    for (const Part& part : parts_) {
+        part.copy_row(inside, heights.subspan(static_cast<std::size_t>(part.at)));
+    }
+    const auto begin = static_cast<std::size_t>(parts_.front().at);
+    const auto end =
+        static_cast<std::size_t>(parts_.back().at) + static_cast<std::size_t>(parts_.back().size.x);
     std::fill_n(heights.begin(), begin, heights[begin]);
-    std::fill(heights.begin() + before_.x + size_.x, heights.end(), heights[begin + count - 1]);
+    std::fill(heights.begin() + static_cast<std::ptrdiff_t>(end), heights.end(), heights[end - 1]);
+}
+
+SampleWindow read_sample_window(const IndexSource& source, glm::ivec2 first, glm::ivec2 size,
+                                const std::stop_token& stop) {
+    SampleWindow window(source, first, size);
+    for (SampleWindow::Part& part : window.parts_) {
+        window.read(source, part, stop);
+    }
+    return window;
 }
 
 SampleSource::SampleSource(const IndexSource& source)
@@ -120,25 +169,24 @@ bool SampleSource::read_stored(glm::ivec2 first, glm::ivec2 size, void* values,
 }
 
 // False: the other way tells why.
-bool SampleSource::read_direct(glm::ivec2 first, SampleWindow& window,
-                               const std::stop_token& stop) const {
+bool SampleSource::read_direct(SampleWindow::Part& part, const std::stop_token& stop) const {
     if (!direct_) {
         return false;
     }
     const std::size_t count =
-        static_cast<std::size_t>(window.size_.x) * static_cast<std::size_t>(window.size_.y);
+        static_cast<std::size_t>(part.size.x) * static_cast<std::size_t>(part.size.y);
     if (direct_->type == GDT_Float32) {
-        window.floats_ = std::make_unique_for_overwrite<float[]>(count);
-        return read_stored(first, window.size_, window.floats_.get(), stop) &&
-               direct_->decoder.decode_floats({window.floats_.get(), count});
+        part.floats = std::make_unique_for_overwrite<float[]>(count);
+        return read_stored(part.first, part.size, part.floats.get(), stop) &&
+               direct_->decoder.decode_floats({part.floats.get(), count});
     }
-    window.codes_ = std::make_unique_for_overwrite<std::uint16_t[]>(count);
-    if (!read_stored(first, window.size_, window.codes_.get(), stop)) {
+    part.codes = std::make_unique_for_overwrite<std::uint16_t[]>(count);
+    if (!read_stored(part.first, part.size, part.codes.get(), stop)) {
         return false;
     }
     for (const std::uint16_t code : direct_->contextual_codes) {
         int found = 0;
-        const std::uint16_t* const codes = window.codes_.get();
+        const std::uint16_t* const codes = part.codes.get();
         for (std::size_t i = 0; i < count; ++i) {
             found |= codes[i] == code ? 1 : 0;
         }
@@ -146,26 +194,17 @@ bool SampleSource::read_direct(glm::ivec2 first, SampleWindow& window,
             return false;
         }
     }
-    window.height_of_code_ = direct_->height_of_code;
+    part.height_of_code = direct_->height_of_code;
     return true;
 }
 
 SampleWindow SampleSource::read(glm::ivec2 first, glm::ivec2 size,
                                 const std::stop_token& stop) const {
-    const TileGrid& grid = source_.grid;
-    const glm::ivec2 last(grid.cols - 1, grid.rows - 1);
-    SampleWindow window;
-    const glm::ivec2 from = glm::clamp(first, glm::ivec2(0), last);
-    window.before_ = from - first;
-    window.size_ = glm::min(first + size - 1, last) - from + 1;
-    if (!read_direct(from, window, stop)) {
-        const TileGrid part{grid.first + grid.step * glm::dvec2(from), grid.step, window.size_.x,
-                            window.size_.y};
-        TileWindow read = source_.tiles.read(part, source_.gaps, stop);
-        window.heights_ = std::move(read.heights);
-        window.errors_ = std::move(read.errors);
-        window.codes_.reset();
-        window.floats_.reset();
+    SampleWindow window(source_, first, size);
+    for (SampleWindow::Part& part : window.parts_) {
+        if (!read_direct(part, stop)) {
+            window.read(source_, part, stop);
+        }
     }
     return window;
 }

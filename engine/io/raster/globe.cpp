@@ -20,6 +20,11 @@ double steps_to_pole(double latitude, double pole, double step) {
     return steps > at_pole && steps <= 1.0 + at_pole ? steps : 0.0;
 }
 
+/// Whether the outermost row lies on a pole once the raster is closed.
+bool is_at_pole(double latitude, double pole, double step) {
+    return std::abs(pole - latitude) <= (1.0 + at_pole) * step;
+}
+
 } // namespace
 
 int samples_around(const OGRSpatialReference& crs, const geo::PixelAffine& affine) {
@@ -45,8 +50,12 @@ geo::GlobalWrap closing_of(const OGRSpatialReference& crs, const geo::PixelAffin
     wrap.east = cols == around;
     const double pole = 0.25 * whole_turn(crs);
     const double step = -affine.y_row;
-    wrap.north = steps_to_pole(affine.y0, pole, step);
-    wrap.south = steps_to_pole(-(affine.y0 - step * (rows - 1)), pole, step);
+    const double northmost = affine.y0;
+    const double southmost = affine.y0 - step * (rows - 1);
+    wrap.north = steps_to_pole(northmost, pole, step);
+    wrap.south = steps_to_pole(-southmost, pole, step);
+    wrap.begins_at_pole = is_at_pole(northmost, pole, step);
+    wrap.ends_at_pole = is_at_pole(-southmost, pole, step);
     return wrap;
 }
 

@@ -163,7 +163,7 @@ private:
         const glm::dvec2 first = first_of(surface);
         const auto eye =
             surface.placement.sample_from_world(local_eye(frame_.list.camera, world_from_local));
-        const glm::dvec2 origin = eye ? surface.placement.on_terrain(glm::dvec2(*eye)) : first;
+        const glm::dvec2 origin = eye ? surface.placement.on_even_rows(glm::dvec2(*eye)) : first;
         program_->set(uniforms.eye_sample, split_place(origin));
         program_->set(uniforms.eye_in_tile, split_place(origin - first));
     }

@@ -169,17 +169,24 @@ glm::dvec2 TileBuilder::first(terrain::TreeTile tile) const {
 }
 
 glm::dvec2 TileBuilder::sample(terrain::TreeTile tile, glm::ivec2 vertex) const {
-    glm::dvec2 at(tree_.sample(tile, vertex));
-    if (reduction_.rows.wrap().east) {
+    glm::ivec2 at = tree_.sample(tile, vertex);
+    if (reduction_.rows.wrap().around) {
         const int step = terrain::TileTree::step(tile);
-        at.x += step * (std::min(vertex.x, 0) + std::max(vertex.x - tree_.cells(tile).x, 0));
+        const int first = terrain::TileTree::first(tile).x + vertex.x * step;
+        const int turn = tree_.cols() - 1;
+        const int last_vertex = (turn + step - 1) / step;
+        if (first < 0) { // the last cell around may be shorter
+            at.x = (last_vertex + first / step) * step - turn;
+        } else if (first / step > last_vertex) {
+            at.x = turn + (first / step - last_vertex) * step;
+        }
     }
-    return at / static_cast<double>(imagery_.refinement);
+    return glm::dvec2(at) / static_cast<double>(imagery_.refinement);
 }
 
 terrain::TileLattice TileBuilder::lattice(terrain::TreeTile tile) const {
     const glm::ivec2 cells = tree_.cells(tile);
-    return {first(tile), sample(tile, cells), step(tile), cells};
+    return {first(tile), sample(tile, cells), step(tile), cells, reduction_.rows};
 }
 
 terrain::Placement TileBuilder::placement(terrain::TreeTile tile) const {

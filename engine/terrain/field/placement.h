@@ -43,6 +43,11 @@ public:
         return tile_ ? tile_->lattice.on_terrain(sample) : sample;
     }
 
+    /// The same, with the row as WrappedRows::even_row: linear in each cell of a tile.
+    [[nodiscard]] glm::dvec2 on_even_rows(glm::dvec2 sample) const {
+        return tile_ ? tile_->lattice.on_even_rows(sample) : sample;
+    }
+
     [[nodiscard]] PlacementKind kind() const {
         return frame_ ? PlacementKind::ellipsoid : PlacementKind::plane;
     }

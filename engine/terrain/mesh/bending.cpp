@@ -50,10 +50,9 @@ Derivatives derivatives_at(const Placement& placement, glm::dvec2 from, glm::dve
 ShorterCells::ShorterCells(const Heightfield& heightfield, const Placement& placement)
     : last_(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1) {
     if (const TileLattice* const tile = placement.lattice()) {
-        for (const int axis : {0, 1}) {
-            const double length = (tile->last[axis] - tile->first[axis]) / tile->step;
-            end_with(axis, length - (tile->cells[axis] - 1));
-        }
+        const double length = (tile->last.x - tile->first.x) / tile->step;
+        end_with(0, length - (tile->cells.x - 1));
+        add_rows(*tile);
     } else if (heightfield.georeference) {
         const geo::GlobalWrap& wrap = heightfield.georeference->geodetic.rows().wrap();
         if (wrap.north > 0.0 && wrap.north < 1.0) {
@@ -71,6 +70,27 @@ void ShorterCells::end_with(int axis, double length) {
     if (length < 1.0) {
         --last_[axis];
         lines_[static_cast<std::size_t>(axis)].push_back({last_[axis], 1.0 - length});
+    }
+}
+
+// Rows between samples of the terrain are shorter at a pole, too.
+void ShorterCells::add_rows(const TileLattice& tile) {
+    const auto length = [&](int cell) {
+        return (tile.even_row(cell + 1) - tile.even_row(cell)) / tile.step;
+    };
+    double missing = 0.0;
+    for (; first_.y < last_.y && length(first_.y) < 1.0; ++first_.y) {
+        missing += 1.0 - length(first_.y);
+    }
+    if (missing > 0.0 && first_.y < last_.y) {
+        lines_[1].push_back({first_.y, missing});
+    }
+    missing = 0.0;
+    for (; first_.y < last_.y && length(last_.y - 1) < 1.0; --last_.y) {
+        missing += 1.0 - length(last_.y - 1);
+    }
+    if (missing > 0.0 && first_.y < last_.y) {
+        lines_[1].push_back({last_.y, missing});
     }
 }
 

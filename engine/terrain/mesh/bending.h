@@ -31,6 +31,7 @@ private:
         double missing = 0.0; // of the length of a shorter cell, cells
     };
     void end_with(int axis, double length); // of the last cells
+    void add_rows(const TileLattice& tile);
 
     std::array<std::vector<Line>, 2> lines_; // columns, rows
     glm::ivec2 first_{0};

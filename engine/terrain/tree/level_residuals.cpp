@@ -253,23 +253,27 @@ private:
 
 } // namespace
 
-CoarserAxis coarser_axis(const AxisOfChunk& chunk) {
-    CoarserAxis axis;
-    axis.step = 1 << chunk.levels;
-    const int last = std::min(chunk.base_last, chunk.cells * axis.step);
-    axis.cells = (last + axis.step - 1) / axis.step;
-    axis.shares.resize(static_cast<std::size_t>(last) + 1);
-    const auto sample = [&](int vertex) {
-        return std::min(vertex << chunk.base, chunk.last_sample);
+CoarserAxis coarser_axis(const TileTree& tree, Chunk chunk, int levels, int axis) {
+    CoarserAxis found;
+    found.step = 1 << levels;
+    const int corner = first_vertex(chunk)[axis];
+    const int last =
+        std::min(level_cells(tree, chunk.base)[axis] - corner, chunk_size(tree, chunk)[axis]);
+    found.cells = (last + found.step - 1) / found.step;
+    found.shares.resize(static_cast<std::size_t>(last) + 1);
+    const glm::ivec2 end = glm::ivec2(tree.cols(), tree.rows()) - 1;
+    const auto place = [&](int vertex) {
+        glm::ivec2 sample(0);
+        sample[axis] = std::min((corner + vertex) << chunk.base, end[axis]);
+        return tree.place(sample)[axis];
     };
     for (int i = 0; i <= last; ++i) {
-        const int first = i / axis.step * axis.step;
-        const int width = sample(first + axis.step) - sample(first);
-        axis.shares[static_cast<std::size_t>(i)] =
-            width > 0 ? static_cast<float>(sample(i) - sample(first)) / static_cast<float>(width)
-                      : 0.0F;
+        const double first = place(i / found.step * found.step);
+        const double width = place(i / found.step * found.step + found.step) - first;
+        found.shares[static_cast<std::size_t>(i)] =
+            width > 0.0 ? static_cast<float>((place(i) - first) / width) : 0.0F;
     }
-    return axis;
+    return found;
 }
 
 Residuals residuals_over(const BorderedHeights& base, const BorderedHeights& coarser,

@@ -36,15 +36,9 @@ struct CoarserAxis {
     [[nodiscard]] int last(int cell) const { return std::min(first(cell + 1), vertices() - 1); }
 };
 
-/// Along an axis of a chunk. Places count from the chunk's first one.
-struct AxisOfChunk {
-    int base = 0;        ///< level of the chunk
-    int levels = 1;      ///< of the coarser level, above the base
-    int cells = 0;       ///< of the chunk at the coarser level
-    int base_last = 0;   ///< the base level's last vertex on the raster
-    int last_sample = 0; ///< of the raster
-};
-CoarserAxis coarser_axis(const AxisOfChunk& chunk);
+/// Columns (0) or rows (1) of a chunk, and of the level `levels` above its base. Cells at a pole,
+/// and those that the raster's end cuts, are shorter than others.
+CoarserAxis coarser_axis(const TileTree& tree, Chunk chunk, int levels, int axis);
 
 /// Vertices with a border around the chunk's own.
 struct BorderedHeights {

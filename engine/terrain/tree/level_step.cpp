@@ -8,6 +8,8 @@
 
 #include <glm/common.hpp>
 
+#include "engine/terrain/tree/tile_error.h"
+
 namespace reljef::terrain {
 namespace {
 
@@ -77,9 +79,8 @@ void coarsen(const std::array<const SplitRow*, 3>& rows, SplitRow& sums, std::sp
     }
 }
 
-} // namespace
-
-Grid<float> coarser_heights(const Grid<float>& finer) {
+/// The vertices that have all finer ones around them.
+Grid<float> means_around(const Grid<float>& finer) {
     Grid<float> heights((finer.cols() - 1) / 2, (finer.rows() - 1) / 2);
     SplitRow sums(static_cast<std::size_t>(heights.cols()));
     std::vector<SplitRow> rows(3, sums);
@@ -93,25 +94,130 @@ Grid<float> coarser_heights(const Grid<float>& finer) {
     return heights;
 }
 
-void repeat_border(Grid<float>& heights, glm::ivec2 first, glm::ivec2 last) {
-    const glm::ivec2 end = first + glm::ivec2(heights.cols(), heights.rows()) - 1;
-    if (first.x >= 0 && first.y >= 0 && end.x <= last.x && end.y <= last.y) {
+void repeat_border_cols(Grid<float>& heights, int first, int last) {
+    const int begin = std::max(0, -first);
+    const int count = std::min(first + heights.cols() - 1, last) - first + 1;
+    if (begin == 0 && count == heights.cols()) {
         return;
     }
-    const int begin = std::max(0, -first.x);
-    const int count = std::min(end.x, last.x) - first.x + 1;
     for (int row = 0; row < heights.rows(); ++row) {
         const auto cells = heights.row(row);
         std::fill(cells.begin(), cells.begin() + begin, cells[static_cast<std::size_t>(begin)]);
         std::fill(cells.begin() + count, cells.end(), cells[static_cast<std::size_t>(count - 1)]);
     }
+}
+
+void repeat_border_rows(Grid<float>& heights, int first, int last) {
     for (int row = 0; row < heights.rows(); ++row) {
-        const int inside = std::clamp(first.y + row, 0, last.y) - first.y;
+        const int inside = std::clamp(first + row, 0, last) - first;
         if (inside != row) {
             std::copy(heights.row(inside).begin(), heights.row(inside).end(),
                       heights.row(row).begin());
         }
     }
+}
+
+/// A level of a globe over the next finer one, near its seam and its poles.
+class ClosedStep {
+public:
+    ClosedStep(const Grid<float>& finer, const PlacedVertices& coarser)
+        : finer_(finer), first_(coarser.first), wrap_(coarser.tree.wrap()),
+          last_(level_cells(coarser.tree, coarser.level)),
+          finer_last_(level_cells(coarser.tree, coarser.level - 1)) {}
+
+    void close(Grid<float>& heights) const {
+        set_poles(finer_, heights);
+        if (!wrap_.around) {
+            return;
+        }
+        if (2 * last_.x != finer_last_.x) {
+            move_beyond_seam(heights);
+        }
+        if (first_.x <= 0 && first_.x + heights.cols() > last_.x) {
+            turn_around(heights);
+        }
+    }
+
+private:
+    /// Rows from above and below a pole would give it many heights.
+    void set_poles(const Grid<float>& finer, Grid<float>& heights) const {
+        if (wrap_.begins_at_pole) {
+            set_pole(finer, 0, 0, heights);
+        }
+        if (wrap_.ends_at_pole) {
+            set_pole(finer, last_.y, finer_last_.y, heights);
+        }
+    }
+    void set_pole(const Grid<float>& finer, int vertex, int finer_vertex,
+                  Grid<float>& heights) const {
+        const int row = vertex - first_.y;
+        if (row < 0 || row >= heights.rows()) {
+            return;
+        }
+        Grid<float> pole(finer.cols(), 3);
+        const auto from = finer.row(finer_vertex - (2 * first_.y - 1));
+        for (int i = 0; i < pole.rows(); ++i) {
+            std::copy(from.begin(), from.end(), pole.row(i).begin());
+        }
+        const Grid<float> mean = means_around(pole);
+        std::copy(mean.row(0).begin(), mean.row(0).end(), heights.row(row).begin());
+    }
+
+    /// With an odd number of finer cells around, the last cell of this level has only one of them.
+    /// So the vertices of this level lie at odd finer vertices as seen from beyond the seam.
+    void move_beyond_seam(Grid<float>& heights) const {
+        const int west = std::clamp(-first_.x, 0, heights.cols());
+        const int east = std::clamp(last_.x - first_.x, 0, heights.cols());
+        copy_means(0, west, 1, heights);
+        copy_means(east, heights.cols(), -1, heights);
+    }
+    /// Of finer vertices `shift` beside those around the columns from `begin` to `end`.
+    void copy_means(int begin, int end, int shift, Grid<float>& heights) const {
+        if (begin >= end) {
+            return;
+        }
+        Grid<float> around(2 * (end - begin) + 1, finer_.rows());
+        for (int row = 0; row < around.rows(); ++row) {
+            std::copy_n(finer_.row(row).begin() + 2 * begin + shift, around.cols(),
+                        around.row(row).begin());
+        }
+        Grid<float> means = means_around(around);
+        set_poles(around, means);
+        for (int row = 0; row < heights.rows(); ++row) {
+            std::copy(means.row(row).begin(), means.row(row).end(),
+                      heights.row(row).begin() + begin);
+        }
+    }
+
+    /// The grid has all columns: what lies beyond them may be more than a turn away.
+    void turn_around(Grid<float>& heights) const {
+        for (int col = 0; col < heights.cols(); ++col) {
+            const int vertex = first_.x + col;
+            const int turned = ((vertex % last_.x) + last_.x) % last_.x;
+            for (int row = 0; (vertex < 0 || vertex > last_.x) && row < heights.rows(); ++row) {
+                heights(col, row) = heights(turned - first_.x, row);
+            }
+        }
+    }
+
+    const Grid<float>& finer_;
+    glm::ivec2 first_; // of this level
+    geo::GlobalWrap wrap_;
+    glm::ivec2 last_; // vertices of this level
+    glm::ivec2 finer_last_;
+};
+
+} // namespace
+
+Grid<float> coarser_heights(const Grid<float>& finer, const PlacedVertices& coarser) {
+    Grid<float> heights = means_around(finer);
+    ClosedStep(finer, coarser).close(heights);
+    const glm::ivec2 last = level_cells(coarser.tree, coarser.level);
+    if (!coarser.tree.wrap().around) {
+        repeat_border_cols(heights, coarser.first.x, last.x);
+    }
+    repeat_border_rows(heights, coarser.first.y, last.y);
+    return heights;
 }
 
 } // namespace reljef::terrain

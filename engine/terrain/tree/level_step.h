@@ -3,6 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
+#include "engine/terrain/tree/tile_tree.h"
 
 // The heights of a level from those of the next finer one. Private to tile_error.cpp.
 
@@ -12,11 +13,17 @@ namespace reljef::terrain {
 /// overlaps keep loops from becoming vector code.
 using LoopOutput = float* __restrict;
 
-/// The vertices of the coarser level that have all finer ones around them. Precondition: an odd
-/// number of vertices a side.
-Grid<float> coarser_heights(const Grid<float>& finer);
+/// A grid of vertices on a level of a tree.
+struct PlacedVertices {
+    const TileTree& tree;
+    int level = 0;
+    glm::ivec2 first{0}; ///< of the grid
+};
 
-/// Copies the outermost vertices of a level (0 and `last`) to those outside; `first`: of the grid.
-void repeat_border(Grid<float>& heights, glm::ivec2 first, glm::ivec2 last);
+/// The vertices of a level that have all vertices of the next finer one around them. `coarser`: of
+/// the result. Those beyond the raster repeat its border; on a globe they are those of the other
+/// side of the seam, and a row on a pole is the mean of that row alone. Precondition: an odd number
+/// of vertices a side.
+Grid<float> coarser_heights(const Grid<float>& finer, const PlacedVertices& coarser);
 
 } // namespace reljef::terrain

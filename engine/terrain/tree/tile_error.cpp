@@ -19,9 +19,12 @@ namespace {
 /// Ranges of the base level's heights: of each tile, and the largest of all.
 class BaseRanges {
 public:
-    BaseRanges(glm::ivec2 tiles, int cols)
+    /// `cols`: of vertices with the border; of them, `end` and the following ones lie beyond the
+    /// raster.
+    BaseRanges(glm::ivec2 tiles, int cols, int end)
         : tiles_(tiles.x, tiles.y), low_(static_cast<std::size_t>(cols), infinite),
-          high_(low_.size(), -infinite), voids_(low_.size(), 0.0F) {}
+          high_(low_.size(), -infinite), voids_(low_.size(), 0.0F),
+          end_(static_cast<std::size_t>(std::min(end, cols))) {}
 
     /// Rows in order, with the chunk's border.
     void add(int row, std::span<const float> heights, bool is_last) {
@@ -52,7 +55,7 @@ private:
         for (int col = 0; row >= 0 && row < tiles_.rows() && col < tiles_.cols(); ++col) {
             const auto first = static_cast<std::size_t>(chunk_border) +
                                static_cast<std::size_t>(col) * tree_tile_cells;
-            const std::size_t end = std::min(first + tree_tile_cells + 1, low_.size());
+            const std::size_t end = std::min(first + tree_tile_cells + 1, end_);
             TileProof& tile = tiles_(col, row);
             for (std::size_t i = first; i < end; ++i) {
                 tile.low = lower(tile.low, low_[i]);
@@ -72,6 +75,7 @@ private:
     std::vector<float> low_; // of the vertices of a column, so far in a row of tiles
     std::vector<float> high_;
     std::vector<float> voids_; // 1: there is one
+    std::size_t end_;
     float largest_ = 0.0F;
 };
 
@@ -207,16 +211,11 @@ ChunkLevel level_above(const PlacedChunk& placed, int levels, const Grid<float>&
     const glm::ivec2 first = corner / (1 << levels);
     const glm::ivec2 cells = chunk_size(tree, chunk) / (1 << levels);
     ChunkLevel level;
-    level.heights = coarser_heights(finer);
-    level.border = (level.heights.rows() - cells.y - 1) / 2;
-    repeat_border(level.heights, first - level.border, level_cells(tree, chunk.base + levels));
-    const glm::ivec2 base_last = level_cells(tree, chunk.base) - corner;
-    const glm::ivec2 last = glm::ivec2(tree.cols(), tree.rows()) - 1 - corner * (1 << chunk.base);
-    level.residuals =
-        residuals_over(base, {level.heights, level.border},
-                       {coarser_axis({chunk.base, levels, cells.x, base_last.x, last.x}),
-                        coarser_axis({chunk.base, levels, cells.y, base_last.y, last.y})},
-                       cells);
+    level.border = ((finer.rows() - 1) / 2 - cells.y - 1) / 2;
+    level.heights = coarser_heights(finer, {tree, chunk.base + levels, first - level.border});
+    level.residuals = residuals_over(
+        base, {level.heights, level.border},
+        {coarser_axis(tree, chunk, levels, 0), coarser_axis(tree, chunk, levels, 1)}, cells);
     return level;
 }
 
@@ -252,7 +251,8 @@ ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& inpu
     const glm::ivec2 base_tiles =
         glm::min(level_tiles(tree, chunk.base) - first_vertex(chunk) / tree_tile_cells,
                  glm::ivec2(chunk_cells / tree_tile_cells));
-    BaseRanges ranges(base_tiles, vertices.x);
+    const int beyond = level_cells(tree, chunk.base).x - first_vertex(chunk).x + 1;
+    BaseRanges ranges(base_tiles, vertices.x, chunk_border + beyond);
     const Grid<float> base = base_of(input, vertices, ranges);
     ChunkProof proof;
     const Grid<float>* finer = &base;
@@ -285,10 +285,8 @@ Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float
     const glm::ivec2 size = tree.cells(tile) * TileTree::step(tile) + 1 + 2 * border;
     check(samples.cols() == size.x && samples.rows() == size.y, "samples of another tile");
     for (int level = 1; level <= tile.level; ++level) {
-        Grid<float> heights = coarser_heights(samples);
         const glm::ivec2 first = TileTree::first(tile) / (1 << level) - (border >> level);
-        repeat_border(heights, first, level_cells(tree, level));
-        samples = std::move(heights);
+        samples = coarser_heights(samples, {tree, level, first});
     }
     return samples;
 }
@@ -305,9 +303,9 @@ float surface_at(const TileTree& tree, TreeTile tile, const Grid<float>& heights
                  glm::ivec2 sample) {
     const glm::ivec2 cell =
         glm::min((sample - TileTree::first(tile)) / TileTree::step(tile), tree.cells(tile) - 1);
-    const glm::dvec2 low(tree.sample(tile, cell));
+    const glm::dvec2 low = tree.place(tree.sample(tile, cell));
     const glm::dvec2 share =
-        (glm::dvec2(sample) - low) / (glm::dvec2(tree.sample(tile, cell + 1)) - low);
+        (tree.place(sample) - low) / (tree.place(tree.sample(tile, cell + 1)) - low);
     const auto row_at = [&](int row) {
         return share.x == 0.0 ? heights(cell.x + 1, row)
                               : mixed(heights(cell.x + 1, row), heights(cell.x + 2, row), share.x);

@@ -8,8 +8,8 @@
 
 namespace reljef::terrain {
 
-TileTree::TileTree(int cols, int rows, bool wraps_longitude)
-    : last_(cols - 1, rows - 1), wraps_longitude_(wraps_longitude) {
+TileTree::TileTree(int cols, int rows, const geo::GlobalWrap& wrap)
+    : last_(cols - 1, rows - 1), source_rows_(wrap, rows - wrap.rows()) {
     check(std::min(cols, rows) >= 2 && std::max(cols, rows) <= max_tree_samples,
           "a tile tree needs 2 to 2^30 samples a side");
     while (tree_tile_cells * step({levels_ - 1, 0, 0}) < std::max(last_.x, last_.y)) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/geo/georeference.h"
 #include "engine/terrain/mesh/tile_layout.h"
 
 namespace reljef::terrain {
@@ -29,13 +30,15 @@ inline constexpr int max_tree_samples = 1 << 30;
 /// Neighbours share their border vertices. The tree stores no tiles.
 class TileTree {
 public:
-    /// `wraps_longitude`: the last column and the first are the same places.
+    /// `wrap`: of a closed raster, whose samples `cols` and `rows` count.
     /// Precondition: 2 to max_tree_samples samples a side.
-    TileTree(int cols, int rows, bool wraps_longitude = false);
+    TileTree(int cols, int rows, const geo::GlobalWrap& wrap = {});
 
     [[nodiscard]] int cols() const { return last_.x + 1; }
     [[nodiscard]] int rows() const { return last_.y + 1; }
-    [[nodiscard]] bool wraps_longitude() const { return wraps_longitude_; }
+    [[nodiscard]] const geo::GlobalWrap& wrap() const { return source_rows_.wrap(); }
+    /// Whether the last column and the first are the same places.
+    [[nodiscard]] bool wraps_longitude() const { return wrap().around; }
     [[nodiscard]] TreeTile root() const { return {levels_ - 1, 0, 0}; }
     /// Up to four tiles of the level below; none at level 0.
     [[nodiscard]] std::vector<TreeTile> children(TreeTile tile) const;
@@ -50,11 +53,15 @@ public:
     [[nodiscard]] glm::ivec2 cells(TreeTile tile) const;
     /// Sample of a vertex, clamped to the raster.
     [[nodiscard]] glm::ivec2 sample(TreeTile tile, glm::ivec2 vertex) const;
+    /// Where a sample lies: its column, and its row among those of the source.
+    [[nodiscard]] glm::dvec2 place(glm::ivec2 sample) const {
+        return {sample.x, source_rows_.source_row(sample.y)};
+    }
 
 private:
     glm::ivec2 last_;
     int levels_ = 1;
-    bool wraps_longitude_ = false;
+    geo::WrappedRows source_rows_;
 };
 
 } // namespace reljef::terrain

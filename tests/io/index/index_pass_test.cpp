@@ -403,19 +403,5 @@ TEST_F(IndexPass, IsWrittenByOneProcessAtATime) {
     EXPECT_THAT(second.error().message, HasSubstr("another process indexes"));
 }
 
-TEST(IndexOfAGlobe, IsRefusedInOneSentence) {
-    const test::TemporaryFolder folder;
-    auto raster = test::made_raster(72, 36, [](int col, int row) { return col + row; });
-    raster.crs = "EPSG:4326";
-    raster.geotransform = {-180.0, 5.0, 0.0, 90.0, 0.0, -5.0};
-    ASSERT_TRUE(test::write(raster, folder.path() / "earth.tif"));
-    auto tiles = TileSet::open(folder.path() / "earth.tif");
-    ASSERT_TRUE(tiles);
-    const TileGrid grid = tiles->grid();
-    const auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder.path());
-    ASSERT_FALSE(source);
-    EXPECT_THAT(source.error().message, HasSubstr("cannot be indexed yet"));
-}
-
 } // namespace
 } // namespace reljef::io

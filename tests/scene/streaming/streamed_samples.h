@@ -32,8 +32,10 @@ inline terrain::TileProof proof_of_samples(const Grid<float>& samples,
             const glm::ivec2 cell = (glm::ivec2(col, row) - first) / terrain::TileTree::step(tile);
             const glm::ivec2 low = tree.sample(tile, cell);
             const glm::ivec2 high = tree.sample(tile, cell + 1);
+            const glm::dvec2 width = tree.place(high) - tree.place(low);
             const glm::dvec2 part =
-                glm::dvec2(col - low.x, row - low.y) / glm::dvec2(glm::max(high - low, 1));
+                (tree.place({col, row}) - tree.place(low)) /
+                glm::mix(width, glm::dvec2(1.0), glm::equal(width, glm::dvec2(0.0)));
             const double surface =
                 glm::mix(glm::mix(samples(low.x, low.y), samples(high.x, low.y), part.x),
                          glm::mix(samples(low.x, high.y), samples(high.x, high.y), part.x), part.y);
@@ -55,7 +57,7 @@ inline void stream_samples(scene::TerrainNode& node, SeenLevels levels) {
     const auto& georeference = node.surface->heightfield().georeference;
     const geo::GlobalWrap wrap =
         georeference ? georeference->geodetic.rows().wrap() : geo::GlobalWrap{};
-    const terrain::TileTree tree(heights.cols(), heights.rows(), wrap.east);
+    const terrain::TileTree tree(heights.cols(), heights.rows(), wrap);
     const auto read = [surface = node.surface, tree](terrain::TreeTile tile,
                                                      const std::stop_token& /*stop*/) {
         scene::TileContent content;

@@ -15,11 +15,19 @@ namespace {
 
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
-/// Rows of a window that repeats the border of `heights`.
-VertexRows rows_around(const Grid<float>& heights, glm::ivec2 first) {
-    return [&heights, first](int row, std::span<float> into) {
+/// A height of a level; beyond it those of the other side of a globe, or of the border.
+float height_around(const TileTree& tree, const Grid<float>& heights, glm::ivec2 at) {
+    const int turn = heights.cols() - 1;
+    const bool is_beyond = at.x < 0 || at.x > turn;
+    const int col = tree.wrap().around && is_beyond ? (at.x % turn + turn) % turn : at.x;
+    return heights.clamped(col, at.y);
+}
+
+/// Rows of a window around `heights`.
+VertexRows rows_around(const TileTree& tree, const Grid<float>& heights, glm::ivec2 first) {
+    return [&tree, &heights, first](int row, std::span<float> into) {
         for (std::size_t i = 0; i < into.size(); ++i) {
-            into[i] = heights.clamped(first.x + static_cast<int>(i), first.y + row);
+            into[i] = height_around(tree, heights, first + glm::ivec2(static_cast<int>(i), row));
         }
     };
 }
@@ -59,7 +67,7 @@ template <class T> void put(const Grid<T>& part, glm::ivec2 first, Grid<T>& grid
 ChunkProof prove(const TileTree& tree, Chunk chunk, const LevelState& base) {
     const glm::ivec2 first = first_vertex(chunk);
     const glm::ivec2 size = chunk_size(tree, chunk);
-    ChunkInput input{rows_around(base.heights, first - chunk_border)};
+    ChunkInput input{rows_around(tree, base.heights, first - chunk_border)};
     Residuals residuals;
     Grid<TileProof> tiles;
     if (chunk.base > 0) {
@@ -143,17 +151,24 @@ Proven prove_all(const TileTree& tree, const Grid<float>& samples) {
     return proven;
 }
 
-/// A vertex by its definition, from the level below: the mean without voids.
-float mean_around(const Grid<float>& finer, int col, int row) {
+bool is_at_pole(const TileTree& tree, const Grid<float>& finer, int row) {
+    return (tree.wrap().begins_at_pole && row == 0) ||
+           (tree.wrap().ends_at_pole && 2 * row >= finer.rows() - 1);
+}
+
+/// A vertex by its definition, from the level below: the mean without voids. On a globe, the last
+/// column is the first one, and a row on a pole has no others around it.
+float mean_around(const TileTree& tree, const Grid<float>& finer, int col, int row) {
     double sum = 0.0;
     double weights = 0.0;
+    const glm::ivec2 center(std::min(2 * col, finer.cols() - (tree.wrap().around ? 1 : 0)),
+                            std::min(2 * row, finer.rows()));
+    const int rows_apart = is_at_pole(tree, finer, row) ? 0 : 1;
     for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
             const double weight = (2 - std::abs(dx)) * (2 - std::abs(dy));
-            const int last_col = finer.cols() - 1;
-            const int last_row = finer.rows() - 1;
-            const float height = finer.clamped(std::min(2 * col, last_col + 1) + dx,
-                                               std::min(2 * row, last_row + 1) + dy);
+            const float height =
+                height_around(tree, finer, center + glm::ivec2(dx, dy * rows_apart));
             sum += std::isnan(height) ? 0.0 : weight * height;
             weights += std::isnan(height) ? 0.0 : weight;
         }
@@ -164,13 +179,21 @@ float mean_around(const Grid<float>& finer, int col, int row) {
 /// Bilinear in the level's cells, the cut ones too; in double precision.
 double surface_at(const TileTree& tree, const Grid<float>& level, int number, int col, int row) {
     const int step = 1 << number;
-    const auto axis = [&](int sample, int last) {
+    const auto axis = [&](int sample, int last, const auto& place) {
         const int cell = std::min(sample / step, (last - 1) / step);
-        const int width = std::min(step, last - cell * step);
-        return std::pair(cell, static_cast<double>(sample - cell * step) / width);
+        const double first = place(cell * step);
+        const double width = place(std::min(cell * step + step, last)) - first;
+        return std::pair(cell, (place(sample) - first) / width);
     };
-    const auto [x, u] = axis(col, tree.cols() - 1);
-    const auto [y, v] = axis(row, tree.rows() - 1);
+    const geo::GlobalWrap& wrap = tree.wrap();
+    const int last = tree.rows() - 1;
+    const auto latitude = [&](int at) { // in rows
+        return at == 0 && wrap.north > 0.0      ? 1.0 - wrap.north
+               : at == last && wrap.south > 0.0 ? last - 1.0 + wrap.south
+                                                : static_cast<double>(at);
+    };
+    const auto [x, u] = axis(col, tree.cols() - 1, [](int at) { return static_cast<double>(at); });
+    const auto [y, v] = axis(row, last, latitude);
     double sum = 0.0;
     for (const auto& [i, j, share] :
          {std::tuple(0, 0, (1 - u) * (1 - v)), std::tuple(1, 0, u * (1 - v)),
@@ -261,8 +284,8 @@ void add_voids(test::Chance& chance, Grid<float>& heights) {
 }
 
 /// Checks all tiles of a terrain; returns bound over exact error of the coarser ones.
-std::vector<double> expect_proven(const Grid<float>& samples) {
-    const TileTree tree(samples.cols(), samples.rows());
+std::vector<double> expect_proven(const Grid<float>& samples, const geo::GlobalWrap& wrap = {}) {
+    const TileTree tree(samples.cols(), samples.rows(), wrap);
     const Proven proven = prove_all(tree, samples);
     std::vector<double> ratios;
     for (const auto& [tile, proof] : proven.tiles) {
@@ -325,24 +348,92 @@ TEST(TileError, HoldsInCellsThatTheRastersEndCuts) {
     }
 }
 
+geo::GlobalWrap made_wrap(test::Chance& chance) {
+    geo::GlobalWrap wrap{.around = true, .east = chance.one_in(2)};
+    const auto added = [&] {
+        const std::array distances{0.0, 0.5, 1.0, chance.between(0.01, 1.0)};
+        return distances.at(static_cast<std::size_t>(chance.whole(0, 3)));
+    };
+    wrap.north = added();
+    wrap.south = added();
+    wrap.begins_at_pole = wrap.north > 0.0 || chance.one_in(2);
+    wrap.ends_at_pole = wrap.south > 0.0 || chance.one_in(2);
+    return wrap;
+}
+
+/// Closes a terrain at the seam and the poles.
+Grid<float> made_globe(test::Chance& chance, glm::ivec2 size, const geo::GlobalWrap& wrap) {
+    Grid<float> samples = made_terrain(chance, size.x, size.y);
+    if (chance.one_in(3)) {
+        add_voids(chance, samples);
+    }
+    const float pole = samples(0, 0);
+    for (int col = 0; col < size.x; ++col) {
+        samples(col, 0) = wrap.begins_at_pole ? pole : samples(col, 0);
+        samples(col, size.y - 1) = wrap.ends_at_pole ? -pole : samples(col, size.y - 1);
+    }
+    for (int row = 0; row < size.y; ++row) {
+        samples(size.x - 1, row) = samples(0, row);
+    }
+    return samples;
+}
+
+bool are_equal(float a, float b) {
+    return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+void expect_closed(const Proven& proven, const geo::GlobalWrap& wrap) {
+    for (const Grid<float>& heights : proven.heights) {
+        const int last_col = heights.cols() - 1;
+        const int last_row = heights.rows() - 1;
+        for (int row = 0; row <= last_row; ++row) {
+            ASSERT_TRUE(are_equal(heights(0, row), heights(last_col, row))) << row;
+        }
+        for (int col = 0; col <= last_col; ++col) {
+            ASSERT_TRUE(!wrap.begins_at_pole || are_equal(heights(col, 0), heights(0, 0)));
+            ASSERT_TRUE(!wrap.ends_at_pole ||
+                        are_equal(heights(col, last_row), heights(0, last_row)));
+        }
+    }
+}
+
+void expect_means(const TileTree& tree, const Proven& proven) {
+    for (std::size_t level = 1; level < proven.heights.size(); ++level) {
+        const Grid<float>& heights = proven.heights[level];
+        for (int row = 0; row < heights.rows(); ++row) {
+            for (int col = 0; col < heights.cols(); ++col) {
+                const float expected = mean_around(tree, proven.heights[level - 1], col, row);
+                ASSERT_EQ(std::isnan(heights(col, row)), std::isnan(expected))
+                    << level << ": " << col << "," << row;
+                if (!std::isnan(expected)) {
+                    ASSERT_NEAR(heights(col, row), expected, 1e-2)
+                        << level << ": " << col << "," << row;
+                }
+            }
+        }
+    }
+}
+
+TEST(TileError, HoldsOnGlobesWhichStayClosedAtAllLevels) {
+    test::Chance chance(90);
+    for (int n = 0; n < 60; ++n) {
+        const geo::GlobalWrap wrap = made_wrap(chance);
+        const int around = n % 20 == 0 ? chance.whole(1025, 2200) : chance.whole(4, 400);
+        const Grid<float> samples = made_globe(chance, {around + 1, chance.whole(2, 300)}, wrap);
+        const TileTree tree(samples.cols(), samples.rows(), wrap);
+        const Proven proven = prove_all(tree, samples);
+        expect_closed(proven, wrap);
+        expect_means(tree, proven);
+        expect_proven(samples, wrap);
+    }
+}
+
 TEST(TileError, HeightsAreTheWeightedMeansAcrossChunks) {
     test::Chance chance(3);
     Grid<float> samples = made_terrain(chance, 2077, 300);
     add_voids(chance, samples);
     const TileTree tree(samples.cols(), samples.rows());
-    const Proven proven = prove_all(tree, samples);
-    for (std::size_t level = 1; level < proven.heights.size(); ++level) {
-        const Grid<float>& heights = proven.heights[level];
-        for (int row = 0; row < heights.rows(); ++row) {
-            for (int col = 0; col < heights.cols(); ++col) {
-                const float expected = mean_around(proven.heights[level - 1], col, row);
-                ASSERT_EQ(std::isnan(heights(col, row)), std::isnan(expected));
-                if (!std::isnan(expected)) {
-                    ASSERT_NEAR(heights(col, row), expected, 1e-2);
-                }
-            }
-        }
-    }
+    expect_means(tree, prove_all(tree, samples));
 }
 
 /// The samples of a tile as heights_from_samples() expects them.
@@ -353,16 +444,13 @@ Grid<float> samples_around(const TileTree& tree, TreeTile tile, const Grid<float
     Grid<float> around(size.x, size.y);
     for (int row = 0; row < size.y; ++row) {
         for (int col = 0; col < size.x; ++col) {
-            around(col, row) = samples.clamped(first.x + col, first.y + row);
+            around(col, row) = height_around(tree, samples, first + glm::ivec2(col, row));
         }
     }
     return around;
 }
 
-TEST(CheckProof, TellsThePartsOfATileFromItsSamples) {
-    test::Chance chance(31);
-    const Grid<float> samples = made_terrain(chance, 400, 290);
-    const TileTree tree(samples.cols(), samples.rows());
+void expect_parts_from_samples(const TileTree& tree, const Grid<float>& samples) {
     const Proven proven = prove_all(tree, samples);
     for (const auto& [tile, proof] : proven.tiles) {
         if (tile.level == 0 || tile.level > tree.root().level) {
@@ -386,6 +474,18 @@ TEST(CheckProof, TellsThePartsOfATileFromItsSamples) {
         too_small.error *= 0.9F;
         EXPECT_TRUE(check_proof(tree, tile, too_small, heights, &around).contradiction);
     }
+}
+
+TEST(CheckProof, TellsThePartsOfATileFromItsSamples) {
+    test::Chance chance(31);
+    const Grid<float> samples = made_terrain(chance, 400, 290);
+    expect_parts_from_samples({400, 290}, samples);
+}
+
+TEST(CheckProof, TellsThemOnGlobes) {
+    test::Chance chance(32);
+    const geo::GlobalWrap wrap = made_wrap(chance);
+    expect_parts_from_samples({397, 290, wrap}, made_globe(chance, {397, 290}, wrap));
 }
 
 } // namespace

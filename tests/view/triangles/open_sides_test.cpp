@@ -105,7 +105,7 @@ TEST(OpenSides, AreThoseBetweenDrawnTilesOnceAndThoseBesideUndrawnOnes) {
     for (int round = 0; round < 2000; ++round) {
         const int cols = static_cast<int>(chance.between(2.0, 700.0));
         const int rows = static_cast<int>(chance.between(2.0, 700.0));
-        const TileTree tree(cols, rows, chance.between(0.0, 1.0) < 0.3);
+        const TileTree tree(cols, rows, {.around = chance.between(0.0, 1.0) < 0.3});
         std::vector<TreeTile> chosen;
         choose(tree, tree.root(), chance, chosen);
         const auto expected = expected_seams(tree, chosen);
