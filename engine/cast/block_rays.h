@@ -10,8 +10,8 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/beam.h"
-#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/curved_rays.h"
+#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/cast/tile_nodes.h"

@@ -7,8 +7,8 @@
 
 #include <glm/common.hpp>
 
-#include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/block_rays.h"
+#include "engine/cast/packet/block_kernel.h"
 
 namespace reljef::cast {
 namespace {

@@ -74,8 +74,8 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--grain 0.5", "--contours 25", "--compare errors --wipe 0.250", "--size 400x300",
-          "-o view.png"}) {
+          "--placement plane", "--grain 0.5", "--contours 25", "--compare errors --wipe 0.250",
+          "--size 400x300", "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }
 }
