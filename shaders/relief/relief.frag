@@ -48,12 +48,18 @@ uniform float texels_per_metre_away; // per pixel
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 
-// Of the surface at a place, along the turned axes.
-vec3 perpendicular_at(vec2 place) {
+// By which heights rise across a cell, at a place in it.
+vec2 rises_in(SurfaceCell cell) {
+    return vec2(mix(cell.corners.z - cell.corners.w, cell.corners.y - cell.corners.x, cell.part.y),
+                mix(cell.corners.x - cell.corners.w, cell.corners.y - cell.corners.z, cell.part.x));
+}
+
+vec3 overlaid_at(vec3 lit, vec2 place, vec3 relative) {
     SurfaceCell cell = surface_cell(place);
-    vec2 rises = vec2(mix(cell.corners.z - cell.corners.w, cell.corners.y - cell.corners.x, cell.part.y),
-                      mix(cell.corners.x - cell.corners.w, cell.corners.y - cell.corners.z, cell.part.x));
-    return mat3(grain_normal_from_slopes) * vec3(-rises / cell.extent, 1.0);
+    vec2 rises = rises_in(cell);
+    vec3 perpendicular = mat3(grain_normal_from_slopes) * vec3(-rises / cell.extent, 1.0);
+    float height = height_span.x + height_span.y * height_in(cell);
+    return overlaid(lit, relative, perpendicular, height, any(notEqual(rises, vec2(0.0))));
 }
 #endif
 #ifdef HIT
@@ -201,8 +207,7 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
 vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
     vec3 lit = lit_at(place, level, relative);
 #ifdef OVERLAY
-    float height = height_span.x + height_span.y * height_in(surface_cell(place));
-    lit = overlaid(lit, relative, perpendicular_at(place), height);
+    lit = overlaid_at(lit, place, relative);
 #endif
     return seen_through_air(lit, metres);
 }

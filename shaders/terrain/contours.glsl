@@ -8,11 +8,16 @@ float change_of_height(GroundPlace place) {
     return place.pixel * length(rise) / contours.y;
 }
 
+// Whether floats do not tell a change of height. Normals of level triangles are rounded: they would rise a little.
+bool is_level(float height, float change) {
+    return change <= height_rounding * abs(height);
+}
+
 // Each fifth line is bold. Crowded lines fade.
 vec3 with_contours(vec3 lit, GroundPlace place, float height) {
     float interval = contours.x;
     float change = change_of_height(place);
-    if (change <= height_rounding * abs(height)) {
+    if (is_level(height, change)) {
         return lit;
     }
     float number = round(height / interval);

@@ -33,13 +33,13 @@ GroundPlace ground_place(vec3 relative, vec3 perpendicular) {
 #include "terrain/grain.glsl"
 #include "terrain/contours.glsl"
 
-// `height`: true metres.
-vec3 overlaid(vec3 lit, vec3 relative, vec3 perpendicular, float height) {
+// `height`: true metres. `has_slope`: the height changes.
+vec3 overlaid(vec3 lit, vec3 relative, vec3 perpendicular, float height, bool has_slope) {
     GroundPlace place = ground_place(relative, perpendicular);
     if (grain_up.w > 0.0) {
         lit = with_grain(lit, place);
     }
-    if (contours.x > 0.0) {
+    if (contours.x > 0.0 && has_slope) {
         lit = with_contours(lit, place, height);
     }
     return lit;

@@ -130,6 +130,8 @@ TEST(IncludeTable, HidesWhatLiesBelowTheSessionFromThePrograms) {
 
 TEST(IncludeTable, GivesTheShadersToRenderOnly) {
     EXPECT_TRUE(may_include("engine/render/shaders", "shaders/frame"));
+    EXPECT_TRUE(may_include("engine/cast/packet", "shaders/terrain"));
+    EXPECT_FALSE(may_include("engine/cast/frame", "shaders/terrain"));
     EXPECT_FALSE(may_include("app", "shaders/frame"));
     EXPECT_FALSE(may_include("engine/scene/graph", "shaders/frame"));
     EXPECT_FALSE(may_include("tests", "shaders/frame"));

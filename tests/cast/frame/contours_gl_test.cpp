@@ -55,6 +55,22 @@ TEST_F(ContoursGlTest, LevelGroundAtTheHeightOfALineHasNone) {
     }
 }
 
+// Normals of level triangles are rounded.
+TEST_F(ContoursGlTest, LevelGroundAtZeroHasNoneInOpenGl) {
+    OverlayStage stage(test::made_heights(101, 81, [](int, int) { return 0.0; }));
+    stage.look(test::camera_at({-20.0, -30.0, 3.0}, {5.0, 40.0, 0.0}));
+    for (const char* const technique : {"exact", "polygons"}) {
+        stage.node().material.technique = test::must(scene::parse_technique(technique));
+        const auto drawn = [&](double interval) {
+            stage.node().contours = interval;
+            session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
+            test::must(opengl.draw(stage.scene));
+            return opengl.read_color();
+        };
+        EXPECT_EQ(drawn(5.0), drawn(0.0)) << technique;
+    }
+}
+
 TEST_F(ContoursGlTest, FadeWhereTheyCrowd) {
     OverlayStage stage(
         test::made_heights(101, 81, [](int col, int /*row*/) { return 4.0 * (col - 50); }));
@@ -67,7 +83,8 @@ TEST_F(ContoursGlTest, FadeWhereTheyCrowd) {
 TEST_F(ContoursGlTest, RaysAndShadersShowTheSame) {
     OverlayStage stage;
     stage.node().contours = 10.0;
-    for (const char* const technique : {"exact", "polygons"}) {
+    // The last one has slivers.
+    for (const char* const technique : {"exact", "polygons", "polygons:error=0.1"}) {
         for (const scene::Pose pose : {scene::Pose::low, scene::Pose::oblique}) {
             stage.look_from(pose);
             stage.node().material.technique = {scene::Exact{}};
@@ -80,6 +97,17 @@ TEST_F(ContoursGlTest, RaysAndShadersShowTheSame) {
             EXPECT_LE(errors->rmse, 0.02) << technique << ' ' << scene::to_string(pose);
         }
     }
+}
+
+TEST_F(ContoursGlTest, HideWhilePicturesAreCompared) {
+    OverlayStage stage;
+    stage.look_from(scene::Pose::low);
+    const Image plain = stage.drawn();
+    stage.node().contours = 10.0;
+    stage.set_grain(1.0F);
+    EXPECT_NE(stage.drawn(), plain);
+    stage.node().hides_overlay = true;
+    EXPECT_EQ(stage.drawn(), plain);
 }
 
 TEST_F(ContoursGlTest, ChangeNoHit) {

@@ -47,6 +47,23 @@ TEST_F(GrainGlTest, RaysAndShadersShowTheSame) {
     }
 }
 
+// In a view without perspective, the eye is anywhere on its rays.
+TEST_F(GrainGlTest, MapsDoNotDependOnTheHeightOfTheEye) {
+    OverlayStage stage;
+    stage.set_grain(1.0F);
+    stage.look_down_at({100.0, 50.0}, 0.5);
+    const Image rays = stage.drawn();
+    for (const double height : {150.0, 5000.0}) {
+        scene::Camera map = stage.scene.camera();
+        map.eye.z = height;
+        stage.look(map);
+        session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
+        test::must(opengl.draw(stage.scene));
+        EXPECT_LE(test::share_of_others(rays, opengl.read_color(), 6), 0.02) << height;
+        EXPECT_LE(test::share_of_others(rays, stage.drawn(), 2), 0.001) << height;
+    }
+}
+
 TEST_F(GrainGlTest, ChangesGroundButNoHitAndNoSky) {
     OverlayStage stage;
     stage.set_grain(1.0F);
