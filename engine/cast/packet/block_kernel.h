@@ -16,8 +16,6 @@ namespace reljef::cast {
 // Between the code that is compiled once and block_kernel.cpp, which Highway compiles for each
 // instruction set: numbers only.
 
-#include "shaders/terrain/overlay_numbers.inc"
-
 /// Side of the blocks of pixels that a thread casts at a time.
 inline constexpr int block_side = 32;
 inline constexpr std::size_t block_pixels = static_cast<std::size_t>(block_side) * block_side;

@@ -14,6 +14,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
+#include "shaders/terrain/overlay_numbers.inc"
+
 // Where hits are from the eye, and their rays.
 struct GroundPlace {
     std::array<Floats, 3> from_eye; // metres
