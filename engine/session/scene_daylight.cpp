@@ -152,8 +152,12 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
     scene.scene.set_sky(sky);
 }
 
-void set_overlay(scene::TerrainNode& terrain, const io::SceneDescription& description,
+void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
                  const SceneOptions& view) {
+    if (scene.is_gallery) {
+        return;
+    }
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     terrain.grain =
         static_cast<float>(view.grain.value_or(description.grain.value_or(view.default_grain)));
     const double contours = view.contours.value_or(description.contours);

@@ -23,8 +23,8 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
 /// terrain's edge. Precondition: `bounds` are those of the terrain as it is.
 void set_daylight(TerrainScene& scene, scene::Light sun);
 
-/// Gives a terrain its grain and contours.
-void set_overlay(scene::TerrainNode& terrain, const io::SceneDescription& description,
+/// Gives the terrain its grain and contours. The floor of the gallery has none.
+void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
                  const SceneOptions& view);
 
 } // namespace reljef::session

@@ -350,9 +350,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(terrain.memory_megabytes);
     shown.max_vertices = vertices_within(terrain.memory_megabytes);
-    if (!result.is_gallery) {
-        set_overlay(shown, source.description, view);
-    }
+    set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
     auto detail = open_detail(source.description, terrain, view, log, stop);

@@ -97,23 +97,21 @@ Keyframe CameraPath::at(double time) const {
 namespace {
 
 // At least the values, without their steps: means of the highest values nearby.
-std::vector<double> smooth_above(const std::vector<double>& values, int reach) {
-    const auto count = static_cast<int>(values.size());
-    const auto near = [&](const std::vector<double>& all, int index) {
-        const int first = std::max(index - reach, 0);
-        const int last = std::min(index + reach, count - 1);
-        return std::span(all).subspan(static_cast<std::size_t>(first),
-                                      static_cast<std::size_t>(last - first + 1));
+std::vector<double> smooth_above(const std::vector<double>& values, std::size_t reach) {
+    const auto near = [&](const std::vector<double>& all, std::size_t index) {
+        const std::size_t first = index - std::min(index, reach);
+        const std::size_t end = std::min(index + reach + 1, all.size());
+        return std::span(all).subspan(first, end - first);
     };
-    std::vector<double> highest;
-    for (int i = 0; i < count; ++i) {
-        highest.push_back(std::ranges::max(near(values, i)));
+    std::vector<double> highest(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        highest[i] = std::ranges::max(near(values, i));
     }
-    std::vector<double> means;
-    for (int i = 0; i < count; ++i) {
+    std::vector<double> means(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
         const auto around = near(highest, i);
-        means.push_back(std::accumulate(around.begin(), around.end(), 0.0) /
-                        static_cast<double>(around.size()));
+        means[i] =
+            std::accumulate(around.begin(), around.end(), 0.0) / static_cast<double>(around.size());
     }
     return means;
 }
