@@ -18,13 +18,12 @@ namespace reljef::view {
 struct GrainView {
     static constexpr int max_patterns = 3;
     static constexpr glm::vec2 turn{0.8F, 0.6F}; ///< cosine and sine
-
-    float strength = 0.0F;          ///< scene::shown_grain()
-    glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, unit vector along the turned axes
     /// The widest pattern is bent by waves of 7 and 11 widths, so that its copies differ.
     static constexpr double copies = 77.0;
 
-    double radius = 0.0; ///< from the eye to the Earth's middle, metres; 0: a plane
+    float strength = 0.0F;          ///< scene::shown_grain()
+    glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, unit vector along the turned axes
+    double radius = 0.0;            ///< from the eye to the Earth's middle, metres; 0: a plane
     int pattern_count = 0;
     /// The widest first. xyz: the eye's place in the pattern, in its widths, modulo 1, or of the
     /// widest modulo `copies`; w: widths in a metre.

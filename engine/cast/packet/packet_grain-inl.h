@@ -80,7 +80,7 @@ struct Grain {
     }
 };
 
-// Texels without their mean, which the weights of all have in common.
+// The bits of texels. add_layer() turns their sum into slopes and brightness.
 HWY_INLINE void add_grain(Ints texel, Floats weight, Grain& sum) {
     const Ints mask = all(std::int32_t{1023});
     const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
