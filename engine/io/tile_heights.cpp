@@ -168,7 +168,7 @@ double mean_of_row(const TileLayer& layer, int row, const LayerReading& reading,
         sum += std::isnan(height) ? 0.0 : height;
         count += std::isnan(height) ? 0 : 1;
     }
-    return sum / count;
+    return count > 0 ? sum / count : void_value;
 }
 
 Poles poles_of(const TileLayer& layer, std::span<const glm::dvec2> points,
