@@ -275,7 +275,7 @@ void add_daylight_options(CLI::App& command, ViewChoice& choice) {
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");
     add_parsed(command, "--contours", choice.contours, number_in("--contours", 0.0, 1e6),
-               "metres of height from one contour line to the next, each fifth bold; 0: none (0)",
+               "metres of height from one contour line to the next, every fifth bold; 0: none (0)",
                "M");
     add_parsed(command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
                "contrast of fine structure on near ground, which the data do not have: 0 (none) to "

@@ -13,7 +13,7 @@ bool is_level(float height, float change) {
     return change <= height_rounding * abs(height);
 }
 
-// Each fifth line is bold. Crowded lines fade.
+// Every fifth line is bold. Crowded lines fade.
 vec3 with_contours(vec3 lit, GroundPlace place, float height) {
     float interval = contours.x;
     float change = change_of_height(place);

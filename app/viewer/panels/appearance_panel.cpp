@@ -87,7 +87,7 @@ PanelActions draw_grain(const AppearanceContent& appearance) {
 PanelActions draw_contours(const AppearanceContent& appearance) {
     constexpr std::array intervals{0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0};
     const auto name_of = [](double metres) {
-        return metres > 0.0 ? fmt::format("each {} m", metres) : std::string("none");
+        return metres > 0.0 ? fmt::format("every {} m", metres) : std::string("none");
     };
     PanelActions actions;
     muted_text("Contours");

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
 // The colour of ground with contours. `height`: true metres; `change`: its change from a pixel to
-// its neighbours, metres. Each fifth line is bold. Crowded lines fade.
+// its neighbours, metres. Every fifth line is bold. Crowded lines fade.
 HWY_INLINE Color with_contours(float interval, Floats height, Floats change, const Color& lit) {
     const Floats zero = hn::Zero(floats);
     const Lanes is_sloped = hn::Gt(change, hn::Mul(hn::Abs(height), all(height_rounding)));

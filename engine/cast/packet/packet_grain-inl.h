@@ -61,12 +61,16 @@ HWY_INLINE std::array<Floats, 3> all_of(glm::vec3 vector) {
     return {all(vector.x), all(vector.y), all(vector.z)};
 }
 
-// Hermite's, as in GLSL.
-HWY_INLINE Floats smooth_step(float begin, float end, Floats x) {
+// Hermite's step from 0 to 1 over `width` from `begin` on.
+HWY_INLINE Floats smooth_rise(float begin, float width, Floats x) {
     const Floats part = hn::Min(
-        hn::Max(hn::Mul(hn::Sub(x, all(begin)), all(1.0F / (end - begin))), hn::Zero(floats)),
-        all(1.0F));
+        hn::Max(hn::Mul(hn::Sub(x, all(begin)), all(1.0F / width)), hn::Zero(floats)), all(1.0F));
     return hn::Mul(hn::Mul(part, part), hn::NegMulAdd(all(2.0F), part, all(3.0F)));
+}
+
+// As smoothstep() of GLSL; `begin` may be the larger one.
+HWY_INLINE Floats smooth_step(float begin, float end, Floats x) {
+    return smooth_rise(begin, end - begin, x);
 }
 
 // Slopes along u and v, and change of the brightness.
@@ -82,13 +86,10 @@ struct Grain {
 
 // The bits of texels. add_layer() turns their sum into slopes and brightness.
 HWY_INLINE void add_grain(Ints texel, Floats weight, Grain& sum) {
-    const Ints mask = all(std::int32_t{1023});
-    const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
-        channel = hn::MulAdd(hn::ConvertTo(floats, hn::And(bits, mask)), weight, channel);
-    };
-    add(texel, sum.u);
-    add(hn::ShiftRight<10>(texel), sum.v);
-    add(hn::ShiftRight<20>(texel), sum.brightness);
+    const auto [u, v, brightness] = channels_of(texel);
+    sum.u = hn::MulAdd(u, weight, sum.u);
+    sum.v = hn::MulAdd(v, weight, sum.v);
+    sum.brightness = hn::MulAdd(brightness, weight, sum.brightness);
 }
 
 // A place in a pattern, in widths.

@@ -7,6 +7,7 @@
 #define RELJEF_PACKET_LIGHT_INL_H
 #endif
 
+#include <array>
 #include <limits>
 #include <type_traits>
 
@@ -160,16 +161,20 @@ HWY_INLINE Lanes seen_by_sun(const BlockJob& job, const PacketHits& hits, Work& 
     return hn::Or(lit, hn::AndNot(hidden_from_sun<Mode>(job, open, work), open.found));
 }
 
+// The three times 10 bits of a texel, [0, 1023].
+HWY_INLINE std::array<Floats, 3> channels_of(Ints texel) {
+    const auto channel = [](Ints bits) HWY_ATTR {
+        return hn::ConvertTo(floats, hn::And(bits, all(std::int32_t{1023})));
+    };
+    return {channel(texel), channel(hn::ShiftRight<10>(texel)), channel(hn::ShiftRight<20>(texel))};
+}
+
 // Adds a texel, times its weight.
 HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
-    const Ints mask = all(1023);
-    const auto add = [&](Ints bits, Floats& channel) HWY_ATTR {
-        const Floats root = hn::ConvertTo(floats, hn::And(bits, mask));
-        channel = hn::MulAdd(hn::Mul(root, root), weight, channel);
-    };
-    add(texel, sum.r);
-    add(hn::ShiftRight<10>(texel), sum.g);
-    add(hn::ShiftRight<20>(texel), sum.b);
+    const auto [r, g, b] = channels_of(texel); // square roots
+    sum.r = hn::MulAdd(hn::Mul(r, r), weight, sum.r);
+    sum.g = hn::MulAdd(hn::Mul(g, g), weight, sum.g);
+    sum.b = hn::MulAdd(hn::Mul(b, b), weight, sum.b);
 }
 
 // Places on the map, texels of level 0 from its corner.

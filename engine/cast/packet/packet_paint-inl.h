@@ -140,11 +140,7 @@ HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewAngles& angles
     }
     constexpr float disc_begin = 0.99985F;
     constexpr float disc_width = 0.0001F;
-    const Floats into = hn::Min(
-        hn::Max(hn::Mul(hn::Sub(angles.to_sun, all(disc_begin)), all(1.0F / disc_width)), zero),
-        all(1.0F));
-    const Floats disc = hn::Mul(hn::Mul(into, into), hn::NegMulAdd(all(2.0F), into, all(3.0F)));
-    return with_added(sky, paint.sun, disc);
+    return with_added(sky, paint.sun, smooth_rise(disc_begin, disc_width, angles.to_sun));
 }
 
 HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) {

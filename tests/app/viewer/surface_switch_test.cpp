@@ -153,6 +153,22 @@ TEST_F(ExaggerationTest, GrainAndContoursChangeInFlight) {
     EXPECT_EQ(terrain.grain, 0.75F) << "of the new surface, too";
 }
 
+// The truth has neither grain nor contours.
+TEST_F(ExaggerationTest, ComparisonsHideGrainAndContours) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    ASSERT_TRUE(viewer.act(SetGrain{1.0}));
+    viewer.advance(1.0 / 60.0);
+    EXPECT_EQ(scene::shown_grain(terrain), 1.0F);
+    viewer.take_redraw();
+    ASSERT_TRUE(viewer.act(SetComparison{CompareWith::truth}));
+    viewer.advance(1.0 / 60.0);
+    EXPECT_EQ(scene::shown_grain(terrain), 0.0F);
+    EXPECT_TRUE(viewer.take_redraw());
+    ASSERT_TRUE(viewer.act(SetComparison{CompareWith::nothing}));
+    viewer.advance(1.0 / 60.0);
+    EXPECT_EQ(scene::shown_grain(terrain), 1.0F);
+}
+
 TEST_F(ExaggerationTest, ALowSunIsWarmAndItsSkyFollows) {
     const auto warmth = [](glm::vec3 color) { return color.r / color.b; };
     ASSERT_TRUE(viewer.act(SetSun{200.0, 60.0}));

@@ -60,12 +60,9 @@ TEST_F(ContoursGlTest, LevelGroundAtZeroHasNoneInOpenGl) {
     OverlayStage stage(test::made_heights(101, 81, [](int, int) { return 0.0; }));
     stage.look(test::camera_at({-20.0, -30.0, 3.0}, {5.0, 40.0, 0.0}));
     for (const char* const technique : {"exact", "polygons"}) {
-        stage.node().material.technique = test::must(scene::parse_technique(technique));
         const auto drawn = [&](double interval) {
             stage.node().contours = interval;
-            session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
-            test::must(opengl.draw(stage.scene));
-            return opengl.read_color();
+            return stage.drawn_by_opengl(technique);
         };
         EXPECT_EQ(drawn(5.0), drawn(0.0)) << technique;
     }
@@ -89,10 +86,7 @@ TEST_F(ContoursGlTest, RaysAndShadersShowTheSame) {
             stage.look_from(pose);
             stage.node().material.technique = {scene::Exact{}};
             const Image rays = stage.drawn();
-            stage.node().material.technique = test::must(scene::parse_technique(technique));
-            session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
-            test::must(opengl.draw(stage.scene));
-            const auto errors = truth::image_errors(rays, opengl.read_color());
+            const auto errors = truth::image_errors(rays, stage.drawn_by_opengl(technique));
             ASSERT_TRUE(errors);
             EXPECT_LE(errors->rmse, 0.02) << technique << ' ' << scene::to_string(pose);
         }

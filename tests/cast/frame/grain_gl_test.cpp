@@ -35,13 +35,11 @@ TEST_F(GrainGlTest, RaysAndShadersShowTheSame) {
             stage.look_from(pose);
             stage.node().material.technique = {scene::Exact{}};
             const Image rays = stage.drawn();
-            stage.node().material.technique = test::must(scene::parse_technique(technique));
-            session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
-            test::must(opengl.draw(stage.scene));
-            const auto errors = truth::image_errors(rays, opengl.read_color());
+            const Image shaders = stage.drawn_by_opengl(technique);
+            const auto errors = truth::image_errors(rays, shaders);
             ASSERT_TRUE(errors);
             EXPECT_LE(errors->rmse, 0.02) << technique << ' ' << scene::to_string(pose);
-            EXPECT_LE(test::share_of_others(rays, opengl.read_color(), 6), 0.02)
+            EXPECT_LE(test::share_of_others(rays, shaders, 6), 0.02)
                 << technique << ' ' << scene::to_string(pose);
         }
     }
@@ -57,9 +55,7 @@ TEST_F(GrainGlTest, MapsDoNotDependOnTheHeightOfTheEye) {
         scene::Camera map = stage.scene.camera();
         map.eye.z = height;
         stage.look(map);
-        session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
-        test::must(opengl.draw(stage.scene));
-        EXPECT_LE(test::share_of_others(rays, opengl.read_color(), 6), 0.02) << height;
+        EXPECT_LE(test::share_of_others(rays, stage.drawn_by_opengl("exact"), 6), 0.02) << height;
         EXPECT_LE(test::share_of_others(rays, stage.drawn(), 2), 0.001) << height;
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <utility>
 
 #include "engine/cast/frame/driver.h"
@@ -41,6 +42,13 @@ struct OverlayStage : Stage {
         Driver driver = test::must(Driver::create(options));
         test::must(driver.draw(view::select(scene, overlay_picture)));
         return driver.read_color();
+    }
+    /// By a technique of OpenGL, which the stage has from then on.
+    [[nodiscard]] Image drawn_by_opengl(std::string_view technique) {
+        node().material.technique = test::must(scene::parse_technique(technique));
+        session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
+        test::must(opengl.draw(scene));
+        return opengl.read_color();
     }
     [[nodiscard]] HitBuffer hits() const {
         Driver driver = test::must(Driver::create({.size = overlay_picture}));
