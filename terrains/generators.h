@@ -17,7 +17,8 @@ struct GeneratorOptions {
     std::uint32_t seed = 1; ///< one seed gives the same bits on every machine and thread count
     double spacing = 0.0;   ///< metres between samples; 0: natural 20 m, urban 0.5 m
     bool tileable = false;  ///< urban only: the terrain repeats every `size` samples
-    unsigned threads = 0;   ///< 0: as many as the machine has
+    building::CityWalls walls = building::CityWalls::straight; ///< urban only
+    unsigned threads = 0;                                      ///< 0: as many as the machine has
     Progress progress = {};
     std::stop_token stop = {}; ///< a stopped generator fails
 };

@@ -416,6 +416,14 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                "urban only: its buildings are heights of the terrain (default), meshes on the bare "
                "ground, or meshes alone on a level plane",
                "FORM");
+    using building::CityWalls;
+    add_parsed(
+        command, "--walls", choice.walls,
+        word_of<CityWalls>("--walls",
+                           {{"straight", CityWalls::straight}, {"stepped", CityWalls::stepped}}),
+        "urban only, as heights: straight walls with windows (default), or walls that follow "
+        "the rows and columns of samples, without windows",
+        "KIND");
     command
         .add_option("--ramp", choice.ramp,
                     "colours by height: relief, natural, swiss, desert, clay, stretched, or a "

@@ -44,6 +44,11 @@ void add_source(CommandText& command, const session::SourceOptions& source) {
             "--buildings",
             std::string(building::city_form_names[static_cast<std::size_t>(*source.buildings)]));
     }
+    if (source.walls) {
+        command.add(
+            "--walls",
+            std::string(building::city_wall_names[static_cast<std::size_t>(*source.walls)]));
+    }
     if (source.textures) {
         command.add("--textures", *source.textures);
     }

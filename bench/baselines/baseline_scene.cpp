@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/console_log.h"
+#include "bench/runner/benchmark_scene.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
@@ -17,7 +18,7 @@ Result<BaselineScene> open_baseline_scene(const std::string& terrain, const Suit
     choice.terrain = terrain;
     choice.threads = options.threads;
     cli::ConsoleLog log(options.quiet);
-    const auto source = session::open_terrain(choice, log, stop);
+    const auto source = open_measured(choice, log, stop);
     if (!source) {
         return source.error();
     }

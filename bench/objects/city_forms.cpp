@@ -23,6 +23,7 @@ Result<io::SceneDescription> description_of(const CityChoice& choice, CityForm f
         urban.generator = "urban";
         urban.size = choice.size;
         urban.buildings = form;
+        urban.walls = building::CityWalls::stepped;
         return urban;
     }
     auto scene = io::read_scene_file(choice.terrain);

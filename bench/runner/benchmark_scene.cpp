@@ -20,7 +20,7 @@ Result<session::TerrainSource> open_source(const SceneChoice& choice,
                                            const session::SourceOptions& terrain, session::Log& log,
                                            const std::stop_token& stop) {
     if (choice.size == 0) {
-        return session::open_terrain(terrain, log, stop);
+        return open_measured(terrain, log, stop);
     }
     io::SceneDescription description;
     description.name =
@@ -28,6 +28,7 @@ Result<session::TerrainSource> open_source(const SceneChoice& choice,
     description.generator = choice.terrain;
     description.size = choice.size;
     description.tileable = choice.tileable;
+    description.walls = building::CityWalls::stepped;
     return session::open_terrain(std::move(description), terrain, log, stop);
 }
 
@@ -123,6 +124,15 @@ Result<BenchmarkScene> BenchmarkScene::open_detail(const SceneChoice& choice,
     BenchmarkScene scene("tile " + choice.detail, std::move(square_scene), options);
     scene.detail_ = std::move(*plane);
     return scene;
+}
+
+Result<session::TerrainSource> open_measured(const session::SourceOptions& terrain,
+                                             session::Log& log, const std::stop_token& stop) {
+    session::SourceOptions measured = terrain;
+    if (terrain.terrain == "urban") {
+        measured.walls = building::CityWalls::stepped;
+    }
+    return session::open_terrain(measured, log, stop);
 }
 
 Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice, const SuiteOptions& options,

@@ -50,6 +50,11 @@ struct SceneChoice {
     friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
 };
 
+/// As session::open_terrain(), but the built-in city has stepped walls: a harder surface than
+/// straight ones, without the time that façades take.
+Result<session::TerrainSource> open_measured(const session::SourceOptions& terrain,
+                                             session::Log& log, const std::stop_token& stop);
+
 /// Places the camera; keeps its near distance.
 void set_pose(session::TerrainScene& scene, scene::Pose pose);
 

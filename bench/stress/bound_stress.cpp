@@ -74,7 +74,9 @@ Result<StreamedGround> write_smooth(const StressRun& run, const fs::path& folder
 }
 
 Result<StreamedGround> write_blocky(const StressRun& run, const fs::path& folder) {
-    auto city = terrains::generate_urban({.size = streamed_side / block + 1, .stop = run.stop()});
+    auto city = terrains::generate_urban({.size = streamed_side / block + 1,
+                                          .walls = building::CityWalls::stepped,
+                                          .stop = run.stop()});
     if (!city) {
         return city.error();
     }

@@ -65,6 +65,7 @@ Result<terrain::Terrain> open_stressed(const std::string& name, const StressOpti
     }
     if (!description->generator.empty()) {
         description->size = options.suite.quick ? quick_built_in_size : full_built_in_size;
+        description->walls = building::CityWalls::stepped;
     }
     cli::ConsoleLog log(options.suite.quiet);
     auto opened = session::open_terrain(std::move(*description), source, log, stop);

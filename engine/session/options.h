@@ -48,6 +48,7 @@ struct SourceOptions {
     std::optional<std::string> textures;
     /// The form of the city `urban`; absent: the scene file's, else heights.
     std::optional<building::CityForm> buildings;
+    std::optional<building::CityWalls> walls; ///< of its heights; absent: the scene file's
     std::optional<double> exaggeration; ///< absent: the scene file's, else 1
     /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else
     /// "relief".

@@ -29,6 +29,7 @@ Result<terrains::City> generate(const SourceOptions& choice,
                                              .seed = description.seed,
                                              .spacing = description.spacing.value_or(0.0),
                                              .tileable = description.tileable,
+                                             .walls = choice.walls.value_or(description.walls),
                                              .threads = static_cast<unsigned>(choice.threads),
                                              .progress = task->callback(),
                                              .stop = stop};
@@ -36,9 +37,9 @@ Result<terrains::City> generate(const SourceOptions& choice,
         return usage_error(fmt::format("--imagery: {} found, but {} brings its own colours",
                                        choice.imagery.front().string(), description.name));
     }
-    if (choice.buildings && description.generator != "urban") {
-        return usage_error(
-            fmt::format("--buildings: found, but {} was expected to be urban", description.name));
+    if ((choice.buildings || choice.walls) && description.generator != "urban") {
+        return usage_error(fmt::format("--{}: found, but {} was expected to be urban",
+                                       choice.buildings ? "buildings" : "walls", description.name));
     }
     if (description.generator == "urban") {
         return terrains::generate_city(options, choice.buildings.value_or(description.buildings));
@@ -232,6 +233,10 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         return usage_error(fmt::format("--buildings: found with {}, urban was expected; "
                                        "--footprints puts buildings on other terrains",
                                        description.name));
+    }
+    if (choice.walls && description.generator.empty()) {
+        return usage_error(
+            fmt::format("--walls: found with {}, urban was expected", description.name));
     }
     if (has_many_files(description)) {
         auto tiles = open_set(choice, description, stop);

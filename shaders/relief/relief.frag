@@ -59,7 +59,12 @@ vec3 overlaid_at(vec3 lit, vec2 place, vec3 relative) {
     vec2 rises = rises_in(cell);
     vec3 perpendicular = mat3(grain_normal_from_slopes) * vec3(-rises / cell.extent, 1.0);
     float height = height_span.x + height_span.y * height_in(cell);
-    return overlaid(lit, relative, perpendicular, height, any(notEqual(rises, vec2(0.0))));
+#ifdef STREAMED
+    vec2 at = place; // without façades
+#else
+    vec2 at = place + vec2(origin_cell);
+#endif
+    return overlaid(lit, ground_place(relative, perpendicular), at, height, any(notEqual(rises, vec2(0.0))));
 }
 #endif
 #ifdef HIT

@@ -1,4 +1,4 @@
-// What is drawn over ground: its grain and contours, as packets of rays paint them (engine/cast/packet).
+// What is drawn over ground: its grain, façades and contours, as packets of rays paint them (engine/cast/packet).
 layout(std140, binding = overlay_block_binding) uniform OverlayBlock {
 #include "frame/overlay_block.inc"
 };
@@ -32,12 +32,15 @@ GroundPlace ground_place(vec3 relative, vec3 perpendicular) {
 }
 #include "terrain/grain.glsl"
 #include "terrain/contours.glsl"
+#include "terrain/facade.glsl"
 
-// `height`: true metres. `has_slope`: the height changes.
-vec3 overlaid(vec3 lit, vec3 relative, vec3 perpendicular, float height, bool has_slope) {
-    GroundPlace place = ground_place(relative, perpendicular);
+// `at`: sample; `height`: true metres. `has_slope`: the height changes.
+vec3 overlaid(vec3 lit, GroundPlace place, vec2 at, float height, bool has_slope) {
     if (grain_up.w > 0.0) {
         lit = with_grain(lit, place);
+    }
+    if (facade_sky.w > 0.0) {
+        lit = with_facades(lit, place, at, height);
     }
     if (contours.x > 0.0 && has_slope) {
         lit = with_contours(lit, place, height);

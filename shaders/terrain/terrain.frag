@@ -101,14 +101,15 @@ void main() {
 #endif
 #if defined(OVERLAY) && defined(SLIVER)
     vec3 perpendicular = cross(world_from_local * local_per_pixel[0], world_from_local * local_per_pixel[1]);
-    lit = overlaid(lit, way_from_eye, along_turned_axes(perpendicular), true_height,
+    lit = overlaid(lit, ground_place(way_from_eye, along_turned_axes(perpendicular)), place, true_height,
                    !is_level(true_height, max(abs(dFdx(true_height)), abs(dFdy(true_height)))));
 #elif defined(OVERLAY)
     vec3 perpendicular =
         cross(dFdx(FROM_PIXEL_TO_PIXEL(way_from_eye)), dFdy(FROM_PIXEL_TO_PIXEL(way_from_eye)));
     float height = INSIDE(ground_height);
     float change = max(abs(dFdx(FROM_PIXEL_TO_PIXEL(ground_height))), abs(dFdy(FROM_PIXEL_TO_PIXEL(ground_height))));
-    lit = overlaid(lit, INSIDE(way_from_eye), along_turned_axes(perpendicular), height, !is_level(height, change));
+    lit = overlaid(lit, ground_place(INSIDE(way_from_eye), along_turned_axes(perpendicular)), place, height,
+                   !is_level(height, change));
 #endif
 #ifndef HIT
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);

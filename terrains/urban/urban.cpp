@@ -6,6 +6,7 @@
 
 #include "engine/core/parallel_for.h"
 #include "terrains/generators.h"
+#include "terrains/urban/urban_facades.h"
 #include "terrains/urban/urban_meshes.h"
 #include "terrains/urban/urban_tile.h"
 
@@ -40,7 +41,8 @@ Raster raster_of(const GeneratorOptions& options, double spacing, float period) 
             static_cast<float>(spacing),
             {x, random.unit() * period},
             material::hash(options.seed, 2, 2),
-            spacing};
+            spacing,
+            options.walls};
 }
 
 // `with_buildings`: and what stands on them.
@@ -133,6 +135,9 @@ Result<City> generate_city(const GeneratorOptions& options, building::CityForm f
         made.buildings = mesh_buildings(city, raster);
     }
     made.terrain = bare ? std::move(*bare) : std::move(*all);
+    if (form == building::CityForm::heights && options.walls == building::CityWalls::straight) {
+        made.terrain.facades = facades_of(city, raster);
+    }
     if (form == building::CityForm::meshes_only) {
         made.terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);
     }

@@ -232,6 +232,11 @@ private:
                 surface_color(Surface::paving, tile, i) * (across < water + 0.8F ? 1.14F : 0.96F);
             tile.height[i] = across < water + 0.8F ? 0.9F : sidewalk_height;
         }
+        if (tile.walls == building::CityWalls::straight) {
+            const float quay = share_inside(arm.middle.normal, across - water, tile.spacing);
+            const float bank = share_inside(arm.middle.normal, across - water - 0.8F, tile.spacing);
+            tile.height[i] = -3.0F + 3.9F * quay + (sidewalk_height - 0.9F) * bank;
+        }
     }
 
     [[nodiscard]] bool on_bridge(const Arm& river, glm::vec2 place) const {

@@ -103,21 +103,6 @@ public:
         return {metres.x - half_, half_ - metres.y};
     }
 
-    // All of the city that the terrain shows.
-    [[nodiscard]] Box bounds() const {
-        Box box;
-        const float side = raster_.spacing * static_cast<float>(raster_.size);
-        constexpr int steps = 64;
-        for (int i = 0; i <= steps; ++i) {
-            const float along = side * static_cast<float>(i) / steps;
-            for (const glm::vec2 place : {glm::vec2(along, 0.0F), glm::vec2(along, side),
-                                          glm::vec2(0.0F, along), glm::vec2(side, along)}) {
-                box.add(warp_.city_from_ground(raster_.origin + place), side / steps);
-            }
-        }
-        return box;
-    }
-
 private:
     const Warp& warp_;
     const Raster& raster_;
@@ -204,7 +189,7 @@ std::vector<building::PaintedFaces> mesh_buildings(const CityPlan& city, const R
             made.push_back(std::move(painted));
         }
     };
-    for (const BlockCopy& copy : copies_in(city, places.bounds())) {
+    for (const BlockCopy& copy : copies_in(city, city_bounds(raster, city.plan.warp))) {
         for (const Building& building : copy.block->buildings) {
             add(faces_in_city(building, well_in(*copy.block, building), raster.spacing),
                 building.color, copy.shift);

@@ -86,11 +86,36 @@ RoofSample roof_sample(const Building& building, glm::vec2 place, float inside, 
         return {building.eaves + building.rise_limit,
                 deck * (1.0F + 0.05F * tile.grain[i] + 0.08F * tile.broad[i])};
     }
+    const bool is_straight = tile.walls == building::CityWalls::straight;
     const float wall = std::max(0.35F, 0.75F * tile.spacing);
-    const float rim = std::clamp((wall - inside) / tile.spacing + 0.5F, 0.0F, 1.0F);
+    const float rim = coverage(tile, wall - inside);
     Color color = flat_color(building, place, inside, tile, i);
     blend(color, building.rim * (1.0F + 0.03F * tile.grain[i]), rim);
-    return {building.eaves + (inside < wall ? building.parapet : 0.0F), color};
+    const bool is_resolved = wall >= 2.0F * tile.spacing; // else its crest would be jagged
+    const float straight = is_resolved ? rim : 0.0F;
+    const float raised = is_straight ? straight : inside < wall ? 1.0F : 0.0F;
+    return {building.eaves + raised * building.parapet, color};
+}
+
+// Adds a roof to a sample, of which it covers a share: of the ground first, then of lower roofs.
+void add_roof(Tile& tile, std::size_t i, float height, float share) {
+    const float from_ground = std::min(tile.bare[i], share);
+    const float roofed = 1.0F - tile.bare[i];
+    const bool is_above = tile.built[i] < height * roofed;
+    const float from_roofs = is_above ? std::min(share - from_ground, roofed) : 0.0F;
+    const float ground = tile.height[i] - tile.built[i];
+    const float ground_left =
+        from_ground < tile.bare[i] ? ground * (1.0F - from_ground / tile.bare[i]) : 0.0F;
+    const float roofs_left =
+        from_roofs < roofed ? tile.built[i] * (1.0F - from_roofs / roofed) : 0.0F;
+    tile.built[i] = roofs_left + (from_ground + from_roofs) * height;
+    tile.bare[i] -= from_ground;
+    tile.height[i] = ground_left + tile.built[i];
+}
+
+// Raises or lowers a sample to a height, as far as it is covered.
+void raise(Tile& tile, std::size_t i, float height, float share) {
+    tile.height[i] += share * (height - tile.height[i]);
 }
 
 Box bounds_of(const Frame& frame, glm::vec2 shift) {
@@ -122,14 +147,22 @@ void paint_building(Tile& tile, const Warp& warp, const Building& building, glm:
     for_each_sample(tile, warp, building.shape.bounds.moved(shift), [&](std::size_t i) {
         const glm::vec2 place = tile.place[i] - shift;
         const float inside = building.shape.distance(place);
-        const float cover = coverage(tile, inside);
-        if (cover <= 0.0F || tile.height[i] >= building.eaves + 60.0F) {
+        const float tint = coverage(tile, inside);
+        const bool is_straight = tile.walls == building::CityWalls::straight;
+        const float share = is_straight     ? building.shape.share(place, tile.spacing)
+                            : inside > 0.0F ? 1.0F
+                                            : 0.0F;
+        if (std::max(tint, share) <= 0.0F || tile.height[i] >= building.eaves + 60.0F) {
             return;
         }
         const RoofSample roof = roof_sample(building, place, inside, tile, i);
         if (roof.height > tile.height[i]) {
-            blend(tile.color[i], roof.color, cover);
-            tile.height[i] = inside > 0.0F ? roof.height : tile.height[i];
+            blend(tile.color[i], roof.color, tint);
+        }
+        if (is_straight) {
+            add_roof(tile, i, roof.height, share);
+        } else if (roof.height > tile.height[i] && share > 0.0F) {
+            tile.height[i] = roof.height;
         }
     });
 }
@@ -141,12 +174,18 @@ void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shi
         const glm::vec2 local{dot(prism.frame.axis, from), dot(turned(prism.frame.axis), from)};
         const glm::vec2 margin = prism.frame.half - glm::abs(local);
         const float inside = std::min(margin.x, margin.y);
-        const float cover = coverage(tile, inside);
-        if (cover <= 0.0F || (tile.height[i] >= prism.top) != well) {
+        const float tint = coverage(tile, inside);
+        const glm::vec2 axis = prism.frame.axis;
+        const float share = tile.walls == building::CityWalls::straight
+                                ? share_inside(axis, margin.x, tile.spacing) *
+                                      share_inside(axis, margin.y, tile.spacing)
+                            : inside > 0.0F ? 1.0F
+                                            : 0.0F;
+        if (std::max(tint, share) <= 0.0F || (tile.height[i] >= prism.top) != well) {
             return;
         }
-        blend(tile.color[i], prism_color(prism, local, tile, i), cover);
-        tile.height[i] = inside > 0.0F ? prism.top : tile.height[i];
+        blend(tile.color[i], prism_color(prism, local, tile, i), tint);
+        raise(tile, i, prism.top, share);
     });
 }
 
@@ -156,16 +195,19 @@ void paint_tree(Tile& tile, const Warp& warp, const Tree& tree, glm::vec2 shift)
     for_each_sample(tile, warp, box, [&](std::size_t i) {
         const float away = length(tile.place[i] - shift - tree.center) / tree.radius;
         const float part = away * (1.0F + 0.35F * tile.fine[i]);
-        const float cover = coverage(tile, (1.0F - part) * tree.radius);
+        const float tint = coverage(tile, (1.0F - part) * tree.radius);
         const float dome = std::sqrt(std::max(0.0F, 1.0F - part * part));
         const float top = tree.height * (0.5F + 0.5F * dome) *
                           (1.0F + 0.06F * tile.fine[i] + 0.05F * tile.grain[i]);
-        if (cover <= 0.0F || top <= tile.height[i]) {
+        if (tint <= 0.0F || top <= tile.height[i]) {
             return;
         }
         const float light = 0.74F + 0.36F * dome + 0.13F * tile.grain[i] + 0.22F * tile.fine[i];
-        blend(tile.color[i], tree.color * light, cover);
-        tile.height[i] = part < 1.0F ? top : tile.height[i];
+        blend(tile.color[i], tree.color * light, tint);
+        const float share = tile.walls == building::CityWalls::straight ? tint
+                            : part < 1.0F                               ? 1.0F
+                                                                        : 0.0F;
+        raise(tile, i, top, share);
     });
 }
 

@@ -143,4 +143,12 @@ float Footprint::distance(glm::vec2 point) const {
     return nearest;
 }
 
+float Footprint::share(glm::vec2 center, float side) const {
+    float inside = 1.0F;
+    for (const HalfPlane& plane : planes) {
+        inside *= share_inside(plane.normal, plane.distance(center), side);
+    }
+    return inside;
+}
+
 } // namespace reljef::terrains::urban

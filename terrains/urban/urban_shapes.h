@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -54,6 +55,12 @@ struct HalfPlane {
     [[nodiscard]] float distance(glm::vec2 point) const { return dot(normal, point) - offset; }
     [[nodiscard]] HalfPlane flipped() const { return {-normal, -offset}; }
 };
+
+/// Share of a square on the inner side of an edge that passes its middle at a distance.
+inline float share_inside(glm::vec2 normal, float distance, float side) {
+    const float width = side * (std::abs(normal.x) + std::abs(normal.y));
+    return glm::clamp(distance / width + 0.5F, 0.0F, 1.0F);
+}
 
 struct Box {
     glm::vec2 low{1e30F, 1e30F};
@@ -123,6 +130,8 @@ struct Footprint {
     Footprint() = default;
     explicit Footprint(const Convex& shape);
     [[nodiscard]] float distance(glm::vec2 point) const;
+    /// Share of a square around a point that lies inside, if at most one edge or corner does.
+    [[nodiscard]] float share(glm::vec2 center, float side) const;
 };
 
 } // namespace reljef::terrains::urban

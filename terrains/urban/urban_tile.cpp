@@ -64,6 +64,20 @@ int clamped_floor(float value, int high) {
 
 } // namespace
 
+Box city_bounds(const Raster& raster, const Warp& warp) {
+    Box box;
+    const float side = raster.spacing * static_cast<float>(raster.size);
+    constexpr int steps = 64;
+    for (int i = 0; i <= steps; ++i) {
+        const float along = side * static_cast<float>(i) / steps;
+        for (const glm::vec2 place : {glm::vec2(along, 0.0F), glm::vec2(along, side),
+                                      glm::vec2(0.0F, along), glm::vec2(side, along)}) {
+            box.add(warp.city_from_ground(raster.origin + place), side / steps);
+        }
+    }
+    return box;
+}
+
 Tile make_tile(const Raster& raster, const Warp& warp, int col, int row, int cols, int rows) {
     Tile tile;
     tile.col = col;
@@ -71,11 +85,14 @@ Tile make_tile(const Raster& raster, const Warp& warp, int col, int row, int col
     tile.cols = cols;
     tile.rows = rows;
     tile.spacing = raster.spacing;
+    tile.walls = raster.walls;
     tile.origin = raster.origin + glm::vec2(col, row) * raster.spacing;
     const std::size_t count = static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows);
     tile.place.resize(count);
     tile.color.resize(count, Color{0.4F, 0.4F, 0.4F});
     tile.height.resize(count);
+    tile.bare.resize(count, 1.0F);
+    tile.built.resize(count);
     tile.grain.resize(count);
     place_samples(tile, raster, warp);
     tile.fine = noise_of(raster, tile, {2.6F, 2, 2, raster.seed + 1U});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/terrain/field/heightfield.h"
+#include "terrains/generators.h"
 #include "terrains/urban/urban_city.h"
 
 namespace reljef::terrains::urban {
@@ -16,7 +17,11 @@ struct Raster {
     glm::vec2 origin{0.0F, 0.0F}; ///< ground position of sample (0,0), metres
     std::uint32_t seed = 0;
     double spacing_in_metres = 0.5; ///< the same, not rounded
+    building::CityWalls walls = building::CityWalls::straight;
 };
+
+/// The part of the city that a raster shows.
+Box city_bounds(const Raster& raster, const Warp& warp);
 
 /// A rectangle of samples while it is painted; all arrays row after row.
 struct Tile {
@@ -25,11 +30,14 @@ struct Tile {
     int cols = 0;
     int rows = 0;
     float spacing = 0.5F;
+    building::CityWalls walls = building::CityWalls::straight;
     glm::vec2 origin{0.0F, 0.0F}; ///< ground position of the first sample
     Box bounds;                   ///< of `place`
     std::vector<glm::vec2> place; ///< city position
     std::vector<Color> color;
     std::vector<float> height;
+    std::vector<float> bare;  ///< share of each sample that no building covers
+    std::vector<float> built; ///< the buildings' part of `height`
     std::vector<float> grain; ///< white noise, [-1, 1]
     std::vector<float> fine;  ///< clumps of about 2 m, about [-1, 1]
     std::vector<float> broad; ///< stains of about 14 m, about [-1, 1]

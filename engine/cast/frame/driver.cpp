@@ -307,7 +307,13 @@ PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& 
     PainterOptions options{options_.target, options_.skips, options_.samples};
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     if (!terrains.empty()) {
-        options.grain = grain_.prepare(list, terrains.front(), placed);
+        const SeenTerrain& seen = terrains.front();
+        options.facades = facades_.prepare(list, seen);
+        if (options.facades != nullptr || scene::shown_grain(*seen.node) > 0.0F) {
+            const view::GrainView view = view::grain_view(list, *seen.node, seen.world_from_local);
+            options.grain = grain_.prepare(list, seen, view);
+            set_normals(view, placed);
+        }
         options.contours = static_cast<float>(scene::shown_contours(*terrains.front().node));
     }
     return options;

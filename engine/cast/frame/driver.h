@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/ground_facades.h"
 #include "engine/cast/frame/ground_grain.h"
 #include "engine/cast/frame/mesh_frame.h"
 #include "engine/cast/frame/painter.h"
@@ -108,7 +109,7 @@ private:
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
-    // With grain and contours; adds to the paints of `placed`.
+    // With grain, façades and contours; adds to the paints of `placed`.
     PainterOptions painter_options(const view::DrawList& list, PlacedTiles& placed);
     // Null without meshes.
     Result<std::unique_ptr<const MeshFrame>> mesh_frame(const StreamedList& frame,
@@ -124,6 +125,7 @@ private:
     view::PictureRounding rounding_;
     TileContents streamed_;
     GroundGrain grain_;
+    GroundFacades facades_;
     MeshTrees mesh_trees_;
     MeshPictures mesh_pictures_;
 };

@@ -4,7 +4,6 @@
 #include <glm/matrix.hpp>
 
 #include "engine/scene/streaming/light.h"
-#include "engine/view/grain_view.h"
 
 namespace reljef::cast {
 namespace {
@@ -39,24 +38,26 @@ glm::mat3 normal_from_slopes(const view::GrainView& view, const PlacedTile& tile
 
 } // namespace
 
+void set_normals(const view::GrainView& view, PlacedTiles& placed) {
+    for (PlacedTile& tile : placed.tiles) {
+        tile.paint.normal_from_slopes = normal_from_slopes(view, tile);
+    }
+}
+
 const GrainPaint* GroundGrain::prepare(const view::DrawList& list, const SeenTerrain& seen,
-                                       PlacedTiles& placed) {
+                                       const view::GrainView& view) {
     if (scene::shown_grain(*seen.node) <= 0.0F) {
         return nullptr;
     }
     if (!map_) {
         map_.emplace();
     }
-    const view::GrainView view = view::grain_view(list, *seen.node, seen.world_from_local);
     paint_ = paint_of(view, *map_);
     paint_.turn = view::GrainView::turn;
     if (list.sun) {
         paint_.to_sun = glm::vec3(view::turned(scene::to_light(*list.sun)));
     }
     paint_.metres_a_pixel = view::metres_a_pixel(list.camera, list.size);
-    for (PlacedTile& tile : placed.tiles) {
-        tile.paint.normal_from_slopes = normal_from_slopes(view, tile);
-    }
     return &paint_;
 }
 

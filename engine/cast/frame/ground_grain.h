@@ -7,16 +7,20 @@
 #include "engine/cast/packet/block_kernel.h"
 #include "engine/material/grain_map.h"
 #include "engine/view/draw_list.h"
+#include "engine/view/grain_view.h"
 
 namespace reljef::cast {
+
+/// Sets the normals of ground with grain or façades in the paints of tiles.
+void set_normals(const view::GrainView& view, PlacedTiles& placed);
 
 /// The fine structure of near ground, for rays. Its patterns are made once, if a terrain has grain.
 class GroundGrain {
 public:
-    /// Null: the terrain has no grain. Adds what it needs to the paints of `placed`. Valid as long
-    /// as this object, until the next call.
+    /// Null: the terrain has no grain. Valid as long as this object, until the next call. The tiles
+    /// need their normals: see set_normals().
     const GrainPaint* prepare(const view::DrawList& list, const SeenTerrain& seen,
-                              PlacedTiles& placed);
+                              const view::GrainView& view);
 
 private:
     std::optional<material::GrainMap> map_;

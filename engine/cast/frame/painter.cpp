@@ -107,6 +107,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     shared_.is_perspective = first.is_perspective;
     shared_.needs_nearness = has_samples();
     shared_.grain = options.grain;
+    shared_.facades = options.facades;
     shared_.contours = options.contours;
     shared_.mesh_shadow = meshes_ != nullptr ? meshes_->shadow() : MeshShadow{};
     std::transform(places.begin(), places.end(), samples_.places.begin(),

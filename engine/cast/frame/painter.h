@@ -20,10 +20,11 @@ namespace reljef::cast {
 struct PainterOptions {
     std::optional<SimdTarget> target = {}; ///< absent: the fastest of the machine
     RaySkips skips = {};
-    int samples = 1;                   ///< of a pixel
-    const MeshFrame* meshes = nullptr; ///< null: none; outlives the painter
-    const GrainPaint* grain = nullptr; ///< null: none; outlives the painter
-    float contours = 0.0F;             ///< BlockPaint::contours
+    int samples = 1;                      ///< of a pixel
+    const MeshFrame* meshes = nullptr;    ///< null: none; outlives the painter
+    const GrainPaint* grain = nullptr;    ///< null: none; outlives the painter
+    const FacadePaint* facades = nullptr; ///< as grain
+    float contours = 0.0F;                ///< BlockPaint::contours
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.

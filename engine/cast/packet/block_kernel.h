@@ -81,7 +81,8 @@ struct TilePaint {
     glm::vec2 first{0.0F};
     /// Texels of level 0 along a pixel, at most: x, plus y per metre of distance.
     glm::vec2 longest_texels{0.0F};
-    /// For grain, along its axes: normal = z − slope along columns · x − slope along rows · y.
+    /// For grain and façades, along its axes: normal = z − slope along columns · x − slope along
+    /// rows · y.
     glm::mat3 normal_from_slopes{1.0F};
 };
 
@@ -102,6 +103,19 @@ struct GrainPaint {
     glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
     glm::vec3 up{0.0F};             ///< at the eye, along the turned axes
     glm::vec3 to_sun{0.0F};         ///< along the turned axes; 0 without a sun
+    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
+};
+
+/// The façades of a terrain in memory (view::FacadeMap), whose samples are those of its tile.
+struct FacadePaint {
+    static constexpr int wall_values = 16; ///< view::FacadeTexels
+
+    const float* samples = nullptr; ///< pairs, row after row
+    int stride = 0;                 ///< samples in a row
+    const float* walls = nullptr;
+    glm::vec3 sun{0.0F}; ///< at albedo 1 and share 1, linear
+    glm::vec3 sky{0.0F};
+    glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 
@@ -217,6 +231,7 @@ struct BlockPaint {
     std::span<const WallTriangle> walls = {}; ///< in front of all ground
     const BlockMeshes* meshes = nullptr;      ///< null: none
     const GrainPaint* grain = nullptr;        ///< null: none
+    const FacadePaint* facades = nullptr;     ///< null: none
     float contours = 0.0F; ///< metres of height from one line to the next; 0: none
     MeshShadow mesh_shadow = {};
 };

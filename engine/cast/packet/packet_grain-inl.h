@@ -25,10 +25,9 @@ struct GroundPlace {
 };
 
 // Along the axes of the patterns.
-HWY_INLINE std::array<Floats, 3> turned(const GrainPaint& grain,
-                                        const std::array<Floats, 3>& world) {
-    const Floats cosine = all(grain.turn.x);
-    const Floats sine = all(grain.turn.y);
+HWY_INLINE std::array<Floats, 3> turned(glm::vec2 turn, const std::array<Floats, 3>& world) {
+    const Floats cosine = all(turn.x);
+    const Floats sine = all(turn.y);
     return {hn::MulAdd(cosine, world[0], hn::Mul(sine, world[1])),
             hn::MulSub(cosine, world[1], hn::Mul(sine, world[0])), world[2]};
 }
@@ -217,14 +216,14 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
                               const std::array<Floats, 3>& normal, Lanes found) {
     const Floats zero = hn::Zero(floats);
     const Floats facing =
-        hn::Div(hn::Abs(dot(normal, turned(grain, place.view))), place.view_length);
+        hn::Div(hn::Abs(dot(normal, turned(grain.turn, place.view))), place.view_length);
     const Floats longer = hn::Sqrt(hn::Div(all(1.0F), hn::Max(facing, all(flattest_facing))));
     const Floats width =
         hn::MulAdd(place.distance, all(grain.metres_a_pixel.y), all(grain.metres_a_pixel.x));
     const Floats pixel = hn::Mul(width, hn::Mul(longer, hn::Sqrt(longer))); // and its length
     const Floats rock = smooth_step(rock_begin, rock_end, dot(normal, all_of(grain.up)));
     const std::array<PatternPlane, 3> planes = pattern_planes(normal);
-    const std::array<Floats, 3> from_eye = turned(grain, place.from_eye);
+    const std::array<Floats, 3> from_eye = turned(grain.turn, place.from_eye);
     GrainLook sum{zero, zero};
     for (int i = 0; i < grain.pattern_count; ++i) {
         const glm::vec4 pattern = grain.patterns[static_cast<std::size_t>(i)];

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "engine/cast/packet/packet_contours-inl.h"
+#include "engine/cast/packet/packet_facades-inl.h"
 #include "engine/cast/packet/packet_grain-inl.h"
 #include "engine/cast/packet/packet_light-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
@@ -306,8 +307,12 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
         lit = with_grain(paint, *job.paint, place, hits, lit);
     }
+    const Floats height = hn::Add(hits.height, all(job.rays.base_height));
+    if (!Mode::counts && paint.facades != nullptr) {
+        const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
+        lit = with_facades(*paint.facades, *job.paint, place, hits, height, lit);
+    }
     if (!Mode::counts && paint.contours > 0.0F) {
-        const Floats height = hn::Add(hits.height, all(job.rays.base_height));
         lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);
     }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;

@@ -66,16 +66,22 @@ void check_source(TomlTable& table) {
     }
 }
 
-void read_buildings(TomlTable& table, SceneDescription& scene) {
-    const auto& names = building::city_form_names;
-    std::string form;
-    table.read("buildings", form, names);
-    if (table.has("buildings") && scene.generator != "urban") {
-        fail_usage(table, {"buildings"}, "the generator urban");
-    }
-    const auto found = std::find(names.begin(), names.end(), form);
+// One of the names, by which an enumeration counts.
+template <class Value, class Names>
+void read_named(TomlTable& table, const char* key, const Names& names, Value& value) {
+    std::string name;
+    table.read(key, name, names);
+    const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) {
-        scene.buildings = static_cast<building::CityForm>(found - names.begin());
+        value = static_cast<Value>(found - names.begin());
+    }
+}
+
+void read_city(TomlTable& table, SceneDescription& scene) {
+    read_named(table, "buildings", building::city_form_names, scene.buildings);
+    read_named(table, "walls", building::city_wall_names, scene.walls);
+    if (scene.generator != "urban") {
+        fail_usage(table, {"buildings", "walls"}, "the generator urban");
     }
 }
 
@@ -86,7 +92,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("size", scene.size, sizes);
     table.read("seed", scene.seed, seeds);
     table.read("tileable", scene.tileable);
-    read_buildings(table, scene);
+    read_city(table, scene);
     table.read("spacing", scene.spacing, spacings);
     table.read("height_scale", scene.height_scale, height_scales);
     table.read("height_offset", scene.height_offset, height_offsets);

@@ -65,6 +65,7 @@ struct SceneDescription {
     std::uint32_t seed = 1;        ///< generator only
     bool tileable = false;         ///< generator only
     building::CityForm buildings = building::CityForm::heights; ///< generator "urban" only
+    building::CityWalls walls = building::CityWalls::straight;  ///< generator "urban" only
     std::optional<double> spacing; ///< metres; see RasterOptions::spacing
     double height_scale = 1.0;     ///< file only: metres = value · height_scale + height_offset
     double height_offset = 0.0;    ///< file only

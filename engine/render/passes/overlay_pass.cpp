@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/scene/streaming/light.h"
+#include "engine/view/facade_view.h"
 #include "engine/view/grain_view.h"
 
 namespace reljef::render {
@@ -33,6 +34,8 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
                                   : glm::vec4(0.0F),
             .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, view.radius),
             .contours = glm::vec4(0.0F),
+            .facade_sun = glm::vec4(0.0F),
+            .facade_sky = glm::vec4(0.0F),
             .grain_normal_from_slopes = glm::mat4(glm::mat3(glm::transpose(glm::inverse(metres))))};
 }
 
@@ -40,8 +43,8 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
 
 std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
     const bool shows_ground = !frame.hits && !frame.counts() && !terrain.material.wireframe;
-    const bool has_overlay =
-        scene::shown_grain(terrain) > 0.0F || scene::shown_contours(terrain) > 0.0;
+    const bool has_overlay = scene::shown_grain(terrain) > 0.0F ||
+                             scene::shown_contours(terrain) > 0.0 || view::shows_facades(terrain);
     return has_overlay && shows_ground ? feature_overlay : 0U;
 }
 
@@ -61,6 +64,12 @@ Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& te
     OverlayBlock block = overlay_block(frame.list, view, metres);
     block.contours = {scene::shown_contours(terrain), terrain.surface->placement().exaggeration(),
                       0.0, 0.0};
+    if (view::shows_facades(terrain)) {
+        const ResidentFacades& facades = frame.residency.facades().bind(terrain);
+        ++frame.state.stats().state_changes;
+        block.facade_sun = glm::vec4(facades.sun, 0.0F);
+        block.facade_sky = glm::vec4(facades.sky, 1.0F);
+    }
     return frame.state.set(block);
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/gl/buffer.h"
 #include "engine/gl/texture.h"
+#include "engine/render/residency/facade_residency.h"
 #include "engine/render/residency/grain_residency.h"
 #include "engine/render/residency/ground_residency.h"
 #include "engine/render/residency/mesh_residency.h"
@@ -58,6 +59,8 @@ public:
     [[nodiscard]] const GroundResidency& ground() const { return ground_; }
     /// Precondition: a terrain of the prepared list has grain, and it was prepared with maps.
     [[nodiscard]] const GrainResidency& grain() const { return grain_; }
+    /// Preconditions: a terrain of the prepared list shows façades, and it was prepared with maps.
+    [[nodiscard]] const FacadeResidency& facades() const { return facades_; }
     [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
     /// What is certain of the sun in each cell (scene::CertainSun as a float), for exact with hard
     /// shadows on a plane; else null.
@@ -108,6 +111,7 @@ private:
     MeshResidency meshes_;
     GroundResidency ground_;
     GrainResidency grain_;
+    FacadeResidency facades_;
 };
 
 } // namespace reljef::render

@@ -11,6 +11,7 @@
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
 #include "engine/geo/georeference.h"
+#include "engine/terrain/field/facades.h"
 
 namespace reljef::terrain {
 
@@ -45,6 +46,7 @@ struct Terrain {
     Image color;                          ///< from edge sample to edge sample; may be empty
     std::vector<std::string> notes;       ///< for the user
     std::vector<std::string> errors = {}; ///< one sentence per file that could not be read
+    Facades facades = {};                 ///< on walls of buildings; as many samples as heights
 };
 
 /// Range of the samples that are no voids; {0,0} if there are none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -84,6 +85,9 @@ public:
         move(begin, begin + step_.whole, end - begin);
         forget(end, last + 1);
     }
+
+    // Below this height over a sample the sun's middle is hidden, metres.
+    [[nodiscard]] double height(std::size_t index) const { return height_[index]; }
 
     // Visible share of the sun at a height over a sample, not clamped to [0,1]. The penumbra is
     // `spread` metres per metre of run to each side, and at least `min_height` metres high.
@@ -212,6 +216,31 @@ Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spac
         visible(heights.cols() - 1 - from, row) = visible(from, row);
     }
     return visible;
+}
+
+Grid<float> shadow_heights(GridView<const float> heights, glm::dvec2 spacing, double exaggeration,
+                           glm::dvec3 to_sun) {
+    constexpr float no_height = std::numeric_limits<float>::infinity();
+    const double horizontal = std::hypot(to_sun.x, to_sun.y);
+    const bool below = !(to_sun.z > 0.0);
+    Grid<float> edges(heights.cols(), heights.rows(), below ? no_height : -no_height);
+    if (below || heights.empty() || horizontal <= 1e-9 * to_sun.z) {
+        return edges; // night, or a sun in the zenith
+    }
+    const glm::dvec3 unit_run = to_sun / horizontal;
+    const Sweep sweep = sweep_along(heights, spacing, unit_run);
+    ShadowFront front(sweep, sweep.run * unit_run.z, 0.0);
+    Ground ground(heights, sweep, exaggeration);
+    for (const auto& [line, previous] : lines_of(sweep)) {
+        front.advance(ground.at(previous));
+        for (int at = 0; at < sweep.line_length; ++at) {
+            constexpr double lowest = -std::numeric_limits<float>::max();
+            const double height =
+                std::max(front.height(static_cast<std::size_t>(at)) / exaggeration, lowest);
+            (sweep.by_rows ? edges(at, line) : edges(line, at)) = static_cast<float>(height);
+        }
+    }
+    return edges;
 }
 
 } // namespace reljef::terrain

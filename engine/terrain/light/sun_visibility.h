@@ -17,4 +17,10 @@ namespace reljef::terrain {
 Grid<std::uint8_t> sun_visibility(GridView<const float> heights, glm::dvec2 spacing,
                                   double exaggeration, glm::dvec3 to_sun, bool around = false);
 
+/// The heights over each sample, true metres, below which the ground around hides the middle of the
+/// sun; -infinity: nowhere, infinity: everywhere. The other arguments as of sun_visibility(), with
+/// an exaggeration above 0.
+Grid<float> shadow_heights(GridView<const float> heights, glm::dvec2 spacing, double exaggeration,
+                           glm::dvec3 to_sun);
+
 } // namespace reljef::terrain

@@ -84,6 +84,17 @@ TEST_F(BadInput, header_that_claims_a_hundred_thousand_squared_is_no_allocation)
     expect_refusal(result, 1, {"vast.pgm"});
 }
 
+TEST_F(BadInput, walls_that_no_city_has) {
+    for (const std::string& terrain : {std::string("natural"), write("dem.asc", small_dem)}) {
+        const auto result =
+            test::reljef({"render", terrain, "--walls", "stepped", "-o",
+                          (folder_.path() / "out.png").string(), "--size", "64x48", "--quiet"});
+        expect_refusal(result, 2, {"--walls", "urban"});
+    }
+    expect_refusal(test::reljef({"render", "urban", "--walls", "round"}), 2,
+                   {"--walls", "round", "straight", "stepped"});
+}
+
 TEST_F(BadInput, folder_without_tiles) {
     expect_refusal(render(folder_.path().string()), 1, {folder_.path().string()});
 }

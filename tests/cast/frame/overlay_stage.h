@@ -15,12 +15,15 @@ inline constexpr glm::ivec2 overlay_picture{320, 240};
 
 /// Hills of samples 8 m apart, some of them steep, below a sun.
 struct OverlayStage : Stage {
+    scene::Node* light = nullptr;
+
     explicit OverlayStage(Grid<float> heights = test::hills(151, 129, 90.0),
                           glm::dvec2 spacing = {8.0, 8.0})
         : Stage(std::move(heights), spacing) {
-        scene.add_light();
+        light = &scene.add_light();
         node().material.technique = {scene::Exact{}};
     }
+    scene::Light& sun() { return *light->get<scene::Light>(); }
     scene::TerrainNode& node() { return *terrain->get<scene::TerrainNode>(); }
     void set_grain(float strength) { node().grain = strength; }
     void look_from(scene::Pose pose) {

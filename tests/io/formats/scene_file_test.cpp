@@ -20,6 +20,19 @@ std::string error_of(const std::string& text) {
     return scene ? "" : scene.error().message;
 }
 
+TEST(SceneFile, WallsAreOfTheCityOnly) {
+    const auto stepped = parse("[terrain]\ngenerator = \"urban\"\nwalls = \"stepped\"\n");
+    ASSERT_TRUE(stepped) << stepped.error().message;
+    EXPECT_EQ(stepped->walls, building::CityWalls::stepped);
+    const auto plain = parse("[terrain]\ngenerator = \"urban\"\n");
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain->walls, building::CityWalls::straight);
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"natural\"\nwalls = \"stepped\"\n"),
+                HasSubstr("walls"));
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\nwalls = \"round\"\n"),
+                HasSubstr("round"));
+}
+
 TEST(SceneFile, EveryKeyIsRead) {
     const auto scene = parse(R"(
 name = "Mont Blanc"

@@ -187,5 +187,40 @@ TEST(SunVisibility, ShadowsFallAcrossWhereTheFirstColumnComesAgain) {
     }
 }
 
+// Where half of the sun or more is seen, the ground is above the shadow.
+TEST(ShadowHeights, AgreeWithTheVisibleShareOfTheSun) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<double> part(0.0, 1.0);
+        const Grid<float> heights = test::random_heights(40, 33, -20.0F, 50.0F, seed);
+        const double exaggeration = 0.2 + 3.0 * part(random);
+        const glm::dvec3 sun = sun_at(360.0 * part(random), 89.0 * part(random) + 0.5);
+        const glm::dvec2 spacing(0.5 + part(random), 0.5 + part(random));
+        const auto shares = sun_visibility(heights.view(), spacing, exaggeration, sun);
+        const auto edges = shadow_heights(heights.view(), spacing, exaggeration, sun);
+        for (std::size_t i = 0; i < heights.samples().size(); ++i) {
+            const float above = heights.samples()[i] - edges.samples()[i];
+            if (shares.samples()[i] > 128) {
+                ASSERT_GT(above, 0.0F) << seed;
+            } else if (shares.samples()[i] == 0) {
+                ASSERT_LT(above, 0.0F) << seed;
+            }
+        }
+    }
+}
+
+TEST(ShadowHeights, OfOneWallFallWithTheDistance) {
+    const Grid<float> heights =
+        test::made_heights(90, 7, [](int col, int /*row*/) { return col == 20 ? 30.0 : 0.0; });
+    const auto edges = shadow_heights(heights.view(), {2.0, 2.0}, 1.0, sun_at(270.0, 30.0));
+    for (int col = 21; col < 90; ++col) {
+        const double metres = 2.0 * (col - 20);
+        const double edge = 30.0 - metres * std::tan(glm::radians(30.0));
+        EXPECT_NEAR(edges(col, 3), std::max(edge, -2.0 * std::tan(glm::radians(30.0))), 1e-3);
+    }
+    EXPECT_GT(shadow_heights(heights.view(), {2.0, 2.0}, 1.0, sun_at(270.0, -1.0))(3, 3), 1e30F);
+    EXPECT_LT(shadow_heights(heights.view(), {2.0, 2.0}, 1.0, {0.0, 0.0, 1.0})(3, 3), -1e30F);
+}
+
 } // namespace
 } // namespace reljef::terrain

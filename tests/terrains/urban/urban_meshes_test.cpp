@@ -69,7 +69,8 @@ Grid<float> tops_of(const City& city) {
 
 TEST(UrbanMeshes, AreAsHighAsTheHeightsOfTheSameCity) {
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
-        const GeneratorOptions options{.size = 600, .seed = seed};
+        const GeneratorOptions options{
+            .size = 600, .seed = seed, .walls = building::CityWalls::stepped};
         const City heights = city_of(CityForm::heights, options);
         const City meshes = city_of(CityForm::meshes, options);
         const Grid<float> tops = tops_of(meshes);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
 
 #include "terrains/generators.h"
@@ -83,6 +85,72 @@ TEST(Urban, roofs_are_flat_and_pitched) {
     }
     EXPECT_GT(flat, 5000);
     EXPECT_GT(pitched, 5000);
+}
+
+// How far the middle height of free walls lies from where the wall is, samples: the largest of 95
+// %.
+double unevenness(const terrain::Terrain& city, const std::vector<terrain::Facade>& walls) {
+    const auto heights = city.heightfield.heights.view();
+    std::vector<double> off;
+    for (const terrain::Facade& wall : walls) {
+        const glm::dvec2 way = wall.end - wall.begin;
+        const glm::dvec2 out = glm::normalize(glm::dvec2(way.y, -way.x));
+        for (const double part : {0.3, 0.4, 0.5, 0.6, 0.7}) {
+            const glm::dvec2 place = wall.begin + part * way;
+            const auto height = [&](double away) {
+                return terrain::bilinear_height(heights, place + away * out);
+            };
+            const bool is_inside = glm::all(glm::greaterThan(place, glm::dvec2(4.0))) &&
+                                   glm::all(glm::lessThan(place, glm::dvec2(heights.cols() - 5)));
+            if (!is_inside || std::abs(height(3.0) - 0.15) > 0.2 ||
+                std::abs(height(-3.0) - wall.eaves) > 0.3) {
+                continue; // not free, or the roof is not flat
+            }
+            double away = -3.0;
+            while (height(away) > 0.5 * (wall.eaves + 0.15)) {
+                away += 0.01;
+            }
+            off.push_back(std::abs(away));
+        }
+    }
+    EXPECT_GT(off.size(), 200U);
+    std::sort(off.begin(), off.end());
+    return off.empty() ? 0.0 : off[off.size() * 95 / 100];
+}
+
+TEST(Urban, WallsLookStraight) {
+    for (const std::uint32_t seed : {1U, 4U}) {
+        const auto straight = urban({.size = 700, .seed = seed});
+        const auto& walls = straight.facades.walls;
+        EXPECT_LT(unevenness(straight, walls), 0.15) << seed;
+        const auto stepped =
+            urban({.size = 700, .seed = seed, .walls = building::CityWalls::stepped});
+        EXPECT_TRUE(stepped.facades.walls.empty());
+        EXPECT_GT(unevenness(stepped, walls), 0.4) << "else this test finds nothing";
+    }
+}
+
+TEST(Urban, SamplesNearWallsKnowThem) {
+    const auto city = urban({.size = 500, .seed = 2});
+    const terrain::Facades& facades = city.facades;
+    ASSERT_EQ(facades.nearest.cols(), 500);
+    int near = 0;
+    for (int row = 0; row < 500; ++row) {
+        for (int col = 0; col < 500; ++col) {
+            const std::uint32_t number = facades.nearest(col, row);
+            ASSERT_LE(number, facades.walls.size());
+            if (number != 0) {
+                const terrain::Facade& wall = facades.walls[number - 1];
+                const glm::dvec2 way = glm::normalize(wall.end - wall.begin);
+                const glm::dvec2 from = glm::dvec2(col, row) - wall.begin;
+                ASSERT_LT(std::abs(way.x * from.y - way.y * from.x), 2.5);
+                ++near;
+            }
+        }
+    }
+    EXPECT_GT(near, 10000);
+    const auto again = urban({.size = 500, .seed = 2, .threads = 1});
+    EXPECT_EQ(again.facades.nearest, facades.nearest);
 }
 
 TEST(Urban, size_outside_the_range_is_refused) {

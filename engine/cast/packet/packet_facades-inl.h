@@ -1,0 +1,150 @@
+// Walls of buildings that a packet of rays hits. Included once for each instruction set.
+#if defined(RELJEF_PACKET_FACADES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELJEF_PACKET_FACADES_INL_H
+#undef RELJEF_PACKET_FACADES_INL_H
+#else
+#define RELJEF_PACKET_FACADES_INL_H
+#endif
+
+#include "engine/cast/packet/packet_grain-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace reljef::cast::HWY_NAMESPACE {
+
+HWY_INLINE Floats clamped(Floats x, float low, float high) {
+    return hn::Min(hn::Max(x, all(low)), all(high));
+}
+
+// The integral of the periodic stripes from `begin` to `end`, parts of a period.
+HWY_INLINE Floats stripes_until(Floats x, float begin, float end) {
+    const Floats whole = hn::Floor(x);
+    const Floats part = clamped(hn::Sub(hn::Sub(x, whole), all(begin)), 0.0F, end - begin);
+    return hn::MulAdd(whole, all(end - begin), part);
+}
+
+// A place along a wall, and the width of a pixel there; both in periods of its windows.
+struct Along {
+    Floats middle;
+    Floats width;
+
+    // The share of stripes in the pixel.
+    HWY_INLINE Floats share(float begin, float end) const {
+        const Floats half = hn::Mul(all(0.5F), width);
+        const Floats until = stripes_until(hn::Add(middle, half), begin, end);
+        return hn::Div(hn::Sub(until, stripes_until(hn::Sub(middle, half), begin, end)), width);
+    }
+};
+
+// Values of the walls near hits.
+struct WallNear {
+    const float* values;
+    Ints first;
+
+    HWY_INLINE Floats operator()(int index) const {
+        return hn::GatherIndex(floats, values, hn::Add(first, all(std::int32_t{index})));
+    }
+};
+
+// The albedo of a wall. `is_high`: above the windows.
+HWY_INLINE Color wall_albedo(const Along& u, const Along& v, const Color& plaster, Lanes is_high) {
+    const auto low = [&](Floats share) HWY_ATTR { return hn::IfThenZeroElse(is_high, share); };
+    const Floats frames =
+        low(hn::Mul(u.share(frame_begin, frame_end), v.share(frame_top, frame_bottom)));
+    const Floats panes = low(hn::Mul(
+        hn::Add(u.share(left_pane_begin, left_pane_end), u.share(right_pane_begin, right_pane_end)),
+        v.share(pane_top, pane_bottom)));
+    const Floats ledges =
+        low(hn::MulAdd(u.share(sill_begin, sill_end), v.share(sill_top, sill_bottom),
+                       v.share(0.0F, ledge_bottom)));
+    const Floats of_plaster =
+        hn::NegMulAdd(ledges, all(1.0F - ledge_light), hn::Sub(all(1.0F), frames));
+    const Floats of_frames = hn::Sub(frames, panes);
+    const auto channel = [&](Floats wall, float frame, float pane) HWY_ATTR {
+        return hn::MulAdd(wall, of_plaster,
+                          hn::MulAdd(of_frames, all(frame), hn::Mul(panes, all(pane))));
+    };
+    return {channel(plaster.r, frame_red, pane_red), channel(plaster.g, frame_green, pane_green),
+            channel(plaster.b, frame_blue, pane_blue)};
+}
+
+// The sample nearest to hits.
+HWY_INLINE Ints nearest_sample(const FacadePaint& paint, const PacketHits& hits) {
+    const auto nearest = [](Ints cell, Floats part)
+                             HWY_ATTR { return hn::Add(cell, hn::NearestInt(part)); };
+    return hn::Add(hn::Mul(nearest(hits.row, hits.row_part), all(paint.stride)),
+                   nearest(hits.col, hits.col_part));
+}
+
+// The colour of ground with façades. `height`: true metres.
+HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
+                              const GroundPlace& place, const PacketHits& hits, Floats height,
+                              const Color& lit) {
+    const Floats zero = hn::Zero(floats);
+    const std::array<Floats, 3> normal = grain_normal(tile, hits);
+    Lanes shown = hn::And(hits.found, hn::Lt(normal[2], all(wall_cosine)));
+    if (hn::AllFalse(floats, shown)) {
+        return lit;
+    }
+    const Ints index = hn::IfThenElseZero(hn::RebindMask(ints, shown), nearest_sample(paint, hits));
+    const Ints pair = hn::Add(index, index);
+    const Floats number = hn::GatherIndex(floats, paint.samples, pair);
+    shown = hn::And(shown, hn::Gt(number, zero));
+    if (hn::AllFalse(floats, shown)) {
+        return lit;
+    }
+    const Floats shadow = hn::GatherIndex(floats, paint.samples + 1, pair);
+    const Ints wall_index =
+        hn::ConvertTo(ints, hn::IfThenElseZero(shown, hn::Sub(number, all(1.0F))));
+    const WallNear wall{paint.walls, hn::Mul(wall_index, all(FacadePaint::wall_values))};
+    const std::array<Floats, 2> out{wall(8), wall(9)};
+    const Floats eaves = wall(5);
+    const Lanes is_high = hn::Gt(height, eaves);
+    const Floats leaning = hn::MulAdd(out[0], normal[0], hn::Mul(out[1], normal[1]));
+    const Floats level = hn::Sqrt(hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1])));
+    const Lanes is_upright = hn::Lt(normal[2], all(upright_cosine));
+    const Floats min_leaning = hn::IfThenElse(is_upright, all(corner_leaning), all(wall_leaning));
+    shown = hn::And(shown, hn::Gt(leaning, hn::Mul(level, min_leaning)));
+    shown = hn::And(shown, hn::Or(hn::Not(is_high), hn::Gt(wall(11), zero)));
+
+    const std::array<Floats, 3> view = turned(paint.turn, place.view);
+    const Floats across = hn::MulAdd(out[0], view[0], hn::Mul(out[1], view[1]));
+    const Floats along = hn::MulSub(out[0], view[1], hn::Mul(out[1], view[0]));
+    const Floats facing =
+        hn::Max(hn::Abs(across), hn::Mul(place.view_length, all(flattest_facing)));
+    const Floats pixel =
+        hn::MulAdd(place.distance, all(paint.metres_a_pixel.y), all(paint.metres_a_pixel.x));
+    const auto width = [&](Floats of_view, Floats periods_a_metre) HWY_ATTR {
+        const Floats longer = hn::Div(of_view, facing);
+        const Floats metres = hn::Mul(pixel, hn::Sqrt(hn::MulAdd(longer, longer, all(1.0F))));
+        return hn::Max(hn::Mul(metres, periods_a_metre), all(narrowest_pixel));
+    };
+    const auto from_begin = [&](Ints cell, Floats part, Floats begin) HWY_ATTR {
+        return hn::Add(hn::Sub(hn::ConvertTo(floats, cell), begin), part);
+    };
+    const Floats col = from_begin(hits.col, hits.col_part, wall(0));
+    const Floats row = from_begin(hits.row, hits.row_part, wall(1));
+    const Along u{hn::MulAdd(col, wall(2), hn::MulAdd(row, wall(3), wall(4))),
+                  width(along, hn::Div(all(1.0F), wall(7)))};
+    const Along v{hn::Mul(hn::Sub(eaves, height), wall(6)), width(view[2], wall(6))};
+    const Color albedo = wall_albedo(u, v, {wall(12), wall(13), wall(14)}, is_high);
+
+    const Floats foot = wall(15);
+    const Floats risen = hn::Div(hn::Sub(height, foot), hn::Max(hn::Sub(eaves, foot), all(1.0F)));
+    const Floats sky =
+        hn::MulAdd(clamped(risen, 0.0F, 1.0F), all(1.0F - sky_at_foot), all(sky_at_foot));
+    const Floats above_shadow = hn::Mul(hn::Sub(height, shadow), all(1.0F / shadow_border));
+    const Floats sun = hn::Mul(wall(10), clamped(above_shadow, 0.0F, 1.0F));
+    const auto channel = [&](Floats of_wall, float sun_light, float sky_light,
+                             Floats ground) HWY_ATTR {
+        const Floats light = hn::MulAdd(sun, all(sun_light), hn::Mul(sky, all(sky_light)));
+        return hn::IfThenElse(shown, hn::Mul(of_wall, light), ground);
+    };
+    return {channel(albedo.r, paint.sun.r, paint.sky.r, lit.r),
+            channel(albedo.g, paint.sun.g, paint.sky.g, lit.g),
+            channel(albedo.b, paint.sun.b, paint.sky.b, lit.b)};
+}
+
+} // namespace reljef::cast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
