@@ -14,6 +14,9 @@
 #include "app/commands.h"
 #include "engine/core/atomic_file.h"
 #include "engine/io/image/surface_maps.h"
+#include "engine/material/straight_walls.h"
+#include "engine/session/straight_heights.h"
+#include "engine/session/terrain_source.h"
 
 namespace reljef::app {
 namespace {
@@ -28,8 +31,16 @@ struct MapOutput {
     std::string file = {}; // empty: not requested
 };
 
+// A terrain whose walls look straight, instead of maps.
+struct StraightChoice {
+    std::string output; // empty: not requested
+    std::optional<double> wall_height;
+    int memory_megabytes = 512;
+};
+
 struct MapChoice {
     std::string picture;
+    StraightChoice straight;
     std::string back; // heights of the back; empty: none
     io::SurfaceMapOptions making;
     int threads = 0;
@@ -142,6 +153,39 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
     return interrupt.requested() ? Error{"interrupted"} : commit_all(files);
 }
 
+Result<void> make_straight(const MapChoice& choice, const cli::Interrupt& interrupt) {
+    const cli::NamedFile output{"--straight-walls", choice.straight.output};
+    const cli::NamedFile input{"PICTURE", choice.picture};
+    cli::check_distinct({&output, 1}, {&input, 1});
+    if (auto good = cli::check_writable({&output, 1}); !good) {
+        return good;
+    }
+    cli::ConsoleLog log(choice.quiet);
+    session::SourceOptions source;
+    source.terrain = choice.picture;
+    source.threads = choice.threads;
+    source.memory_megabytes = choice.straight.memory_megabytes;
+    const auto terrain = session::open_terrain(source, log, interrupt.token());
+    if (!terrain) {
+        return terrain.error();
+    }
+    const auto task = log.start("straight walls of " + terrain->terrain.name);
+    const auto changed = session::write_straight_heights(
+        choice.straight.output, terrain->terrain, choice.straight.wall_height,
+        {static_cast<unsigned>(choice.threads), interrupt.token(), task->callback()});
+    if (!changed) {
+        return changed.error();
+    }
+    log.note(fmt::format("{} of {} samples at walls have other heights", *changed,
+                         terrain->terrain.heightfield.heights.size()));
+    return session::report_errors(choice.picture, terrain->terrain.errors.size());
+}
+
+Result<void> run(const MapChoice& choice, const cli::Interrupt& interrupt) {
+    return choice.straight.output.empty() ? make_maps(choice, interrupt)
+                                          : make_straight(choice, interrupt);
+}
+
 bool asks_for(const MapChoice& choice, std::initializer_list<MapKind> kinds) {
     return std::any_of(choice.outputs.begin(), choice.outputs.end(), [&](const MapOutput& output) {
         return !output.file.empty() &&
@@ -152,9 +196,19 @@ bool asks_for(const MapChoice& choice, std::initializer_list<MapKind> kinds) {
 // Throws CLI::ParseError without an output, or for a wrong format.
 void expect_outputs(const MapChoice& choice) {
     const auto outputs = outputs_of(choice);
-    if (outputs.empty()) {
+    const std::string& straight = choice.straight.output;
+    if (!straight.empty() && !outputs.empty()) {
+        throw CLI::ValidationError(fmt::format(
+            "--straight-walls: found beside {}, one of them was expected", outputs.front().option));
+    }
+    if (!straight.empty() && !straight.ends_with(".tif") && !straight.ends_with(".tiff")) {
+        throw CLI::ValidationError(
+            fmt::format("--straight-walls: {} found, a name with .tif was expected", straight));
+    }
+    if (outputs.empty() && straight.empty()) {
         throw CLI::ValidationError("maps: no output found, --heights, --normals, --combined, "
-                                   "--cones, --relaxed-cones or --layers was expected");
+                                   "--cones, --relaxed-cones, --layers or --straight-walls was "
+                                   "expected");
     }
     for (const cli::NamedFile& file : outputs) {
         if (const auto good = io::check_map_name(file.path); !good) {
@@ -176,6 +230,9 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
     };
     for (const Use& use :
          {Use{"--back", asks_for(choice, {MapKind::layers}), "--layers"},
+          Use{"--wall-height", !choice.straight.output.empty(), "--straight-walls"},
+          Use{"--memory", !choice.straight.output.empty(), "--straight-walls"},
+          Use{"--from", choice.straight.output.empty(), "another output"},
           Use{"--octaves", choice.making.input == MapInput::colors, "--from colors"},
           Use{"--dark-is-high", choice.making.input == MapInput::colors, "--from colors"},
           Use{"--sobel", makes_normals, "--normals or --combined"},
@@ -187,6 +244,23 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
                 "{}: found without a use, beside it {} was expected", use.option, use.expected));
         }
     }
+}
+
+void add_straight_options(CLI::App& arguments, StraightChoice& choice) {
+    arguments
+        .add_option("--straight-walls", choice.output,
+                    "GeoTIFF of a terrain, named instead of the picture, whose walls look "
+                    "straight: samples at walls get heights between roof and ground")
+        ->type_name("FILE");
+    cli::add_parsed(
+        arguments, "--wall-height", choice.wall_height,
+        cli::number_in("--wall-height", 0.0, 1e4, true),
+        "least rise around a sample that is a wall, metres (2.5, or the spacing if that "
+        "is more)",
+        "M");
+    cli::add_parsed(arguments, "--memory", choice.memory_megabytes,
+                    cli::number_in<int>("--memory", 1, 1 << 20),
+                    "MB for the terrain of --straight-walls (512)", "MB");
 }
 
 void add_map_options(CLI::App& arguments, MapChoice& choice) {
@@ -231,6 +305,7 @@ cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt) {
     for (MapOutput& output : choice->outputs) {
         arguments->add_option(output.option, output.file, output.meaning)->type_name("FILE");
     }
+    add_straight_options(*arguments, choice->straight);
     arguments->callback([arguments, choice] {
         expect_outputs(*choice);
         expect_used(*arguments, *choice);
@@ -243,8 +318,9 @@ cli::Command add_maps_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef maps wall.jpg --from colors --heights wall_height.png --combined wall_both.png\n"
         "  reljef maps wall_normal.png --from normals --heights wall_height.png\n"
         "  reljef maps wall_height.png --cones wall_cones.exr --relaxed-cones wall_relaxed.exr\n"
-        "  reljef maps front.png --back back.png --layers sheet_layers.png");
-    return {arguments, [choice, &interrupt] { return make_maps(*choice, interrupt); }};
+        "  reljef maps front.png --back back.png --layers sheet_layers.png\n"
+        "  reljef maps city_dsm.tif --straight-walls city_straight.tif --wall-height 3");
+    return {arguments, [choice, &interrupt] { return run(*choice, interrupt); }};
 }
 
 } // namespace reljef::app

@@ -16,7 +16,7 @@ inline constexpr std::array<std::string_view, 3> city_form_names{"heights", "mes
 /// How the walls of a generated city's heights meet its samples.
 enum class CityWalls {
     straight, ///< samples have the mean height of their squares; steep ground shows façades
-    stepped   ///< samples lie inside or outside, as in surface models: walls follow rows and columns
+    stepped ///< samples lie inside or outside, as in surface models: walls follow rows and columns
 };
 
 /// By CityWalls.

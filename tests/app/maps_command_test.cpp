@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -295,6 +297,67 @@ TEST_F(MapsCommand, CtrlCLeavesNothing) {
     EXPECT_EQ(result.exit_code, 1);
     EXPECT_EQ(result.err, "reljef: interrupted\n");
     EXPECT_EQ(folder_.names(), before);
+}
+
+// A house of 8 m on a place of the Earth, with a void.
+std::string house_raster(const test::TemporaryFolder& folder) {
+    const std::string path = (folder.path() / "house.asc").string();
+    std::ofstream out(path);
+    out << "ncols 40\nnrows 40\nxllcorner 350000\nyllcorner 5100000\ncellsize 1\n"
+           "NODATA_value -9999\n";
+    for (int row = 0; row < 40; ++row) {
+        for (int col = 0; col < 40; ++col) {
+            const bool is_roof = 4 * col + row > 90 && 4 * col + row < 150;
+            out << (col == 2 && row == 2 ? -9999 : is_roof ? 8 : 0) << ' ';
+        }
+        out << '\n';
+    }
+    std::ofstream(folder.path() / "house.prj")
+        << "PROJCS[\"UTM 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
+           "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],"
+           "PROJECTION[\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER["
+           "\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\","
+           "500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]";
+    return path;
+}
+
+TEST_F(MapsCommand, StraightWallsKeepPlaceVoidsAndRange) {
+    const std::string house = house_raster(folder_);
+    const auto made = test::reljef({"maps", house, "--straight-walls", file("straight.tif")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, testing::HasSubstr("samples at walls have other heights"));
+    const auto before = test::reljef({"info", house});
+    const auto after = test::reljef({"info", file("straight.tif")});
+    ASSERT_EQ(after.exit_code, 0) << after.err;
+    for (const char* const line : {"latitude", "heights", "voids", "spacing"}) {
+        const auto of = [&](const std::string& text) {
+            const auto at = text.find(line);
+            return at == std::string::npos ? std::string("no ") + line
+                                           : text.substr(at, text.find('\n', at) - at);
+        };
+        EXPECT_EQ(of(after.out), of(before.out));
+    }
+    EXPECT_THAT(after.out, testing::HasSubstr("voids    1"));
+}
+
+TEST_F(MapsCommand, StraightWallsRefuseInOneSentence) {
+    const std::string house = house_raster(folder_);
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"maps", house, "--quiet"});
+        return test::reljef(more);
+    };
+    expect_refusal(with({"--straight-walls", file("s.png")}), 2, {"--straight-walls", ".tif"});
+    expect_refusal(with({"--straight-walls", file("s.tif"), "--normals", file("n.png")}), 2,
+                   {"--straight-walls", "--normals"});
+    expect_refusal(with({"--wall-height", "3", "--normals", file("n.png")}), 2,
+                   {"--wall-height", "--straight-walls"});
+    expect_refusal(with({"--straight-walls", file("s.tif"), "--wall-height", "0"}), 2,
+                   {"--wall-height", "0"});
+    expect_refusal(with({"--straight-walls", file("s.tif"), "--from", "colors"}), 2, {"--from"});
+    expect_refusal(with({"--straight-walls", "/nonexistent/s.tif"}), 1, {"/nonexistent"});
+    expect_refusal(test::reljef({"maps", file("none.tif"), "--straight-walls", file("s.tif")}), 1,
+                   {"none.tif"});
+    EXPECT_FALSE(std::filesystem::exists(file("s.tif")));
 }
 
 } // namespace

@@ -17,6 +17,7 @@ constexpr int written_block = 256;     // samples per side
 constexpr int min_overview = 256;      // samples per side
 constexpr double writing_share = 0.75; // of the progress; the rest is for the overviews
 constexpr int utm_zone_32_north = 32632;
+constexpr float void_metres = -32768.0F;
 
 Error cannot_write(const fs::path& path, const GdalMessages& messages) {
     return Error{fmt::format("{}: cannot be written{}", path.string(), messages.reason())};
@@ -103,6 +104,36 @@ Result<void> finish(Dataset dataset, AtomicFile& file, const GdalMessages& messa
     return file.commit();
 }
 
+struct SampleFormat {
+    GDALDataType type = GDT_Byte;
+    std::optional<double> in_void = std::nullopt;
+};
+
+// `place`: sets where the samples lie; false on failure.
+template <class Sample, class Place>
+Result<void> write_samples(const fs::path& path, Grid<Sample> samples, const SampleFormat& format,
+                           const Place& place) {
+    auto file = AtomicFile::create(path);
+    if (!file) {
+        return file.error();
+    }
+    const GdalMessages messages;
+    register_drivers();
+    CPLStringList options;
+    add_options(options, {"COMPRESS=DEFLATE", "TILED=YES", "BIGTIFF=IF_SAFER"});
+    const int cols = samples.cols();
+    const int rows = samples.rows();
+    Dataset dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+        file->temporary().c_str(), cols, rows, 1, format.type, options.List()));
+    const bool written =
+        dataset != nullptr && place(*dataset) &&
+        (!format.in_void ||
+         dataset->GetRasterBand(1)->SetNoDataValue(*format.in_void) == CE_None) &&
+        dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, cols, rows, samples.samples().data(),
+                                            cols, rows, format.type, 0, 0, nullptr) == CE_None;
+    return written ? finish(std::move(dataset), *file, messages) : cannot_write(path, messages);
+}
+
 } // namespace
 
 Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
@@ -129,23 +160,29 @@ Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
 Result<void> write_bytes(const fs::path& path, const Grid<std::uint8_t>& bytes,
                          const std::optional<geo::Georeference>& georeference,
                          std::uint8_t in_void) {
-    auto file = AtomicFile::create(path);
-    if (!file) {
-        return file.error();
+    return write_samples(
+        path, bytes, {GDT_Byte, static_cast<double>(in_void)},
+        [&](GDALDataset& dataset) { return !georeference || place(dataset, *georeference); });
+}
+
+Result<void> write_heightfield(const fs::path& path, const terrain::Heightfield& heightfield) {
+    Grid<float> metres = heightfield.heights;
+    for (std::size_t i = 0; i < heightfield.void_mask.samples().size(); ++i) {
+        if (heightfield.void_mask.samples()[i] != 0) {
+            metres.samples()[i] = void_metres;
+        }
     }
-    const GdalMessages messages;
-    register_drivers();
-    CPLStringList options;
-    add_options(options, {"COMPRESS=DEFLATE", "TILED=YES", "BIGTIFF=IF_SAFER"});
-    Dataset dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
-        file->temporary().c_str(), bytes.cols(), bytes.rows(), 1, GDT_Byte, options.List()));
-    Grid<std::uint8_t> samples = bytes; // GDAL takes no pointer to constants
-    const bool written = dataset != nullptr && (!georeference || place(*dataset, *georeference)) &&
-                         dataset->GetRasterBand(1)->SetNoDataValue(in_void) == CE_None &&
-                         dataset->GetRasterBand(1)->RasterIO(
-                             GF_Write, 0, 0, bytes.cols(), bytes.rows(), samples.samples().data(),
-                             bytes.cols(), bytes.rows(), GDT_Byte, 0, 0, nullptr) == CE_None;
-    return written ? finish(std::move(dataset), *file, messages) : cannot_write(path, messages);
+    const bool has_voids = heightfield.void_count > 0;
+    return write_samples(
+        path, std::move(metres),
+        {GDT_Float32, has_voids ? std::optional<double>(void_metres) : std::nullopt},
+        [&](GDALDataset& dataset) {
+            const glm::dvec2 spacing = heightfield.spacing;
+            return heightfield.georeference
+                       ? place(dataset, *heightfield.georeference)
+                       : place_raster(dataset, {0.0, spacing.x, 0.0, 0.0, 0.0, -spacing.y},
+                                      nullptr);
+        });
 }
 
 } // namespace reljef::io

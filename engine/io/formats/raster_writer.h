@@ -11,6 +11,7 @@
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/geo/georeference.h"
+#include "engine/terrain/field/heightfield.h"
 
 namespace reljef::io {
 
@@ -36,5 +37,10 @@ Result<void> write_heights(const std::filesystem::path& path, const HeightRaster
 Result<void> write_bytes(const std::filesystem::path& path, const Grid<std::uint8_t>& bytes,
                          const std::optional<geo::Georeference>& georeference,
                          std::uint8_t in_void);
+
+/// The same of a heightfield's metres, whose voids stay voids. Without a georeference its spacing
+/// is that of the pixels.
+Result<void> write_heightfield(const std::filesystem::path& path,
+                               const terrain::Heightfield& heightfield);
 
 } // namespace reljef::io

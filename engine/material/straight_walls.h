@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "engine/core/grid.h"
+#include "engine/core/parallel_for.h"
+
+namespace reljef::material {
+
+/// Lower steps are no walls of buildings, metres.
+inline constexpr double wall_height = 2.5;
+
+struct StraightWalls {
+    Grid<float> heights;
+    std::size_t changed = 0; ///< samples
+};
+
+/// Heights whose walls look straight. In surface models a sample lies on a roof or on the ground,
+/// so walls follow rows and columns. Here samples at walls get heights between the two: by the
+/// distance to the wall, which is estimated from the share of roof among the samples around
+/// (weights of a normal distribution). Samples that do not touch a rise of `min_rise` metres
+/// keep their heights, as do voids, what is near them, posts of a sample, and walls with samples
+/// that lie halfway between roof and ground: they have been averaged before. Empty if it was
+/// stopped. Preconditions: `void_mask` is empty or as large as the heights; min_rise > 0.
+StraightWalls straight_walls(GridView<const float> heights, const Grid<std::uint8_t>& void_mask,
+                             double min_rise, const ParallelOptions& parallel = {});
+
+} // namespace reljef::material
