@@ -30,6 +30,23 @@ Error no_sample(double latitude, double longitude) {
                         latitude, longitude)};
 }
 
+// The value alone, computed as with derivatives: to the same bits.
+glm::dvec3 value_at(const Grid<glm::dvec3>& control, glm::dvec2 position) {
+    check(!control.empty(), "GeodeticMap without control points");
+    const Cubic across = cubic_at(position.x, control.cols());
+    const Cubic down = cubic_at(position.y, control.rows());
+    glm::dvec3 value{0.0};
+    for (std::size_t j = 0; j < 4; ++j) {
+        glm::dvec3 at{0.0};
+        for (std::size_t i = 0; i < 4; ++i) {
+            at += across.weights[i] *
+                  control(across.first + static_cast<int>(i), down.first + static_cast<int>(j));
+        }
+        value += down.weights[j] * at;
+    }
+    return value;
+}
+
 } // namespace
 
 GeodeticMap::GeodeticMap(const Grid<glm::dvec2>& control, glm::dvec2 first, glm::dvec2 step)
@@ -116,7 +133,8 @@ double WrappedRows::closed_row(double source_row) const {
 }
 
 glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
-    const glm::dvec3 value = base_ + evaluate({sample.x, rows_.source_row(sample.y)}).at;
+    const glm::dvec2 source(sample.x, rows_.source_row(sample.y));
+    const glm::dvec3 value = base_ + value_at(control_, (source - first_) / step_);
     if (kind_ == Kind::degrees) {
         return {std::clamp(value.x, -90.0, 90.0), value.y};
     }
@@ -126,7 +144,8 @@ glm::dvec2 GeodeticMap::latitude_longitude(glm::dvec2 sample) const {
 
 bool GeodeticMap::is_past_pole(glm::dvec2 sample) const {
     constexpr double rounding = 1e-9; // degrees
-    const glm::dvec3 value = base_ + evaluate({sample.x, rows_.source_row(sample.y)}).at;
+    const glm::dvec2 source(sample.x, rows_.source_row(sample.y));
+    const glm::dvec3 value = base_ + value_at(control_, (source - first_) / step_);
     return kind_ == Kind::degrees && std::abs(value.x) > 90.0 + rounding;
 }
 
