@@ -52,7 +52,8 @@ protected:
         choice_.streamed = true;
         choice_.index = session::IndexUse::made;
     }
-    void expect_kept(session::TerrainScene& scene, session::DeviceFrames& frames) const;
+    void expect_kept(session::TerrainScene& scene, session::DeviceFrames& frames,
+                     truth::StreamedTruth& truth) const;
 
     test::TemporaryFolder folder_;
     test::EnvironmentVariable cache_{"XDG_CACHE_HOME", (folder_.path() / "cache").string()};
@@ -60,18 +61,17 @@ protected:
     mutable int shown_ = 0; // pixels
 };
 
-void GlobeError::expect_kept(session::TerrainScene& scene, session::DeviceFrames& frames) const {
+void GlobeError::expect_kept(session::TerrainScene& scene, session::DeviceFrames& frames,
+                             truth::StreamedTruth& truth) const {
     frames.wait_for_tiles(scene.scene, {});
     const auto hits = frames.draw_hits(scene.scene, {});
     ASSERT_TRUE(hits) << hits.error().message;
     const view::FrameStats& stats = frames.frame_stats();
     EXPECT_EQ(stats.tiles_unproven, 0);
     ASSERT_TRUE(stats.kept_error);
-    auto truth = truth::StreamedTruth::create(scene.scene, memory_of_globe_truth);
-    ASSERT_TRUE(truth) << truth.error().message;
-    const auto errors = truth->reprojection_errors(scene.scene.camera(), *hits, {});
+    const auto errors = truth.reprojection_errors(scene.scene.camera(), *hits, {});
     ASSERT_TRUE(errors) << errors.error().message;
-    const auto exact = truth->draw_hits(scene.scene.camera(), globe_picture, {});
+    const auto exact = truth.draw_hits(scene.scene.camera(), globe_picture, {});
     ASSERT_TRUE(exact) << exact.error().message;
     const bool has_sky = std::any_of(exact->samples().begin(), exact->samples().end(),
                                      [](const Hit& hit) { return hit.is_sky(); });
@@ -102,6 +102,8 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
         session::Device::create({.context = session::BackendKind::osmesa, .size = globe_picture});
     ASSERT_TRUE(device) << device.error().message;
     session::DeviceFrames frames(std::move(*device), silent, {.memory_megabytes = 4});
+    auto truth = truth::StreamedTruth::create(scene->scene, memory_of_globe_truth);
+    ASSERT_TRUE(truth) << truth.error().message;
     const terrain::Placement& placement =
         scene->terrain->get<scene::TerrainNode>()->surface->placement();
     test::Chance chance(17);
@@ -124,7 +126,7 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
         camera.eye = *eye;
         camera.target = *target;
         camera.up = placement.north(*eye);
-        expect_kept(*scene, frames);
+        expect_kept(*scene, frames, *truth);
     }
     EXPECT_GT(shown_, views * globe_picture.x * globe_picture.y / 2);
 }
