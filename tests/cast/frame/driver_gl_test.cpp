@@ -21,6 +21,7 @@
 #include "tests/render/made_stream.h"
 #include "tests/scene/streaming/streamed_samples.h"
 #include "tests/session/made_session.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef::cast {
@@ -313,7 +314,7 @@ TEST(CastDriver, StatesWhatFloatsRoundBesideSteepGround) {
     stage.terrain->get<scene::TerrainNode>()->material.technique = {scene::Exact{}};
     Driver driver = test::must(Driver::create({.size = small_picture}));
     double largest = 0.0;
-    for (int i = 0; i < 120; ++i) {
+    for (int i = 0; i < test::rounds(120, 30); ++i) {
         const glm::dvec3 scale = i % 2 == 0 ? glm::dvec3(1.0) : glm::dvec3(30.0, 0.5, 7.0);
         stage.terrain->set_parent_from_local(glm::scale(glm::dmat4(1.0), scale));
         const glm::dvec2 below(chance.between(-4.9, 4.9), chance.between(-4.9, 4.9));

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/streaming/streamed_samples.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::scene {
@@ -119,7 +120,7 @@ TEST_P(ContactsOfSources, IsTheHighestOfAllPlacesBelow) {
     std::uniform_real_distribution<double> x(-99.0, 99.0);
     std::uniform_real_distribution<double> y(-130.0, 130.0);
     for (const Ellipsoid shape : {Ellipsoid{0.4, 0.9}, {3.0, 3.0}, {0.5, 200.0}, {12.0, 1.0}}) {
-        for (int i = 0; i < 25; ++i) {
+        for (int i = 0; i < test::rounds(25, 8); ++i) {
             compare_with_many_places(node, shape, {x(random), y(random)});
         }
     }

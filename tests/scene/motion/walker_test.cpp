@@ -11,6 +11,7 @@
 
 #include "engine/scene/motion/camera_gestures.h"
 #include "engine/scene/motion/free_flight.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/made_heightfield.h"
 
 namespace reljef::scene {
@@ -136,7 +137,7 @@ TEST(Walker, NeverEndsInTheGround) {
     for (const Ellipsoid shape : {Ellipsoid{0.4, 0.9}, {2.0, 1.0}}) {
         const WalkingBody body{.shape = shape};
         Walker walker{{0.0, 0.0, 40.0}};
-        for (int i = 0; i < 1000; ++i) {
+        for (int i = 0; i < test::rounds(1000, 250); ++i) {
             const glm::dvec3 way =
                 std::pow(4.0, any(random)) * glm::dvec3(any(random), any(random), any(random));
             const glm::dvec2 to = glm::dvec2(walker.center + way);

@@ -416,7 +416,7 @@ void expect_means(const TileTree& tree, const Proven& proven) {
 
 TEST(TileError, HoldsOnGlobesWhichStayClosedAtAllLevels) {
     test::Chance chance(90);
-    for (int n = 0; n < 60; ++n) {
+    for (int n = 0; n < test::rounds(60, 12); ++n) {
         const geo::GlobalWrap wrap = made_wrap(chance);
         const int around = n % 20 == 0 ? chance.whole(1025, 2200) : chance.whole(4, 400);
         const Grid<float> samples = made_globe(chance, {around + 1, chance.whole(2, 300)}, wrap);
