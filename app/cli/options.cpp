@@ -429,6 +429,9 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                     "colours by height: relief, natural, swiss, desert, clay, stretched, or a "
                     "colour file of gdaldem color-relief (relief)")
         ->type_name("NAME|FILE");
+    add_parsed(command, "--imagery-share", choice.imagery_share,
+               number_in("--imagery-share", 0.0, 1.0),
+               "share of imagery in the colours; the rest are those by height (1)", "S");
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::max_exaggeration, true),
                "factor for the heights, in the picture only (1)", "X");

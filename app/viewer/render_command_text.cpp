@@ -98,6 +98,10 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     } else if (start.source.ramp) {
         command.add("--ramp", *start.source.ramp);
     }
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    if (terrain.surface->imagery_share() < 1.0) {
+        command.add("--imagery-share", fmt::format("{}", terrain.surface->imagery_share()));
+    }
     command.add("--turbidity", fmt::format("{}", scene.surroundings.turbidity));
     if (scene.surroundings.visibility) {
         command.add("--visibility", fmt::format("{}", *scene.surroundings.visibility));
@@ -105,7 +109,6 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     if (start.scene.base) {
         command.add("--base", session::to_string(*start.scene.base));
     }
-    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     command.add("--grain", fmt::format("{}", terrain.grain));
     if (terrain.contours > 0.0) {
         command.add("--contours", fmt::format("{}", terrain.contours));

@@ -109,6 +109,7 @@ public:
     Result<void> act(const SetContours& set);
     Result<void> act(const SetVisibility& set);
     Result<void> act(const SetRamp& set);
+    Result<void> act(const SetImageryShare& set);
     Result<void> act(const SetExaggeration& set);
     Result<void> act(const SetComparison& set) { return comparison_.set(set.with); }
     Result<void> act(const SetOtherTechnique& set) { return comparison_.choose(set.technique); }
@@ -134,6 +135,7 @@ public:
     Result<void> request(const ChooseTechnique& choice);
     void set_sun(const SetSun& sun);
     [[nodiscard]] const terrain::ColorRamp& ramp() const { return surface_switch_.ramp(); }
+    [[nodiscard]] double imagery_share() const { return surface_switch_.imagery_share(); }
     /// See SurfaceSwitch::request(). The eye stays unless the ground rises above it.
     void refine(std::shared_ptr<const terrain::Terrain> finer) {
         surface_switch_.request(std::move(finer));

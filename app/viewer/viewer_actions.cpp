@@ -338,7 +338,15 @@ Result<void> Viewer::act(const SetRamp& set) {
     if (!ramp) {
         return Error{fmt::format("colours: '{}' found, a built-in ramp was expected", set.name)};
     }
-    surface_switch_.request(std::move(*ramp));
+    surface_switch_.request(std::move(*ramp), surface_switch_.imagery_share());
+    return {};
+}
+
+Result<void> Viewer::act(const SetImageryShare& set) {
+    if (const std::string obstacle = exaggeration_obstacle(); !obstacle.empty()) {
+        return Error{obstacle};
+    }
+    surface_switch_.request(surface_switch_.ramp(), set.share);
     return {};
 }
 

@@ -46,6 +46,9 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
             appearance.ramps.emplace_back(name);
         }
     }
+    if (scene.models.empty() && !terrain_of(scene).surface->terrain().color.empty()) {
+        appearance.imagery_share = viewer.imagery_share();
+    }
     appearance.grain = static_cast<double>(terrain_of(scene).grain);
     appearance.contours = terrain_of(scene).contours;
     appearance.light = viewer.light();

@@ -49,10 +49,11 @@ struct SourceOptions {
     /// The form of the city `urban`; absent: the scene file's, else heights.
     std::optional<building::CityForm> buildings;
     std::optional<building::CityWalls> walls; ///< of its heights; absent: the scene file's
-    std::optional<double> exaggeration; ///< absent: the scene file's, else 1
+    std::optional<double> exaggeration;       ///< absent: the scene file's, else 1
     /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else
     /// "relief".
     std::optional<std::string> ramp;
+    std::optional<double> imagery_share; ///< [0, 1]; absent: the scene file's, else 1
     /// Absent: the scene file's, else the ellipsoid for georeferenced terrain.
     std::optional<terrain::PlacementKind> placement;
     std::optional<geo::GeodeticArea> area; ///< absent: the scene file's, else all

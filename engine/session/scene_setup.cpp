@@ -66,6 +66,7 @@ Result<scene::TerrainOptions> terrain_options(const SourceOptions& choice, const
         return ramp.error();
     }
     options.ramp = std::move(*ramp);
+    options.imagery_share = choice.imagery_share.value_or(description.imagery_share);
     options.exaggeration = choice.exaggeration.value_or(description.exaggeration);
     options.placement = choice.placement;
     if (!options.placement && description.placement) {

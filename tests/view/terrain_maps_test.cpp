@@ -37,6 +37,28 @@ TEST(LitMap, WithoutASunItIsTheImageryItself) {
     EXPECT_EQ(lit_map(*made, std::nullopt, 4096), color);
 }
 
+TEST(LitMap, MixesImageryWithTheColoursByHeight) {
+    Image color(9, 9, Rgba8{200, 40, 10, 255});
+    color(0, 0) = {200, 40, 10, 0}; // no imagery
+    const auto made = [&](double share) {
+        auto terrain = std::make_shared<const terrain::Terrain>(terrain::Terrain{
+            "made", test::plane_heightfield(Grid<float>(9, 9, 700.0F)), color, {}, {}});
+        scene::TerrainOptions options;
+        options.imagery_share = share;
+        return lit_map(*scene::TerrainSurface::create(terrain, options), std::nullopt, 4096);
+    };
+    const Rgba8 tint = made(0.0)(4, 4);
+    EXPECT_EQ(made(0.0)(0, 0), tint);
+    EXPECT_EQ(made(1.0)(4, 4), (Rgba8{200, 40, 10, 255}));
+    for (const double share : {0.1, 0.5, 0.75}) {
+        const Image mixed = made(share);
+        EXPECT_EQ(mixed(0, 0), tint);
+        EXPECT_NEAR(mixed(4, 4).r, glm::mix(static_cast<double>(tint.r), 200.0, share), 1.0);
+        EXPECT_NEAR(mixed(4, 4).b, glm::mix(static_cast<double>(tint.b), 10.0, share), 1.0);
+        EXPECT_EQ(mixed(4, 4).a, 255);
+    }
+}
+
 TEST(LitMap, OfAPlaneIsLambertsLaw) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> slopes(-2.0, 2.0);

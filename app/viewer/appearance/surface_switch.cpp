@@ -7,15 +7,17 @@
 namespace reljef::app {
 namespace {
 
+// `finer`: null: the terrain that is shown.
 Result<scene::TerrainSurface> surface_of(const scene::TerrainSurface& shown,
                                          std::shared_ptr<const terrain::Terrain> finer,
-                                         double factor, const terrain::ColorRamp& ramp) {
+                                         const scene::TerrainOptions& options) {
     if (finer != nullptr) {
-        return scene::TerrainSurface::create(std::move(finer),
-                                             {shown.placement().kind(), factor, ramp});
+        return scene::TerrainSurface::create(std::move(finer), options);
     }
-    auto made = shown.exaggerated(factor);
-    return made && ramp != shown.ramp() ? made->colored(ramp) : std::move(made);
+    auto made = shown.exaggerated(options.exaggeration);
+    const bool is_same =
+        options.ramp == shown.ramp() && options.imagery_share == shown.imagery_share();
+    return made && !is_same ? made->colored(options.ramp, options.imagery_share) : std::move(made);
 }
 
 } // namespace
@@ -44,6 +46,13 @@ const terrain::ColorRamp& SurfaceSwitch::ramp() const {
     return work_ ? preparing_.ramp : surface().ramp();
 }
 
+double SurfaceSwitch::imagery_share() const {
+    if (next_) {
+        return next_->imagery_share;
+    }
+    return work_ ? preparing_.imagery_share : surface().imagery_share();
+}
+
 bool SurfaceSwitch::update(const scene::Technique& technique, const scene::Light& light) {
     if (work_ && work_->is_done()) {
         return show();
@@ -66,7 +75,9 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                    shape = preparing_, threads = threads_,
                    this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
-        auto changed = surface_of(*shown.surface, shape.finer, shape.factor, shape.ramp);
+        auto changed = surface_of(
+            *shown.surface, shape.finer,
+            {shown.surface->placement().kind(), shape.factor, shape.ramp, shape.imagery_share});
         task = nullptr;
         if (!changed) {
             return changed.error();

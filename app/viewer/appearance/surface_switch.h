@@ -25,12 +25,14 @@ public:
     [[nodiscard]] std::string obstacle() const;
     /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
     /// is in (0, terrain::max_exaggeration].
-    void request(double factor) { next_ = Shape{factor, ramp(), finer()}; }
-    /// The same with other colours.
-    void request(terrain::ColorRamp ramp) { next_ = Shape{factor(), std::move(ramp), finer()}; }
+    void request(double factor) { next_ = Shape{factor, ramp(), imagery_share(), finer()}; }
+    /// The same with other colours. `imagery_share`: scene::TerrainOptions.
+    void request(terrain::ColorRamp ramp, double imagery_share) {
+        next_ = Shape{factor(), std::move(ramp), imagery_share, finer()};
+    }
     /// The same with finer samples of the same ground.
     void request(std::shared_ptr<const terrain::Terrain> finer) {
-        next_ = Shape{factor(), ramp(), std::move(finer)};
+        next_ = Shape{factor(), ramp(), imagery_share(), std::move(finer)};
     }
     /// Begins and ends the work, for a scene with this technique and light. Returns whether the
     /// scene changed.
@@ -40,6 +42,7 @@ public:
     [[nodiscard]] double factor() const;
     /// The requested colours, else the current ones.
     [[nodiscard]] const terrain::ColorRamp& ramp() const;
+    [[nodiscard]] double imagery_share() const;
     [[nodiscard]] bool is_preparing() const { return work_.has_value() || next_.has_value(); }
     /// The current task; its label is empty if there is none.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const { return log_.progress(); }
@@ -53,6 +56,7 @@ private:
     struct Shape {
         double factor = 1.0;
         terrain::ColorRamp ramp;
+        double imagery_share = 1.0;
         std::shared_ptr<const terrain::Terrain> finer; // null: the terrain that is shown
     };
     struct Made {

@@ -103,6 +103,19 @@ PanelActions draw_contours(const AppearanceContent& appearance) {
     return actions;
 }
 
+PanelActions draw_imagery(const AppearanceContent& appearance) {
+    if (!appearance.imagery_share) {
+        return {};
+    }
+    double share = *appearance.imagery_share;
+    ImGui::BeginDisabled(!appearance.fixed_exaggeration.empty());
+    const bool is_moved = draw_slider("Imagery over the colours", share, 0.0, 1.0, "{:.2f}");
+    ImGui::EndDisabled();
+    constexpr double shown_parts = 100.0; // of 1
+    return is_moved ? PanelActions{SetImageryShare{std::round(share * shown_parts) / shown_parts}}
+                    : PanelActions();
+}
+
 PanelActions draw_ramps(const AppearanceContent& appearance) {
     PanelActions actions;
     if (appearance.ramp.empty()) {
@@ -215,6 +228,7 @@ PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fon
     actions += draw_air(appearance);
     section(fonts.heading, "Picture");
     actions += draw_ramps(appearance);
+    actions += draw_imagery(appearance);
     actions += draw_contours(appearance);
     actions += draw_grain(appearance);
     actions += draw_exaggeration(appearance);

@@ -57,6 +57,11 @@ struct SetRamp {
     std::string name; ///< of a built-in ramp
 };
 
+/// The rest of the colours are those of heights.
+struct SetImageryShare {
+    double share = 1.0; ///< [0, 1]
+};
+
 struct SetExaggeration {
     double factor = 1.0; ///< (0, terrain::max_exaggeration]
 };
@@ -127,10 +132,10 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
-                 SetGrain, SetContours, SetRamp, SetExaggeration, SetSamples, PressKey, CopyCommand,
-                 SetComparison, SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey,
-                 MovePathKey, RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo,
-                 ClearPoints>;
+                 SetGrain, SetContours, SetRamp, SetImageryShare, SetExaggeration, SetSamples,
+                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques,
+                 SeekPath, InsertPathKey, MovePathKey, RetimePathKey, RemovePathKey,
+                 SetPathDuration, CancelVideo, ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

@@ -56,6 +56,7 @@ struct AppearanceContent {
     double true_north = 0.0;               ///< there, degrees clockwise from the scene's north
     std::string ramp;                      ///< requested; empty: heights have no colours
     std::vector<std::string> ramps;        ///< the built-in ones
+    std::optional<double> imagery_share;   ///< requested; empty: the terrain has no imagery
     double grain = 0.0;                    ///< TerrainNode::grain
     double contours = 0.0;                 ///< TerrainNode::contours
     double exaggeration = 1.0;             ///< requested

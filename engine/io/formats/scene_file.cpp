@@ -30,6 +30,7 @@ constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_w
 constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
 constexpr NumberRange turbidities{1.0, 10.0, false};
+constexpr NumberRange shares{0.0, 1.0, false};
 constexpr NumberRange grains{0.0, 2.0, false};
 constexpr NumberRange contour_intervals{0.0, 1e6, false};
 constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
@@ -107,6 +108,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
         scene.placement = placement;
     }
     table.read("ramp", scene.ramp);
+    table.read("imagery_share", scene.imagery_share, shares);
     if (!scene.ramp.empty() && !terrain::named_ramp(scene.ramp)) {
         scene.ramp = (folder / scene.ramp).string();
     }

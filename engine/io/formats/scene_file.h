@@ -77,6 +77,7 @@ struct SceneDescription {
     double contours = 0.0;       ///< metres of height from one line to the next; 0: none
     /// Colours by height: a built-in ramp, or a colour file relative to the scene file.
     std::string ramp;
+    double imagery_share = 1.0; ///< of the colours, [0, 1]; the rest are the ramp's
 
     // [area]: part of a folder to use
     std::optional<geo::GeodeticArea> area;

@@ -44,12 +44,15 @@ Grid<std::uint8_t> visibility_of_sun(const TerrainSurface& surface, const Terrai
 
 Image albedo_map(const TerrainSurface& surface) {
     const terrain::Terrain& terrain = surface.terrain();
-    const bool opaque = !terrain.color.empty() &&
+    const double share = surface.imagery_share();
+    const bool opaque = share == 1.0 && !terrain.color.empty() &&
                         std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
                                     [](Rgba8 pixel) { return pixel.a == 255; });
-    return opaque ? terrain.color
-                  : terrain::composite(terrain.color, terrain::hypsometric_tint(terrain.heightfield,
-                                                                                surface.ramp()));
+    return opaque
+               ? terrain.color
+               : terrain::composite(terrain.color,
+                                    terrain::hypsometric_tint(terrain.heightfield, surface.ramp()),
+                                    share);
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)

@@ -22,9 +22,9 @@ std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::TileCells& cell
 } // namespace
 
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
-                               terrain::Placement placement, terrain::ColorRamp ramp)
-    : terrain_(std::move(terrain)), placement_(std::move(placement)), ramp_(std::move(ramp)),
-      pyramid_(terrain_->heightfield.heights.view()) {
+                               terrain::Placement placement, const TerrainOptions& options)
+    : terrain_(std::move(terrain)), placement_(std::move(placement)), ramp_(options.ramp),
+      imagery_share_(options.imagery_share), pyramid_(terrain_->heightfield.heights.view()) {
     const terrain::Heightfield& heightfield = terrain_->heightfield;
     const double flat = terrain::reference_height(heightfield);
     const glm::ivec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
@@ -54,18 +54,22 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
     if (!placement) {
         return placement.error();
     }
-    return TerrainSurface(std::move(terrain), std::move(*placement), options.ramp);
+    return TerrainSurface(std::move(terrain), std::move(*placement), options);
 }
 
 Result<TerrainSurface> TerrainSurface::exaggerated(double factor) const {
-    return create(terrain_,
-                  {.placement = placement_.kind(), .exaggeration = factor, .ramp = ramp_});
+    return create(terrain_, {.placement = placement_.kind(),
+                             .exaggeration = factor,
+                             .ramp = ramp_,
+                             .imagery_share = imagery_share_});
 }
 
-Result<TerrainSurface> TerrainSurface::colored(terrain::ColorRamp ramp) const {
+Result<TerrainSurface> TerrainSurface::colored(terrain::ColorRamp ramp,
+                                               double imagery_share) const {
     return create(terrain_, {.placement = placement_.kind(),
                              .exaggeration = placement_.exaggeration(),
-                             .ramp = std::move(ramp)});
+                             .ramp = std::move(ramp),
+                             .imagery_share = imagery_share});
 }
 
 std::optional<double> TerrainSurface::height_at(double x, double y) const {

@@ -20,6 +20,7 @@ struct TerrainOptions {
     std::optional<terrain::PlacementKind> placement;
     double exaggeration = 1.0;
     terrain::ColorRamp ramp = *terrain::named_ramp(terrain::default_ramp); ///< where no image lies
+    double imagery_share = 1.0; ///< of the terrain's colours, [0, 1]; the rest are the ramp's
 };
 
 /// A terrain in a node's local frame (metres, x east, y north, z up), for drawing and queries. The
@@ -31,8 +32,9 @@ public:
 
     /// The same terrain with another exaggeration. Fails if the factor is out of range.
     [[nodiscard]] Result<TerrainSurface> exaggerated(double factor) const;
-    /// The same terrain with other colours where no image lies.
-    [[nodiscard]] Result<TerrainSurface> colored(terrain::ColorRamp ramp) const;
+    /// The same terrain with other colours: TerrainOptions.
+    [[nodiscard]] Result<TerrainSurface> colored(terrain::ColorRamp ramp,
+                                                 double imagery_share) const;
 
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
@@ -40,6 +42,7 @@ public:
     [[nodiscard]] bool has_all_samples() const { return heightfield().reduction <= 1.0; }
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
     [[nodiscard]] const terrain::ColorRamp& ramp() const { return ramp_; }
+    [[nodiscard]] double imagery_share() const { return imagery_share_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
 
     /// Row after row. They borrow the samples of this surface.
@@ -59,11 +62,12 @@ public:
 
 private:
     TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain, terrain::Placement placement,
-                   terrain::ColorRamp ramp);
+                   const TerrainOptions& options);
 
     std::shared_ptr<const terrain::Terrain> terrain_;
     terrain::Placement placement_;
     terrain::ColorRamp ramp_;
+    double imagery_share_;
     terrain::MinMaxPyramid pyramid_;
     std::vector<std::shared_ptr<const TerrainTile>> tiles_;
     std::vector<Box> flat_bounds_;

@@ -338,7 +338,11 @@ Rgba8 TileBuilder::color_at(glm::dvec2 overview_sample, Rgba8 tint) const {
                              glm::dvec2(picture.cols() - 1, picture.rows() - 1);
     const Rgba8 nearest =
         picture(static_cast<int>(std::lround(texel.x)), static_cast<int>(std::lround(texel.y)));
-    return nearest.a < 128 ? tint : rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8));
+    return nearest.a < 128
+               ? tint
+               : terrain::mixed(tint,
+                                rgba8_from_linear(bilinear(picture, texel, linear_from_rgba8)),
+                                static_cast<float>(overview_->imagery_share()));
 }
 
 bool TileBuilder::is_lake(glm::dvec2 overview_sample) const {
@@ -406,7 +410,8 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
-    const bool with_overview = picture.texels.empty() || !picture.whole;
+    const double share = overview_->imagery_share();
+    const bool with_overview = picture.texels.empty() || (!picture.whole && share == 1.0);
     TerrainTile made = make_part(tile, {0, 0}, std::move(heights), with_overview);
     const Grid<float>& placed = made.heightfield.heights;
     made.range = terrain::height_range(placed, {});
@@ -420,7 +425,7 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
         const glm::ivec2 size = picture_size(tile);
         check(picture.texels.cols() == size.x && picture.texels.rows() == size.y,
               "a picture of a tile's picture_size was expected");
-        made.albedo = terrain::composite(picture.texels, made.albedo);
+        made.albedo = terrain::composite(picture.texels, made.albedo, share);
     }
     return made;
 }

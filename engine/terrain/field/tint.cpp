@@ -168,18 +168,22 @@ Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp) {
     return image;
 }
 
-Image composite(const Image& color, const Image& beneath) {
+Rgba8 mixed(Rgba8 under, Rgba8 over, float share) {
+    return rgba8(glm::mix(vector_from(under), vector_from(over), share));
+}
+
+Image composite(const Image& color, const Image& beneath, double share) {
     if (color.empty()) {
         return beneath;
     }
     Image result = color;
+    const float part = static_cast<float>(share) / 255.0F;
     for (int row = 0; row < result.rows(); ++row) {
         for (int col = 0; col < result.cols(); ++col) {
             Rgba8& pixel = result(col, row);
-            if (pixel.a < 255) {
-                const glm::vec3 under = vector_from(nearest(beneath, color, col, row));
-                pixel = rgba8(
-                    glm::mix(under, vector_from(pixel), static_cast<float>(pixel.a) / 255.0F));
+            if (pixel.a < 255 || share < 1.0) {
+                pixel = mixed(nearest(beneath, color, col, row), pixel,
+                              static_cast<float>(pixel.a) * part);
             }
         }
     }

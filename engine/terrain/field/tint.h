@@ -34,8 +34,11 @@ inline constexpr int min_lake_samples = 60;
 /// HeightTint, water and voids for each sample.
 Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp);
 
-/// Blends `color` over `beneath`. The result is opaque and has the size of `color`. If `color` is
-/// empty, it is `beneath`.
-Image composite(const Image& color, const Image& beneath);
+/// Opaque; mixes encoded values. `share`: of `over`, [0, 1].
+Rgba8 mixed(Rgba8 under, Rgba8 over, float share);
+
+/// Blends `color` over `beneath`, with this share of its alpha, [0, 1]. The result is opaque and
+/// has the size of `color`. If `color` is empty, it is `beneath`.
+Image composite(const Image& color, const Image& beneath, double share = 1.0);
 
 } // namespace reljef::terrain

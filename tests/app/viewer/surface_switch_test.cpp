@@ -126,6 +126,18 @@ TEST_F(ExaggerationTest, TheLastOfManySunsIsShown) {
     EXPECT_EQ(viewer.light(), light);
 }
 
+TEST_F(ExaggerationTest, ImageryIsBlendedAndStaysWithOtherChanges) {
+    ASSERT_TRUE(viewer.act(SetImageryShare{0.25}));
+    EXPECT_EQ(viewer.imagery_share(), 0.25);
+    viewer.set_exaggeration(2.0);
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().imagery_share(), 0.25);
+    ASSERT_TRUE(viewer.act(SetRamp{"swiss"}));
+    wait_for_maps(viewer);
+    EXPECT_EQ(surface().imagery_share(), 0.25);
+    EXPECT_EQ(surface().ramp().name, "swiss");
+}
+
 TEST_F(ExaggerationTest, ColoursChangeAndTheHeightsStay) {
     const double height = *surface().height_at(0.0, 0.0);
     ASSERT_TRUE(viewer.act(SetRamp{"swiss"}));

@@ -20,6 +20,14 @@ std::string error_of(const std::string& text) {
     return scene ? "" : scene.error().message;
 }
 
+TEST(SceneFile, ShareOfImageryIsAShare) {
+    for (const char* const share : {"-0.1", "1.5", "nan"}) {
+        EXPECT_THAT(
+            error_of(std::string("[terrain]\nheights = \"a.tif\"\nimagery_share = ") + share),
+            HasSubstr("imagery_share"));
+    }
+}
+
 TEST(SceneFile, WallsAreOfTheCityOnly) {
     const auto stepped = parse("[terrain]\ngenerator = \"urban\"\nwalls = \"stepped\"\n");
     ASSERT_TRUE(stepped) << stepped.error().message;
@@ -47,6 +55,7 @@ placement = "ellipsoid"
 ramp = "colors.txt"
 grain = 0.5
 contours = 20
+imagery_share = 0.4
 [sun]
 azimuth = 200
 altitude = 12.5
@@ -67,6 +76,7 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->height_scale, 0.5);
     EXPECT_EQ(scene->height_offset, -10.0);
     EXPECT_EQ(scene->exaggeration, 1.5);
+    EXPECT_EQ(scene->imagery_share, 0.4);
     EXPECT_EQ(scene->placement, "ellipsoid");
     EXPECT_EQ(scene->sun_azimuth, 200.0);
     EXPECT_EQ(scene->sun_altitude, 12.5);
