@@ -80,6 +80,34 @@ TEST_F(StreamedImagery, of_a_folder_shows_no_gap_where_two_images_meet) {
     EXPECT_LE(other, 3 * picture.rows()); // those that lie across the edge
 }
 
+TEST_F(StreamedImagery, is_mixed_with_the_colours_by_height) {
+    const std::vector<std::string> imagery{"--imagery", path("images")};
+    const auto drawn = [&](const std::string& name, std::vector<std::string> more) {
+        const auto result = render_down(name, std::move(more));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return picture_of(name);
+    };
+    const auto mixed = [&](const char* share) {
+        auto more = imagery;
+        more.insert(more.end(), {"--imagery-share", share});
+        return drawn("mixed.png", more);
+    };
+    const Image full = drawn("full.png", imagery);
+    const Image plain = drawn("plain.png", {});
+    EXPECT_EQ(mixed("1"), full);
+    EXPECT_EQ(mixed("0"), plain);
+    const Image half = mixed("0.5");
+    for (const glm::ivec2 at : {glm::ivec2(2, 60), glm::ivec2(157, 60)}) {
+        const auto between = [&](std::uint8_t Rgba8::*channel) {
+            const int of_half = half(at.x, at.y).*channel;
+            const int low = std::min(full(at.x, at.y).*channel, plain(at.x, at.y).*channel);
+            const int high = std::max(full(at.x, at.y).*channel, plain(at.x, at.y).*channel);
+            return high - low < 20 || (of_half > low + 4 && of_half < high - 4);
+        };
+        EXPECT_TRUE(between(&Rgba8::r) && between(&Rgba8::g) && between(&Rgba8::b));
+    }
+}
+
 TEST_F(StreamedImagery, is_a_list_in_a_scene_file) {
     folder_.write("scene.toml", "[terrain]\nheights = \"tiles\"\n"
                                 "imagery = [\"images/west.vrt\", \"images/east.vrt\"]\n");
