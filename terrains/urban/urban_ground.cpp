@@ -222,19 +222,23 @@ private:
 
     void river(std::size_t i, const Arm& arm, float across) {
         const float water = arm.street->water;
+        const bool is_straight = tile.walls == building::CityWalls::straight;
+        // Of the wall along the quay; narrower, its top would be jagged.
+        const float width = is_straight ? std::max(0.8F, 2.5F * tile.spacing) : 0.8F;
         if (across < water) {
             tile.color[i] = surface_color(Surface::water, tile, i);
             const float deep = std::min(1.0F, (water - across) / 3.0F);
             tile.color[i] *= 1.12F - 0.12F * deep + 0.02F * tile.fine[i] * deep;
             tile.height[i] = -3.0F;
         } else {
-            tile.color[i] =
-                surface_color(Surface::paving, tile, i) * (across < water + 0.8F ? 1.14F : 0.96F);
-            tile.height[i] = across < water + 0.8F ? 0.9F : sidewalk_height;
+            const bool is_wall = across < water + width;
+            tile.color[i] = surface_color(Surface::paving, tile, i) * (is_wall ? 1.14F : 0.96F);
+            tile.height[i] = is_wall ? 0.9F : sidewalk_height;
         }
-        if (tile.walls == building::CityWalls::straight) {
+        if (is_straight) {
             const float quay = share_inside(arm.middle.normal, across - water, tile.spacing);
-            const float bank = share_inside(arm.middle.normal, across - water - 0.8F, tile.spacing);
+            const float bank =
+                share_inside(arm.middle.normal, across - water - width, tile.spacing);
             tile.height[i] = -3.0F + 3.9F * quay + (sidewalk_height - 0.9F) * bank;
         }
     }

@@ -169,16 +169,20 @@ void paint_building(Tile& tile, const Warp& warp, const Building& building, glm:
 
 void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shift) {
     const bool well = prism.kind == PrismKind::well;
-    for_each_sample(tile, warp, bounds_of(prism.frame, shift), [&](std::size_t i) {
-        const glm::vec2 from = tile.place[i] - shift - prism.frame.center;
-        const glm::vec2 local{dot(prism.frame.axis, from), dot(turned(prism.frame.axis), from)};
-        const glm::vec2 margin = prism.frame.half - glm::abs(local);
+    const bool is_straight = tile.walls == building::CityWalls::straight;
+    Frame frame = prism.frame;
+    if (is_straight && prism.kind == PrismKind::hedge) {
+        frame.half.y = std::max(frame.half.y, 1.5F * tile.spacing); // else its top would be jagged
+    }
+    const glm::vec2 axis = frame.axis;
+    for_each_sample(tile, warp, bounds_of(frame, shift), [&](std::size_t i) {
+        const glm::vec2 from = tile.place[i] - shift - frame.center;
+        const glm::vec2 local{dot(axis, from), dot(turned(axis), from)};
+        const glm::vec2 margin = frame.half - glm::abs(local);
         const float inside = std::min(margin.x, margin.y);
         const float tint = coverage(tile, inside);
-        const glm::vec2 axis = prism.frame.axis;
-        const float share = tile.walls == building::CityWalls::straight
-                                ? share_inside(axis, margin.x, tile.spacing) *
-                                      share_inside(axis, margin.y, tile.spacing)
+        const float share = is_straight ? share_inside(axis, margin.x, tile.spacing) *
+                                              share_inside(axis, margin.y, tile.spacing)
                             : inside > 0.0F ? 1.0F
                                             : 0.0F;
         if (std::max(tint, share) <= 0.0F || (tile.height[i] >= prism.top) != well) {
