@@ -13,8 +13,8 @@ namespace reljef::render {
 /// feature_overlay for a terrain that shows grain, façades or contours, else 0.
 std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain);
 
-/// Sets the grain, façades and contours of a terrain, if it has some. Fails without memory. `space`: of
-/// a relief; null: none.
+/// Sets the grain, façades and contours of a terrain, if it has some. Fails without memory.
+/// `space`: of a relief; null: none.
 Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& terrain,
                          const glm::dmat4& world_from_local, const ReliefSpace* space = nullptr);
 
