@@ -15,7 +15,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/io/image/surface_maps.h"
 #include "engine/material/straight_walls.h"
-#include "engine/session/straight_heights.h"
+#include "engine/session/measuring/straight_heights.h"
 #include "engine/session/terrain_source.h"
 
 namespace reljef::app {

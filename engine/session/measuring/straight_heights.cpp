@@ -1,4 +1,4 @@
-#include "engine/session/straight_heights.h"
+#include "engine/session/measuring/straight_heights.h"
 
 #include <algorithm>
 #include <utility>
