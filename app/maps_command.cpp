@@ -13,6 +13,7 @@
 #include "app/cli/parsed_option.h"
 #include "app/commands.h"
 #include "engine/core/atomic_file.h"
+#include "engine/io/formats/scene_file.h"
 #include "engine/io/image/surface_maps.h"
 #include "engine/material/straight_walls.h"
 #include "engine/session/measuring/straight_heights.h"
@@ -155,8 +156,15 @@ Result<void> make_maps(const MapChoice& choice, const cli::Interrupt& interrupt)
 
 Result<void> make_straight(const MapChoice& choice, const cli::Interrupt& interrupt) {
     const cli::NamedFile output{"--straight-walls", choice.straight.output};
-    const cli::NamedFile input{"PICTURE", choice.picture};
-    cli::check_distinct({&output, 1}, {&input, 1});
+    const auto description = session::describe(choice.picture);
+    if (!description) {
+        return description.error();
+    }
+    std::vector<cli::NamedFile> inputs{{"PICTURE", choice.picture}};
+    for (const auto& [what, file] : io::named_files(*description)) {
+        inputs.push_back({what, file});
+    }
+    cli::check_distinct({&output, 1}, inputs);
     if (auto good = cli::check_writable({&output, 1}); !good) {
         return good;
     }
@@ -176,8 +184,9 @@ Result<void> make_straight(const MapChoice& choice, const cli::Interrupt& interr
     if (!changed) {
         return changed.error();
     }
-    log.note(fmt::format("{} of {} samples at walls have other heights", *changed,
-                         terrain->terrain.heightfield.heights.size()));
+    log.note(fmt::format("{} of {} samples changed, all at walls, by at most {:.2f} m",
+                         changed->changed, terrain->terrain.heightfield.heights.size(),
+                         changed->largest));
     return session::report_errors(choice.picture, terrain->terrain.errors.size());
 }
 
@@ -249,8 +258,8 @@ void expect_used(const CLI::App& arguments, const MapChoice& choice) {
 void add_straight_options(CLI::App& arguments, StraightChoice& choice) {
     arguments
         .add_option("--straight-walls", choice.output,
-                    "GeoTIFF of a terrain, named instead of the picture, whose walls look "
-                    "straight: samples at walls get heights between roof and ground")
+                    "GeoTIFF of the terrain with walls that look straight: samples at walls get "
+                    "heights between roof and ground")
         ->type_name("FILE");
     cli::add_parsed(
         arguments, "--wall-height", choice.wall_height,
@@ -264,7 +273,10 @@ void add_straight_options(CLI::App& arguments, StraightChoice& choice) {
 }
 
 void add_map_options(CLI::App& arguments, MapChoice& choice) {
-    arguments.add_option("PICTURE", choice.picture, "picture to make maps from")->required();
+    arguments
+        .add_option("PICTURE", choice.picture,
+                    "picture to make maps from; for --straight-walls a terrain")
+        ->required();
     cli::add_parsed(arguments, "--from", choice.making.input,
                     cli::word_of<MapInput>("--from", {{"heights", MapInput::heights},
                                                       {"normals", MapInput::normals},

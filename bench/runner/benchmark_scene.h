@@ -50,7 +50,7 @@ struct SceneChoice {
     friend bool operator==(const SceneChoice&, const SceneChoice&) = default;
 };
 
-/// As session::open_terrain(), but the built-in city has stepped walls: a harder surface than
+/// As session::open_terrain(), but the built-in `urban` has stepped walls: a harder surface than
 /// straight ones, without the time that façades take.
 Result<session::TerrainSource> open_measured(const session::SourceOptions& terrain,
                                              session::Log& log, const std::stop_token& stop);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
+#include <vector>
 
 namespace reljef::material {
 namespace {
@@ -99,9 +99,12 @@ private:
             counts.at(side) += 1.0F;
             is_between = is_between || std::abs(height - sides.middle) < quarter;
         });
-        sides.has_wall = sides.has_wall && !is_between;
-        sides.low = sums[0] / counts[0];
-        sides.high = sums[1] / counts[1];
+        const bool has_sides = counts[0] > 0.0F && counts[1] > 0.0F; // despite rounding
+        sides.has_wall = sides.has_wall && !is_between && has_sides;
+        if (sides.has_wall) {
+            sides.low = sums[0] / counts[0];
+            sides.high = sums[1] / counts[1];
+        }
         return sides;
     }
 
@@ -133,20 +136,22 @@ private:
 StraightWalls straight_walls(GridView<const float> heights, const Grid<std::uint8_t>& void_mask,
                              double min_rise, const ParallelOptions& parallel) {
     const WallFilter filter(heights, void_mask, min_rise);
-    StraightWalls made{Grid<float>(heights.cols(), heights.rows()), 0};
-    std::atomic<std::size_t> changed = 0;
-    const bool is_whole = parallel_for(
-        heights.rows(),
-        [&](int row) {
-            std::size_t others = 0;
-            for (int col = 0; col < heights.cols(); ++col) {
-                made.heights(col, row) = filter.height_at(col, row);
-                others += made.heights(col, row) != heights(col, row) ? 1U : 0U;
-            }
-            changed += others;
-        },
-        parallel);
-    made.changed = changed;
+    StraightWalls made{Grid<float>(heights.cols(), heights.rows())};
+    std::vector<StraightWalls> rows(static_cast<std::size_t>(heights.rows()));
+    const auto filter_row = [&](int row) {
+        StraightWalls& sum = rows[static_cast<std::size_t>(row)];
+        for (int col = 0; col < heights.cols(); ++col) {
+            made.heights(col, row) = filter.height_at(col, row);
+            const double change = std::abs(made.heights(col, row) - heights(col, row));
+            sum.changed += change > 0.0 ? 1U : 0U;
+            sum.largest = std::max(sum.largest, change);
+        }
+    };
+    const bool is_whole = parallel_for(heights.rows(), filter_row, parallel);
+    for (const StraightWalls& row : rows) {
+        made.changed += row.changed;
+        made.largest = std::max(made.largest, row.largest);
+    }
     return is_whole ? std::move(made) : StraightWalls{};
 }
 

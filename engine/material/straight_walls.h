@@ -13,6 +13,7 @@ inline constexpr double wall_height = 2.5;
 struct StraightWalls {
     Grid<float> heights;
     std::size_t changed = 0; ///< samples
+    double largest = 0.0;    ///< change, metres
 };
 
 /// Heights whose walls look straight. In surface models a sample lies on a roof or on the ground,
@@ -20,7 +21,8 @@ struct StraightWalls {
 /// distance to the wall, which is estimated from the share of roof among the samples around
 /// (weights of a normal distribution). Samples that do not touch a rise of `min_rise` metres
 /// keep their heights, as do voids, what is near them, posts of a sample, and walls with samples
-/// that lie halfway between roof and ground: they have been averaged before. Empty if it was
+/// that lie halfway between roof and ground: they have been averaged before. Filtered again, some
+/// samples at corners change once more. Empty if it was
 /// stopped. Preconditions: `void_mask` is empty or as large as the heights; min_rise > 0.
 StraightWalls straight_walls(GridView<const float> heights, const Grid<std::uint8_t>& void_mask,
                              double min_rise, const ParallelOptions& parallel = {});

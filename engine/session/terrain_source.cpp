@@ -33,6 +33,11 @@ Result<terrains::City> generate(const SourceOptions& choice,
                                              .threads = static_cast<unsigned>(choice.threads),
                                              .progress = task->callback(),
                                              .stop = stop};
+    const auto form = choice.buildings.value_or(description.buildings);
+    if (choice.walls && form != building::CityForm::heights) {
+        return usage_error(
+            "--walls: found beside buildings that are meshes, heights were expected");
+    }
     if (!choice.imagery.empty()) {
         return usage_error(fmt::format("--imagery: {} found, but {} brings its own colours",
                                        choice.imagery.front().string(), description.name));
@@ -42,7 +47,7 @@ Result<terrains::City> generate(const SourceOptions& choice,
                                        choice.buildings ? "buildings" : "walls", description.name));
     }
     if (description.generator == "urban") {
-        return terrains::generate_city(options, choice.buildings.value_or(description.buildings));
+        return terrains::generate_city(options, form);
     }
     auto terrain = description.generator == "gallery" ? terrains::generate_gallery(options)
                                                       : terrains::generate_natural(options);

@@ -45,7 +45,7 @@ public:
                 .storeys = {wall.windows.x, wall.foot + wall.eaves, wall.storeys / wall.eaves,
                             metres / windows},
                 .facing = {normal_turned, std::max(glm::dot(normal, to_sun_), 0.0),
-                           wall.goes_on ? 1.0 : 0.0},
+                           wall.foot + wall.eaves + wall.rise},
                 .plaster = {linear_from_rgba8(wall.plaster), wall.foot}};
     }
 
@@ -77,7 +77,7 @@ void add_shadows(const terrain::Facades& facades, const Grid<float>& heights,
     const glm::ivec2 last(samples.cols() - 1, samples.rows() - 1);
     for (int row = 0; row < samples.rows(); ++row) {
         for (int col = 0; col < samples.cols(); ++col) {
-            if (const std::uint32_t nearest = facades.nearest(col, row); nearest != 0) {
+            if (const auto nearest = static_cast<std::size_t>(samples(col, row).x); nearest != 0) {
                 const glm::ivec2 at = sample_before(facades.walls[nearest - 1], {col, row}, last);
                 samples(col, row).y = heights(at.x, at.y);
             }
@@ -88,7 +88,11 @@ void add_shadows(const terrain::Facades& facades, const Grid<float>& heights,
 } // namespace
 
 bool shows_facades(const scene::TerrainNode& terrain) {
-    return !terrain.hides_overlay && !terrain.surface->terrain().facades.walls.empty() &&
+    const terrain::Facades& facades = terrain.surface->terrain().facades;
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    const bool has_facades = !facades.walls.empty() && facades.wall_at.cols() == heights.cols() &&
+                             facades.wall_at.rows() == heights.rows();
+    return has_facades && !terrain.hides_overlay &&
            terrain.surface->placement().kind() == terrain::PlacementKind::plane;
 }
 
@@ -99,10 +103,11 @@ FacadeMap facade_map(const scene::TerrainSurface& surface, const glm::dmat4& wor
     const WallLooks looks(surface, world_from_local, light);
     std::transform(facades.walls.begin(), facades.walls.end(), std::back_inserter(map.walls),
                    [&](const terrain::Facade& wall) { return looks.of(wall); });
-    map.samples = Grid<glm::vec2>(facades.nearest.cols(), facades.nearest.rows());
-    std::transform(facades.nearest.samples().begin(), facades.nearest.samples().end(),
-                   map.samples.samples().begin(),
-                   [](std::uint32_t nearest) { return glm::vec2(nearest, 0.0F); });
+    map.samples = Grid<glm::vec2>(facades.wall_at.cols(), facades.wall_at.rows());
+    std::transform(facades.wall_at.samples().begin(), facades.wall_at.samples().end(),
+                   map.samples.samples().begin(), [&](std::uint32_t number) {
+                       return glm::vec2(number <= facades.walls.size() ? number : 0U, 0.0F);
+                   });
     map.sky = glm::vec3(1.0F);
     if (light) {
         const glm::dvec3 to_sun = local_to_sun(surface, *light);

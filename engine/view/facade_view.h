@@ -17,15 +17,15 @@ namespace reljef::view {
 /// directions lie along the axes of GrainView.
 struct FacadeTexels {
     glm::vec4 along{0.0F};   ///< xy: sample of the begin; zw: windows per sample
-    glm::vec4 storeys{0.0F}; ///< x: windows at the begin; y: eaves; z: storeys in a metre of true
-                             ///< height; w: metres in a window
-    glm::vec4 facing{0.0F};  ///< xy: the normal; z: share of the sun; w: 1: goes on above the eaves
+    glm::vec4 storeys{0.0F}; ///< x: windows at the begin; y: eaves, true height; z: storeys in a
+                             ///< metre of true height; w: metres in a window
+    glm::vec4 facing{0.0F};  ///< xy: the normal; z: share of the sun; w: top, true height
     glm::vec4 plaster{0.0F}; ///< rgb: linear; w: foot, true metres
 };
 
 /// What the façades of a terrain look like in a light.
 struct FacadeMap {
-    /// By sample. x: as terrain::Facades::nearest; y: true height below which it is in shadow.
+    /// By sample. x: as terrain::Facades::wall_at; y: true height below which it is in shadow.
     Grid<glm::vec2> samples;
     std::vector<FacadeTexels> walls;
     glm::vec3 sun{0.0F}; ///< radiance at albedo 1 and share 1, linear

@@ -45,7 +45,9 @@ bool faces_as_wall(vec3 normal, vec2 outward) {
 
 // The colour of ground with façades. `at`: sample; `height`: true metres.
 vec3 with_facades(vec3 lit, GroundPlace place, vec2 at, float height) {
-    if (place.normal.z >= wall_cosine) {
+    float exaggeration = contours.y;
+    vec3 normal = normalize(vec3(place.normal.xy, place.normal.z * exaggeration)); // of true heights
+    if (normal.z >= wall_cosine) {
         return lit;
     }
     vec2 near = texelFetch(facade_samples, ivec2(round(at)), 0).xy;
@@ -58,7 +60,7 @@ vec3 with_facades(vec3 lit, GroundPlace place, vec2 at, float height) {
     vec4 outward = wall_texel(wall, 2);
     vec4 plaster = wall_texel(wall, 3);
     bool is_high = height > storeys.y;
-    if (!faces_as_wall(place.normal, outward.xy) || (is_high && outward.w == 0.0)) {
+    if (!faces_as_wall(normal, outward.xy) || height > outward.w) {
         return lit;
     }
     float facing = max(abs(dot(outward.xy, place.view.xy)), flattest_facing);
@@ -66,7 +68,7 @@ vec3 with_facades(vec3 lit, GroundPlace place, vec2 at, float height) {
     vec2 u = vec2(dot(at - along.xy, along.zw) + storeys.x,
                   width_on_wall(place.pixel, across, facing, 1.0 / storeys.w));
     vec2 v = vec2((storeys.y - height) * storeys.z,
-                  width_on_wall(place.pixel, place.view.z, facing, storeys.z));
+                  width_on_wall(place.pixel, place.view.z, facing, storeys.z / exaggeration));
     vec3 albedo = is_high ? plaster.rgb : wall_albedo(u, v, plaster.rgb);
     float risen = (height - plaster.w) / max(storeys.y - plaster.w, 1.0);
     float sky = mix(sky_at_foot, 1.0, clamp(risen, 0.0, 1.0));

@@ -19,7 +19,8 @@ constexpr int tile_size = 64;
 constexpr double default_spacing = 0.5;
 constexpr double min_spacing = 0.05;
 constexpr double max_spacing = 4.0;
-constexpr float min_city = 640.0F; ///< metres; smaller terrains show a part of it
+constexpr double max_facade_spacing = 1.5; ///< metres; windows are as wide
+constexpr float min_city = 640.0F;         ///< metres; smaller terrains show a part of it
 
 std::optional<Error> urban_option_error(const GeneratorOptions& options) {
     if (options.size < 16 || options.size > 4096) {
@@ -71,41 +72,49 @@ void paint(Tile& tile, const CityPlan& city, bool with_buildings) {
     paint_each(&Block::trees, paint_tree);
 }
 
-void store(const Tile& tile, terrain::Terrain& terrain) {
+struct Painted {
+    terrain::Terrain terrain;
+    Grid<std::uint8_t> planted; // Tile::planted
+};
+
+void store(const Tile& tile, Painted& painted) {
+    terrain::Terrain& terrain = painted.terrain;
     for (int y = 0; y < tile.rows; ++y) {
         for (int x = 0; x < tile.cols; ++x) {
             const std::size_t i = tile.index(x, y);
             terrain.heightfield.heights(tile.col + x, tile.row + y) = tile.height[i];
             terrain.color(tile.col + x, tile.row + y) = encoded(tile.color[i]);
+            painted.planted(tile.col + x, tile.row + y) = tile.planted[i];
         }
     }
 }
 
 // Paints the tile that begins at a sample.
-void paint_tile(terrain::Terrain& terrain, const CityPlan& city, const Raster& raster,
-                glm::ivec2 first, bool with_buildings) {
+void paint_tile(Painted& painted, const CityPlan& city, const Raster& raster, glm::ivec2 first,
+                bool with_buildings) {
     const glm::ivec2 size = glm::min(raster.size - first, glm::ivec2(tile_size));
     Tile tile = make_tile(raster, city.plan.warp, first.x, first.y, size.x, size.y);
     paint(tile, city, with_buildings);
-    store(tile, terrain);
+    store(tile, painted);
 }
 
 // Without the darkening of hollows; empty if it was stopped.
-std::optional<terrain::Terrain> painted(const CityPlan& city, const Raster& raster,
-                                        const GeneratorOptions& options, bool with_buildings) {
-    terrain::Terrain terrain;
+std::optional<Painted> painted(const CityPlan& city, const Raster& raster,
+                               const GeneratorOptions& options, bool with_buildings) {
+    Painted made{{}, Grid<std::uint8_t>(options.size, options.size)};
+    terrain::Terrain& terrain = made.terrain;
     terrain.name = "urban";
     terrain.heightfield.heights = Grid<float>(options.size, options.size);
     terrain.heightfield.spacing = glm::dvec2(raster.spacing_in_metres);
     terrain.color = Image(options.size, options.size);
     const int across = (options.size + tile_size - 1) / tile_size;
     const auto paint_nth = [&](int index) {
-        paint_tile(terrain, city, raster, tile_size * glm::ivec2(index % across, index / across),
+        paint_tile(made, city, raster, tile_size * glm::ivec2(index % across, index / across),
                    with_buildings);
     };
     const bool is_whole =
         parallel_for(across * across, paint_nth, {options.threads, options.stop, options.progress});
-    return is_whole ? std::optional(std::move(terrain)) : std::nullopt;
+    return is_whole ? std::optional(std::move(made)) : std::nullopt;
 }
 
 } // namespace
@@ -126,17 +135,19 @@ Result<City> generate_city(const GeneratorOptions& options, building::CityForm f
         return Error{"urban: generating was stopped"};
     }
     if (bare) {
-        std::swap(all->color, bare->color); // buildings darken the bare ground, too
+        std::swap(all->terrain.color, bare->terrain.color); // buildings darken the bare ground, too
     }
-    darken_hollows(*all, {raster.spacing, options.tileable, options.threads});
+    darken_hollows(all->terrain, {raster.spacing, options.tileable, options.threads});
     City made;
     if (bare) {
-        std::swap(all->color, bare->color);
+        std::swap(all->terrain.color, bare->terrain.color);
         made.buildings = mesh_buildings(city, raster);
     }
-    made.terrain = bare ? std::move(*bare) : std::move(*all);
-    if (form == building::CityForm::heights && options.walls == building::CityWalls::straight) {
-        made.terrain.facades = facades_of(city, raster);
+    made.terrain = bare ? std::move(bare->terrain) : std::move(all->terrain);
+    if (form == building::CityForm::heights && options.walls == building::CityWalls::straight &&
+        spacing <= max_facade_spacing) {
+        made.terrain.facades =
+            facades_of(city, raster, made.terrain.heightfield.heights.view(), all->planted);
     }
     if (form == building::CityForm::meshes_only) {
         made.terrain.heightfield.heights = Grid<float>(options.size, options.size, 0.0F);

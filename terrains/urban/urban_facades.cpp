@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double longest_part = 6.0; // metres: streets curve, walls do not
 constexpr double reach = 2.25;       // samples from a wall: its slope, and the cells beside it
-constexpr double same_eaves = 0.5;   // metres
+constexpr double same_height = 0.5;  // metres
 
 Rgba8 plaster_of(const Building& building) {
     constexpr std::array plasters{Rgba8{206, 198, 184, 255}, Rgba8{199, 184, 158, 255},
@@ -27,9 +28,11 @@ Rgba8 plaster_of(const Building& building) {
 // Marks the samples near walls.
 class FacadePainter {
 public:
-    explicit FacadePainter(const Raster& raster)
-        : raster_(raster), away_(raster.size, raster.size, reach) {
-        facades_.nearest = Grid<std::uint32_t>(raster.size, raster.size);
+    FacadePainter(const Raster& raster, GridView<const float> heights,
+                  const Grid<std::uint8_t>& planted)
+        : raster_(raster), heights_(heights), planted_(planted),
+          away_(raster.size, raster.size, reach) {
+        facades_.wall_at = Grid<std::uint32_t>(raster.size, raster.size);
     }
 
     void add(const terrain::Facade& wall) {
@@ -54,14 +57,16 @@ private:
     // The higher of two walls stands behind the lower one, or on it.
     bool mark(glm::ivec2 at, const terrain::Facade& wall, std::uint32_t number) {
         const double away = distance(glm::dvec2(at), wall);
-        std::uint32_t& nearest = facades_.nearest(at.x, at.y);
-        if (!(away < reach)) {
+        std::uint32_t& nearest = facades_.wall_at(at.x, at.y);
+        const double top = wall.foot + wall.eaves + wall.rise;
+        const bool is_under_roof = heights_(at.x, at.y) > top + same_height;
+        if (!(away < reach) || planted_(at.x, at.y) != 0 || is_under_roof) {
             return false;
         }
         if (nearest != 0 && nearest != number) {
             const double higher = wall.eaves - facades_.walls[nearest - 1].eaves;
             const bool is_closer = away < away_(at.x, at.y);
-            if (std::abs(higher) <= same_eaves ? !is_closer : higher < 0.0) {
+            if (std::abs(higher) <= same_height ? !is_closer : higher < 0.0) {
                 return false;
             }
         }
@@ -77,6 +82,8 @@ private:
     }
 
     const Raster& raster_;
+    GridView<const float> heights_;
+    const Grid<std::uint8_t>& planted_;
     terrain::Facades facades_;
     Grid<double> away_; // samples
 };
@@ -84,8 +91,8 @@ private:
 // The way along a wall, city metres.
 struct Edge {
     glm::vec2 from;
-    glm::vec2 to; // the building lies on the right, for y that grows south
-    bool goes_on = false;
+    glm::vec2 to;      // the building lies on the right, for y that grows south
+    double rise = 0.0; // above the eaves, metres
 };
 
 // A wall of a building, cut into parts that follow the street.
@@ -111,9 +118,25 @@ void add_edge(const Building& building, const Edge& edge, const CityPlan& city,
                      .foot = 0.0,
                      .eaves = building.eaves,
                      .storeys = std::max(1.0, std::round(building.eaves / building::window_storey)),
-                     .goes_on = edge.goes_on,
+                     .rise = edge.rise,
                      .plaster = plaster_of(building)});
     }
+}
+
+// The highest place of the roof over a wall, metres above the eaves.
+double rise_of(const Building& building, glm::vec2 from, glm::vec2 to) {
+    constexpr int steps = 32;
+    float rise = building.parapet;
+    for (int i = 0; i <= steps && building.sloped != 0U; ++i) {
+        const glm::vec2 place = glm::mix(from, to, static_cast<float>(i) / steps);
+        float run = std::numeric_limits<float>::max();
+        for (std::size_t k = 0; k < building.shape.planes.size(); ++k) {
+            const bool is_sloped = (building.sloped >> std::min<std::size_t>(k, 31U) & 1U) != 0U;
+            run = is_sloped ? std::min(run, building.shape.planes[k].distance(place)) : run;
+        }
+        rise = std::max(rise, std::min(building.slope * run, building.rise_limit));
+    }
+    return rise;
 }
 
 // The outer walls, and those of wells in the roof.
@@ -121,15 +144,16 @@ std::vector<Edge> edges_of(const Building& building, const Block& block, glm::ve
     std::vector<Edge> edges;
     const Convex& outline = building.outline;
     for (std::size_t i = 0; i < outline.size(); ++i) {
-        const bool is_sloped = (building.sloped >> std::min<std::size_t>(i, 31U) & 1U) != 0U;
-        edges.push_back({outline.corner(i) + shift, outline.corner(i + 1) + shift, !is_sloped});
+        const glm::vec2 from = outline.corner(i);
+        const glm::vec2 to = outline.corner(i + 1);
+        edges.push_back({from + shift, to + shift, rise_of(building, from, to)});
     }
     for (const Prism& prism : block.prisms) {
         if (prism.kind == PrismKind::well && prism.top < building.eaves &&
             building.shape.distance(prism.frame.center) > 0.0F) {
             const Convex well = rectangle(prism.frame);
             for (std::size_t i = 0; i < well.size(); ++i) {
-                edges.push_back({well.corner(i + 1) + shift, well.corner(i) + shift, false});
+                edges.push_back({well.corner(i + 1) + shift, well.corner(i) + shift, 0.0});
             }
         }
     }
@@ -138,8 +162,9 @@ std::vector<Edge> edges_of(const Building& building, const Block& block, glm::ve
 
 } // namespace
 
-terrain::Facades facades_of(const CityPlan& city, const Raster& raster) {
-    FacadePainter painter(raster);
+terrain::Facades facades_of(const CityPlan& city, const Raster& raster,
+                            GridView<const float> heights, const Grid<std::uint8_t>& planted) {
+    FacadePainter painter(raster, heights, planted);
     for (const BlockCopy& copy : copies_in(city, city_bounds(raster, city.plan.warp))) {
         for (const Building& building : copy.block->buildings) {
             for (const Edge& edge : edges_of(building, *copy.block, copy.shift)) {

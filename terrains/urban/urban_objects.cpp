@@ -190,6 +190,7 @@ void paint_prism(Tile& tile, const Warp& warp, const Prism& prism, glm::vec2 shi
         }
         blend(tile.color[i], prism_color(prism, local, tile, i), tint);
         raise(tile, i, prism.top, share);
+        tile.planted[i] = stands_on_ground(prism.kind) ? 1 : tile.planted[i];
     });
 }
 
@@ -212,6 +213,7 @@ void paint_tree(Tile& tile, const Warp& warp, const Tree& tree, glm::vec2 shift)
                             : part < 1.0F                               ? 1.0F
                                                                         : 0.0F;
         raise(tile, i, top, share);
+        tile.planted[i] = 1;
     });
 }
 

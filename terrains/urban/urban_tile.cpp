@@ -93,6 +93,7 @@ Tile make_tile(const Raster& raster, const Warp& warp, int col, int row, int col
     tile.height.resize(count);
     tile.bare.resize(count, 1.0F);
     tile.built.resize(count);
+    tile.planted.resize(count);
     tile.grain.resize(count);
     place_samples(tile, raster, warp);
     tile.fine = noise_of(raster, tile, {2.6F, 2, 2, raster.seed + 1U});

@@ -36,11 +36,12 @@ struct Tile {
     std::vector<glm::vec2> place; ///< city position
     std::vector<Color> color;
     std::vector<float> height;
-    std::vector<float> bare;  ///< share of each sample that no building covers
-    std::vector<float> built; ///< the buildings' part of `height`
-    std::vector<float> grain; ///< white noise, [-1, 1]
-    std::vector<float> fine;  ///< clumps of about 2 m, about [-1, 1]
-    std::vector<float> broad; ///< stains of about 14 m, about [-1, 1]
+    std::vector<float> bare;           ///< share of each sample that no building covers
+    std::vector<float> built;          ///< the buildings' part of `height`
+    std::vector<std::uint8_t> planted; ///< 1: a tree, a hedge or a car is the highest
+    std::vector<float> grain;          ///< white noise, [-1, 1]
+    std::vector<float> fine;           ///< clumps of about 2 m, about [-1, 1]
+    std::vector<float> broad;          ///< stains of about 14 m, about [-1, 1]
 
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(cols) +

@@ -52,7 +52,7 @@ inline terrain::Terrain made_house() {
         {0.5, 0.5});
     const std::array corners{at(-half.x, -half.y), at(half.x, -half.y), at(half.x, half.y),
                              at(-half.x, half.y)};
-    made.facades.nearest = Grid<std::uint32_t>(house_side, house_side);
+    made.facades.wall_at = Grid<std::uint32_t>(house_side, house_side);
     for (std::size_t i = 0; i < corners.size(); ++i) {
         terrain::Facade wall;
         wall.begin = corners.at(i);
@@ -60,12 +60,12 @@ inline terrain::Terrain made_house() {
         wall.windows = {0.0, i % 2 == 0 ? 6.0 : 4.0};
         wall.eaves = house_eaves;
         wall.storeys = 4.0;
-        wall.goes_on = true;
+        wall.rise = 1.0;
         made.facades.walls.push_back(wall);
     }
     for (int row = 0; row < house_side; ++row) {
         for (int col = 0; col < house_side; ++col) {
-            made.facades.nearest(col, row) = nearest_wall(made.facades.walls, {col, row});
+            made.facades.wall_at(col, row) = nearest_wall(made.facades.walls, {col, row});
         }
     }
     return made;

@@ -87,7 +87,7 @@ TEST(FacadeMap, ShadowsEndWhereTheSunPassesTheHouseOpposite) {
                            }),
         {0.5, 0.5});
     made.facades.walls.push_back({.begin = {100.0, 39.5}, .end = {0.0, 39.5}, .eaves = 15.0});
-    made.facades.nearest = Grid<std::uint32_t>(side, side, 1U);
+    made.facades.wall_at = Grid<std::uint32_t>(side, side, 1U);
     const auto street = house_surface(std::move(made));
     for (const double altitude : {5.0, 20.0, 40.0}) {
         const FacadeMap map = facade_map(*street, glm::dmat4(1.0), sunlight_from(180.0, altitude));

@@ -23,7 +23,7 @@ struct PainterOptions {
     int samples = 1;                      ///< of a pixel
     const MeshFrame* meshes = nullptr;    ///< null: none; outlives the painter
     const GrainPaint* grain = nullptr;    ///< null: none; outlives the painter
-    const FacadePaint* facades = nullptr; ///< as grain
+    const FacadePaint* facades = nullptr; ///< null: none; outlives the painter
     float contours = 0.0F;                ///< BlockPaint::contours
 };
 

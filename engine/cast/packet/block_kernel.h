@@ -115,6 +115,7 @@ struct FacadePaint {
     const float* walls = nullptr;
     glm::vec3 sun{0.0F}; ///< at albedo 1 and share 1, linear
     glm::vec3 sky{0.0F};
+    float exaggeration = 1.0F;
     glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };

@@ -35,13 +35,35 @@ struct Along {
     }
 };
 
+// The places of values in view::FacadeTexels.
+enum WallValue : std::int32_t {
+    begin_col_value,
+    begin_row_value,
+    windows_a_col_value,
+    windows_a_row_value,
+    first_window_value,
+    eaves_value,
+    storeys_value, // in a metre
+    window_metres_value,
+    outward_x_value,
+    outward_y_value,
+    facing_sun_value,
+    top_value,
+    red_value,
+    green_value,
+    blue_value,
+    foot_value
+};
+static_assert(foot_value + 1 == FacadePaint::wall_values);
+
 // Values of the walls near hits.
 struct WallNear {
     const float* values;
     Ints first;
 
-    HWY_INLINE Floats operator()(int index) const {
-        return hn::GatherIndex(floats, values, hn::Add(first, all(std::int32_t{index})));
+    HWY_INLINE Floats operator()(WallValue index) const {
+        return hn::GatherIndex(floats, values,
+                               hn::Add(first, all(static_cast<std::int32_t>(index))));
     }
 };
 
@@ -75,12 +97,23 @@ HWY_INLINE Ints nearest_sample(const FacadePaint& paint, const PacketHits& hits)
                    nearest(hits.col, hits.col_part));
 }
 
-// The colour of ground with façades. `height`: true metres.
+// Without the exaggeration of heights.
+HWY_INLINE std::array<Floats, 3> true_normal(const std::array<Floats, 3>& drawn,
+                                             float exaggeration) {
+    const std::array<Floats, 3> normal{drawn[0], drawn[1], hn::Mul(drawn[2], all(exaggeration))};
+    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(dot(normal, normal)));
+    return {hn::Mul(normal[0], per_length), hn::Mul(normal[1], per_length),
+            hn::Mul(normal[2], per_length)};
+}
+
+// The colour of ground with façades. `height`: true metres. `beside_meshes(lanes)`: those from
+// which no mesh hides the sun.
+template <class BesideMeshes>
 HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
                               const GroundPlace& place, const PacketHits& hits, Floats height,
-                              const Color& lit) {
+                              const Color& lit, const BesideMeshes& beside_meshes) {
     const Floats zero = hn::Zero(floats);
-    const std::array<Floats, 3> normal = grain_normal(tile, hits);
+    const std::array<Floats, 3> normal = true_normal(grain_normal(tile, hits), paint.exaggeration);
     Lanes shown = hn::And(hits.found, hn::Lt(normal[2], all(wall_cosine)));
     if (hn::AllFalse(floats, shown)) {
         return lit;
@@ -96,15 +129,15 @@ HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
     const Ints wall_index =
         hn::ConvertTo(ints, hn::IfThenElseZero(shown, hn::Sub(number, all(1.0F))));
     const WallNear wall{paint.walls, hn::Mul(wall_index, all(FacadePaint::wall_values))};
-    const std::array<Floats, 2> out{wall(8), wall(9)};
-    const Floats eaves = wall(5);
+    const std::array<Floats, 2> out{wall(outward_x_value), wall(outward_y_value)};
+    const Floats eaves = wall(eaves_value);
     const Lanes is_high = hn::Gt(height, eaves);
     const Floats leaning = hn::MulAdd(out[0], normal[0], hn::Mul(out[1], normal[1]));
     const Floats level = hn::Sqrt(hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1])));
     const Lanes is_upright = hn::Lt(normal[2], all(upright_cosine));
     const Floats min_leaning = hn::IfThenElse(is_upright, all(corner_leaning), all(wall_leaning));
     shown = hn::And(shown, hn::Gt(leaning, hn::Mul(level, min_leaning)));
-    shown = hn::And(shown, hn::Or(hn::Not(is_high), hn::Gt(wall(11), zero)));
+    shown = hn::And(shown, hn::Le(height, wall(top_value)));
 
     const std::array<Floats, 3> view = turned(paint.turn, place.view);
     const Floats across = hn::MulAdd(out[0], view[0], hn::Mul(out[1], view[1]));
@@ -121,19 +154,24 @@ HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
     const auto from_begin = [&](Ints cell, Floats part, Floats begin) HWY_ATTR {
         return hn::Add(hn::Sub(hn::ConvertTo(floats, cell), begin), part);
     };
-    const Floats col = from_begin(hits.col, hits.col_part, wall(0));
-    const Floats row = from_begin(hits.row, hits.row_part, wall(1));
-    const Along u{hn::MulAdd(col, wall(2), hn::MulAdd(row, wall(3), wall(4))),
-                  width(along, hn::Div(all(1.0F), wall(7)))};
-    const Along v{hn::Mul(hn::Sub(eaves, height), wall(6)), width(view[2], wall(6))};
-    const Color albedo = wall_albedo(u, v, {wall(12), wall(13), wall(14)}, is_high);
+    const Floats col = from_begin(hits.col, hits.col_part, wall(begin_col_value));
+    const Floats row = from_begin(hits.row, hits.row_part, wall(begin_row_value));
+    const Along u{hn::MulAdd(col, wall(windows_a_col_value),
+                             hn::MulAdd(row, wall(windows_a_row_value), wall(first_window_value))),
+                  width(along, hn::Div(all(1.0F), wall(window_metres_value)))};
+    const Along v{hn::Mul(hn::Sub(eaves, height), wall(storeys_value)),
+                  width(view[2], hn::Div(wall(storeys_value), all(paint.exaggeration)))};
+    const Color albedo =
+        wall_albedo(u, v, {wall(red_value), wall(green_value), wall(blue_value)}, is_high);
 
-    const Floats foot = wall(15);
+    const Floats foot = wall(foot_value);
     const Floats risen = hn::Div(hn::Sub(height, foot), hn::Max(hn::Sub(eaves, foot), all(1.0F)));
     const Floats sky =
         hn::MulAdd(clamped(risen, 0.0F, 1.0F), all(1.0F - sky_at_foot), all(sky_at_foot));
     const Floats above_shadow = hn::Mul(hn::Sub(height, shadow), all(1.0F / shadow_border));
-    const Floats sun = hn::Mul(wall(10), clamped(above_shadow, 0.0F, 1.0F));
+    Floats sun = hn::Mul(wall(facing_sun_value), clamped(above_shadow, 0.0F, 1.0F));
+    const Lanes sunny = hn::And(shown, hn::Gt(sun, zero));
+    sun = hn::IfThenElseZero(beside_meshes(sunny), sun);
     const auto channel = [&](Floats of_wall, float sun_light, float sky_light,
                              Floats ground) HWY_ATTR {
         const Floats light = hn::MulAdd(sun, all(sun_light), hn::Mul(sky, all(sky_light)));

@@ -310,7 +310,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
     const Floats height = hn::Add(hits.height, all(job.rays.base_height));
     if (!Mode::counts && paint.facades != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = with_facades(*paint.facades, *job.paint, place, hits, height, lit);
+        lit = with_facades(*paint.facades, *job.paint, place, hits, height, lit, without_shadow);
     }
     if (!Mode::counts && paint.contours > 0.0F) {
         lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);

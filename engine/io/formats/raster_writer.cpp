@@ -91,6 +91,9 @@ bool place(GDALDataset& dataset, const geo::Georeference& georeference) {
     affine.y0 = corner.y;
     OGRSpatialReference crs;
     const bool has_crs = crs.importFromWkt(georeference.wkt.c_str()) == OGRERR_NONE;
+    if (has_crs && crs.IsCompound() != 0 && crs.GetTargetLinearUnits("COMPD_CS|VERT_CS") != 1.0) {
+        crs.StripVertical(); // heights are metres
+    }
     crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return place_raster(dataset, affine, has_crs ? &crs : nullptr);
 }

@@ -10,10 +10,10 @@
 
 namespace reljef::session {
 
-Result<std::size_t> write_straight_heights(const std::filesystem::path& path,
-                                           const terrain::Terrain& terrain,
-                                           std::optional<double> wall_height,
-                                           const ParallelOptions& parallel) {
+Result<StraightHeights> write_straight_heights(const std::filesystem::path& path,
+                                               const terrain::Terrain& terrain,
+                                               std::optional<double> wall_height,
+                                               const ParallelOptions& parallel) {
     const terrain::Heightfield& field = terrain.heightfield;
     if (field.reduction > 1.0) {
         return Error{fmt::format("--memory: too little found for all samples of {}, more, or a "
@@ -35,7 +35,7 @@ Result<std::size_t> write_straight_heights(const std::filesystem::path& path,
     if (auto written = io::write_heightfield(path, straight); !written) {
         return written.error();
     }
-    return made.changed;
+    return StraightHeights{made.changed, made.largest};
 }
 
 } // namespace reljef::session

@@ -18,14 +18,14 @@ struct Facade {
     double foot = 0.0;            ///< metres, as heights
     double eaves = 3.0;           ///< above the foot; windows end there
     double storeys = 1.0;         ///< between the two
-    bool goes_on = false;         ///< above the eaves: a gable, a parapet
+    double rise = 0.0;            ///< of the wall above the eaves: of a gable, a parapet
     Rgba8 plaster{206, 198, 184, 255};
 };
 
 /// The façades that steep ground of a heightfield shows.
 struct Facades {
     std::vector<Facade> walls;
-    Grid<std::uint32_t> nearest; ///< 1 + index of the wall near a sample, or 0; empty without walls
+    Grid<std::uint32_t> wall_at; ///< 1 + index of the wall near a sample, or 0; empty without walls
 };
 
 } // namespace reljef::terrain

@@ -90,6 +90,7 @@ TEST_F(FacadesGlTest, PlasterIsEven) {
     for (terrain::Facade& wall : house.facades.walls) {
         wall.foot = -100.0; // of windows, none: all lies above the eaves
         wall.eaves = 100.0 + 1e-3;
+        wall.rise = 100.0;
     }
     stage.set(std::move(house));
     stage.sun().azimuth = 200.0;

@@ -133,11 +133,11 @@ TEST(Urban, WallsLookStraight) {
 TEST(Urban, SamplesNearWallsKnowThem) {
     const auto city = urban({.size = 500, .seed = 2});
     const terrain::Facades& facades = city.facades;
-    ASSERT_EQ(facades.nearest.cols(), 500);
+    ASSERT_EQ(facades.wall_at.cols(), 500);
     int near = 0;
     for (int row = 0; row < 500; ++row) {
         for (int col = 0; col < 500; ++col) {
-            const std::uint32_t number = facades.nearest(col, row);
+            const std::uint32_t number = facades.wall_at(col, row);
             ASSERT_LE(number, facades.walls.size());
             if (number != 0) {
                 const terrain::Facade& wall = facades.walls[number - 1];
@@ -150,7 +150,7 @@ TEST(Urban, SamplesNearWallsKnowThem) {
     }
     EXPECT_GT(near, 10000);
     const auto again = urban({.size = 500, .seed = 2, .threads = 1});
-    EXPECT_EQ(again.facades.nearest, facades.nearest);
+    EXPECT_EQ(again.facades.wall_at, facades.wall_at);
 }
 
 TEST(Urban, size_outside_the_range_is_refused) {
