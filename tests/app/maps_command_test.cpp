@@ -325,7 +325,7 @@ TEST_F(MapsCommand, StraightWallsKeepPlaceVoidsAndRange) {
     const std::string house = house_raster(folder_);
     const auto made = test::reljef({"maps", house, "--straight-walls", file("straight.tif")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    EXPECT_THAT(made.err, testing::HasSubstr("samples at walls have other heights"));
+    EXPECT_THAT(made.err, testing::HasSubstr("samples changed, all at walls"));
     const auto before = test::reljef({"info", house});
     const auto after = test::reljef({"info", file("straight.tif")});
     ASSERT_EQ(after.exit_code, 0) << after.err;
@@ -358,6 +358,19 @@ TEST_F(MapsCommand, StraightWallsRefuseInOneSentence) {
     expect_refusal(test::reljef({"maps", file("none.tif"), "--straight-walls", file("s.tif")}), 1,
                    {"none.tif"});
     EXPECT_FALSE(std::filesystem::exists(file("s.tif")));
+}
+
+TEST_F(MapsCommand, StraightWallsDoNotReplaceWhatASceneFileNames) {
+    const std::string house = house_raster(folder_);
+    ASSERT_EQ(
+        test::reljef({"maps", house, "--straight-walls", file("source.tif"), "--quiet"}).exit_code,
+        0);
+    std::ofstream(file("scene.toml")) << "[terrain]\nheights = \"source.tif\"\n";
+    const auto size = std::filesystem::file_size(file("source.tif"));
+    expect_refusal(
+        test::reljef({"maps", file("scene.toml"), "--straight-walls", file("source.tif")}), 2,
+        {"source.tif", "heights"});
+    EXPECT_EQ(std::filesystem::file_size(file("source.tif")), size);
 }
 
 } // namespace

@@ -137,5 +137,54 @@ TEST_F(FacadesGlTest, FollowTheSun) {
     EXPECT_EQ(behind, stage.drawn()) << "a driver that saw another sun before";
 }
 
+TEST_F(FacadesGlTest, ObjectsShadeThem) {
+    HouseStage stage;
+    stage.sun().azimuth = 200.0;
+    stage.sun().altitude = 30.0;
+    scene::Technique technique{scene::Exact{}};
+    technique.options.shadow = scene::Shadow{.depth = 0.0};
+    stage.node().material.technique = technique;
+    stage.look_from_azimuth(160.0);
+    const Image sunny = stage.drawn();
+    const HitBuffer hits = stage.hits();
+    const glm::dvec3 to_sun = scene::to_light(stage.sun());
+    stage.scene.add_mesh(scene::box_mesh({30.0F, 30.0F, 30.0F}), {})
+        .set_position(45.0 * to_sun + glm::dvec3(0.0, 0.0, 6.0));
+    const Image shaded = stage.drawn();
+    int walls = 0;
+    int darker = 0;
+    for (int row = 0; row < overlay_picture.y; ++row) {
+        for (int col = 0; col < overlay_picture.x; ++col) {
+            const double height = hits(col, row).is_sky() ? 0.0 : hits(col, row).height;
+            if (height > 1.0 && height < test::house_eaves - 1.0 && sunny(col, row).r > 150) {
+                ++walls;
+                darker += shaded(col, row).r + 30 < sunny(col, row).r ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(walls, 2000);
+    EXPECT_GT(darker, 0.99 * walls);
+}
+
+// Higher houses have higher storeys: as many ledges, as sharp.
+TEST_F(FacadesGlTest, GrowWithTheExaggeration) {
+    HouseStage stage;
+    const auto with = [&](double factor) {
+        stage.node().surface = std::make_shared<const scene::TerrainSurface>(
+            test::must(stage.node().surface->exaggerated(factor)));
+        return std::pair(stage.drawn(), stage.drawn_by_opengl("exact"));
+    };
+    for (const double factor : {0.25, 4.0}) {
+        stage.look_from_azimuth(200.0);
+        const auto [rays, shaders] = with(factor);
+        EXPECT_LE(test::share_of_others(rays, shaders, 6), 0.004) << factor;
+        stage.node().material.technique = {scene::Exact{}};
+        stage.node().hides_overlay = true;
+        const Image hidden = stage.drawn();
+        stage.node().hides_overlay = false;
+        EXPECT_GT(changed_pixels(rays, hidden), 3000) << factor;
+    }
+}
+
 } // namespace
 } // namespace reljef::cast

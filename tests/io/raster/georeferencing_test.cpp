@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
 
+#include "engine/io/formats/raster_writer.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/terrain_file.h"
 #include "engine/terrain/field/placement.h"
@@ -240,6 +241,19 @@ TEST_F(Georeferencing, TheVerticalAxisOfACompoundCrsCounts) {
     EXPECT_FLOAT_EQ(heightfield.heights(0, 39), static_cast<float>(39000.0 * 1200.0 / 3937.0));
     EXPECT_EQ(heightfield.georeference->vertical_datum, "NGVD29 height (ftUS)");
     EXPECT_EQ(heightfield.georeference->crs_code, "EPSG:26710");
+}
+
+TEST_F(Georeferencing, WrittenHeightsAreMetresAlsoOfACrsInFeet) {
+    for (const char* const crs : {"EPSG:26710+5702", "EPSG:26710+5703", "EPSG:26710"}) {
+        const auto before =
+            read(ramp(), crs, {559605.0, 30.0, 0.0, 5120205.0, 0.0, -30.0}).heightfield;
+        const auto path = folder_.path() / "metres.tif";
+        ASSERT_TRUE(write_heightfield(path, before));
+        const auto after = read_terrain(path);
+        ASSERT_TRUE(after) << after.error().message;
+        EXPECT_EQ(after->heightfield.heights, before.heights) << crs;
+        EXPECT_EQ(after->heightfield.georeference->crs_code, "EPSG:26710") << crs;
+    }
 }
 
 TEST_F(Georeferencing, HeightsOfACrsWithThreeAxesAreAboveTheEllipsoid) {

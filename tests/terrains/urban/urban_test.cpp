@@ -130,6 +130,26 @@ TEST(Urban, WallsLookStraight) {
     }
 }
 
+TEST(Urban, CoarseSamplesShowNoWindows) {
+    EXPECT_FALSE(urban({.size = 128, .spacing = 1.5}).facades.walls.empty());
+    EXPECT_TRUE(urban({.size = 128, .spacing = 2.0}).facades.walls.empty());
+}
+
+// What is higher than a wall and its roof hides it.
+TEST(Urban, NothingAboveTheirTopsKnowsWalls) {
+    const auto city = urban({.size = 700, .seed = 7});
+    const terrain::Facades& facades = city.facades;
+    for (int row = 0; row < 700; ++row) {
+        for (int col = 0; col < 700; ++col) {
+            if (const std::uint32_t number = facades.wall_at(col, row); number != 0) {
+                const terrain::Facade& wall = facades.walls[number - 1];
+                ASSERT_LE(city.heightfield.heights(col, row),
+                          wall.foot + wall.eaves + wall.rise + 0.5F);
+            }
+        }
+    }
+}
+
 TEST(Urban, SamplesNearWallsKnowThem) {
     const auto city = urban({.size = 500, .seed = 2});
     const terrain::Facades& facades = city.facades;
