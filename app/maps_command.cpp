@@ -13,7 +13,6 @@
 #include "app/cli/parsed_option.h"
 #include "app/commands.h"
 #include "engine/core/atomic_file.h"
-#include "engine/io/formats/scene_file.h"
 #include "engine/io/image/surface_maps.h"
 #include "engine/material/straight_walls.h"
 #include "engine/session/measuring/straight_heights.h"

@@ -59,7 +59,7 @@ private:
         const double away = distance(glm::dvec2(at), wall);
         std::uint32_t& nearest = facades_.wall_at(at.x, at.y);
         const double top = wall.foot + wall.eaves + wall.rise;
-        const bool is_under_roof = heights_(at.x, at.y) > top + same_height;
+        const bool is_under_roof = heights_(at.x, at.y) > top + above_eaves_;
         if (!(away < reach) || planted_(at.x, at.y) != 0 || is_under_roof) {
             return false;
         }
@@ -84,6 +84,7 @@ private:
     const Raster& raster_;
     GridView<const float> heights_;
     const Grid<std::uint8_t>& planted_;
+    double above_eaves_ = same_height + reach * raster_.spacing; // of roofs near walls, metres
     terrain::Facades facades_;
     Grid<double> away_; // samples
 };

@@ -91,7 +91,8 @@ TEST_F(BadInput, walls_that_no_city_has) {
                           (folder_.path() / "out.png").string(), "--size", "64x48", "--quiet"});
         expect_refusal(result, 2, {"--walls", "urban"});
     }
-    expect_refusal(test::reljef({"render", "urban", "--buildings", "meshes", "--walls", "stepped"}),
+    expect_refusal(test::reljef({"render", "urban", "--buildings", "meshes", "--walls", "stepped",
+                                 "-o", (folder_.path() / "out.png").string()}),
                    2, {"--walls", "meshes"});
     expect_refusal(test::reljef({"render", "urban", "--walls", "round"}), 2,
                    {"--walls", "round", "straight", "stepped"});

@@ -144,7 +144,7 @@ TEST(Urban, NothingAboveTheirTopsKnowsWalls) {
             if (const std::uint32_t number = facades.wall_at(col, row); number != 0) {
                 const terrain::Facade& wall = facades.walls[number - 1];
                 ASSERT_LE(city.heightfield.heights(col, row),
-                          wall.foot + wall.eaves + wall.rise + 0.5F);
+                          wall.foot + wall.eaves + wall.rise + 1.7);
             }
         }
     }
