@@ -232,8 +232,8 @@ Result<void> check_folder_options(const SourceOptions& choice,
     return option != nullptr ? usage_error(message) : Error{message};
 }
 
-Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description,
-                                  Log& log, const std::stop_token& stop) {
+Result<void> check_city_options(const SourceOptions& choice,
+                                const io::SceneDescription& description) {
     if (choice.buildings && description.generator.empty()) {
         return usage_error(fmt::format("--buildings: found with {}, urban was expected; "
                                        "--footprints puts buildings on other terrains",
@@ -242,6 +242,14 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
     if (choice.walls && description.generator.empty()) {
         return usage_error(
             fmt::format("--walls: found with {}, urban was expected", description.name));
+    }
+    return {};
+}
+
+Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescription description,
+                                  Log& log, const std::stop_token& stop) {
+    if (auto good = check_city_options(choice, description); !good) {
+        return good.error();
     }
     if (has_many_files(description)) {
         auto tiles = open_set(choice, description, stop);

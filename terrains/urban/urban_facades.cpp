@@ -15,6 +15,7 @@ namespace {
 
 constexpr double longest_part = 6.0; // metres: streets curve, walls do not
 constexpr double reach = 2.25;       // samples from a wall: its slope, and the cells beside it
+constexpr double on_slope = 1.0;     // samples from a wall
 constexpr double same_height = 0.5;  // metres
 
 Rgba8 plaster_of(const Building& building) {
@@ -60,7 +61,8 @@ private:
         std::uint32_t& nearest = facades_.wall_at(at.x, at.y);
         const double top = wall.foot + wall.eaves + wall.rise;
         const bool is_under_roof = heights_(at.x, at.y) > top + above_eaves_;
-        if (!(away < reach) || planted_(at.x, at.y) != 0 || is_under_roof) {
+        const bool is_before_wall = planted_(at.x, at.y) != 0 && away >= on_slope;
+        if (!(away < reach) || is_before_wall || is_under_roof) {
             return false;
         }
         if (nearest != 0 && nearest != number) {

@@ -97,7 +97,7 @@ RoofSample roof_sample(const Building& building, glm::vec2 place, float inside, 
     return {building.eaves + raised * building.parapet, color};
 }
 
-// Adds a roof to a sample, of which it covers a share: of the ground first, then of lower roofs.
+// A roof covers a share of a sample: first the ground, then lower roofs.
 void add_roof(Tile& tile, std::size_t i, float height, float share) {
     const float from_ground = std::min(tile.bare[i], share);
     const float roofed = 1.0F - tile.bare[i];

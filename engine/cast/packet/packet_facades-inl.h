@@ -106,39 +106,56 @@ HWY_INLINE std::array<Floats, 3> true_normal(const std::array<Floats, 3>& drawn,
             hn::Mul(normal[2], per_length)};
 }
 
-// The colour of ground with façades. `height`: true metres. `beside_meshes(lanes)`: those from
-// which no mesh hides the sun.
-template <class BesideMeshes>
-HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
-                              const GroundPlace& place, const PacketHits& hits, Floats height,
-                              const Color& lit, const BesideMeshes& beside_meshes) {
-    const Floats zero = hn::Zero(floats);
-    const std::array<Floats, 3> normal = true_normal(grain_normal(tile, hits), paint.exaggeration);
-    Lanes shown = hn::And(hits.found, hn::Lt(normal[2], all(wall_cosine)));
-    if (hn::AllFalse(floats, shown)) {
-        return lit;
-    }
-    const Ints index = hn::IfThenElseZero(hn::RebindMask(ints, shown), nearest_sample(paint, hits));
-    const Ints pair = hn::Add(index, index);
-    const Floats number = hn::GatherIndex(floats, paint.samples, pair);
-    shown = hn::And(shown, hn::Gt(number, zero));
-    if (hn::AllFalse(floats, shown)) {
-        return lit;
-    }
-    const Floats shadow = hn::GatherIndex(floats, paint.samples + 1, pair);
-    const Ints wall_index =
-        hn::ConvertTo(ints, hn::IfThenElseZero(shown, hn::Sub(number, all(1.0F))));
-    const WallNear wall{paint.walls, hn::Mul(wall_index, all(FacadePaint::wall_values))};
-    const std::array<Floats, 2> out{wall(outward_x_value), wall(outward_y_value)};
-    const Floats eaves = wall(eaves_value);
-    const Lanes is_high = hn::Gt(height, eaves);
-    const Floats leaning = hn::MulAdd(out[0], normal[0], hn::Mul(out[1], normal[1]));
+// The lanes whose ground faces as their walls do.
+HWY_INLINE Lanes face_as_walls(const WallNear& wall, const std::array<Floats, 3>& normal) {
+    const Floats leaning =
+        hn::MulAdd(wall(outward_x_value), normal[0], hn::Mul(wall(outward_y_value), normal[1]));
     const Floats level = hn::Sqrt(hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1])));
     const Lanes is_upright = hn::Lt(normal[2], all(upright_cosine));
     const Floats min_leaning = hn::IfThenElse(is_upright, all(corner_leaning), all(wall_leaning));
-    shown = hn::And(shown, hn::Gt(leaning, hn::Mul(level, min_leaning)));
-    shown = hn::And(shown, hn::Le(height, wall(top_value)));
+    return hn::Gt(leaning, hn::Mul(level, min_leaning));
+}
 
+// The walls that hits lie on.
+struct WallHits {
+    Lanes found;
+    WallNear wall;
+    Floats shadow; // true height below which the sun is hidden
+};
+
+// `height`: true metres.
+HWY_INLINE WallHits wall_hits(const FacadePaint& paint, const TilePaint& tile,
+                              const PacketHits& hits, Floats height) {
+    const std::array<Floats, 3> normal = true_normal(grain_normal(tile, hits), paint.exaggeration);
+    const Lanes steep = hn::And(hits.found, hn::Lt(normal[2], all(wall_cosine)));
+    WallHits on{steep, {paint.walls, hn::Zero(ints)}, hn::Zero(floats)};
+    if (hn::AllFalse(floats, steep)) {
+        return on;
+    }
+    const Ints index = hn::IfThenElseZero(hn::RebindMask(ints, steep), nearest_sample(paint, hits));
+    const Ints pair = hn::Add(index, index);
+    const Floats number = hn::GatherIndex(floats, paint.samples, pair);
+    on.found = hn::And(steep, hn::Gt(number, hn::Zero(floats)));
+    if (hn::AllFalse(floats, on.found)) {
+        return on;
+    }
+    const Floats wall = hn::IfThenElseZero(on.found, hn::Sub(number, all(1.0F)));
+    on.wall.first = hn::Mul(hn::ConvertTo(ints, wall), all(FacadePaint::wall_values));
+    on.shadow = hn::GatherIndex(floats, paint.samples + 1, pair);
+    const Lanes below_top = hn::Le(height, on.wall(top_value));
+    on.found = hn::And(on.found, hn::And(face_as_walls(on.wall, normal), below_top));
+    return on;
+}
+
+// The extent of pixels on walls, drawn metres.
+struct PixelOnWall {
+    Floats along;
+    Floats up;
+};
+
+HWY_INLINE PixelOnWall pixel_on_wall(const FacadePaint& paint, const GroundPlace& place,
+                                     const WallNear& wall) {
+    const std::array<Floats, 2> out{wall(outward_x_value), wall(outward_y_value)};
     const std::array<Floats, 3> view = turned(paint.turn, place.view);
     const Floats across = hn::MulAdd(out[0], view[0], hn::Mul(out[1], view[1]));
     const Floats along = hn::MulSub(out[0], view[1], hn::Mul(out[1], view[0]));
@@ -146,36 +163,73 @@ HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
         hn::Max(hn::Abs(across), hn::Mul(place.view_length, all(flattest_facing)));
     const Floats pixel =
         hn::MulAdd(place.distance, all(paint.metres_a_pixel.y), all(paint.metres_a_pixel.x));
-    const auto width = [&](Floats of_view, Floats periods_a_metre) HWY_ATTR {
+    const auto extent = [&](Floats of_view) HWY_ATTR {
         const Floats longer = hn::Div(of_view, facing);
-        const Floats metres = hn::Mul(pixel, hn::Sqrt(hn::MulAdd(longer, longer, all(1.0F))));
-        return hn::Max(hn::Mul(metres, periods_a_metre), all(narrowest_pixel));
+        return hn::Mul(pixel, hn::Sqrt(hn::MulAdd(longer, longer, all(1.0F))));
     };
+    return {extent(along), extent(view[2])};
+}
+
+HWY_INLINE Along along_wall(const PacketHits& hits, const WallNear& wall,
+                            const PixelOnWall& pixel) {
     const auto from_begin = [&](Ints cell, Floats part, Floats begin) HWY_ATTR {
         return hn::Add(hn::Sub(hn::ConvertTo(floats, cell), begin), part);
     };
     const Floats col = from_begin(hits.col, hits.col_part, wall(begin_col_value));
     const Floats row = from_begin(hits.row, hits.row_part, wall(begin_row_value));
-    const Along u{hn::MulAdd(col, wall(windows_a_col_value),
-                             hn::MulAdd(row, wall(windows_a_row_value), wall(first_window_value))),
-                  width(along, hn::Div(all(1.0F), wall(window_metres_value)))};
-    const Along v{hn::Mul(hn::Sub(eaves, height), wall(storeys_value)),
-                  width(view[2], hn::Div(wall(storeys_value), all(paint.exaggeration)))};
-    const Color albedo =
-        wall_albedo(u, v, {wall(red_value), wall(green_value), wall(blue_value)}, is_high);
+    const Floats windows =
+        hn::MulAdd(col, wall(windows_a_col_value),
+                   hn::MulAdd(row, wall(windows_a_row_value), wall(first_window_value)));
+    const Floats width = hn::Div(pixel.along, wall(window_metres_value));
+    return {windows, hn::Max(width, all(narrowest_pixel))};
+}
 
-    const Floats foot = wall(foot_value);
-    const Floats risen = hn::Div(hn::Sub(height, foot), hn::Max(hn::Sub(eaves, foot), all(1.0F)));
-    const Floats sky =
-        hn::MulAdd(clamped(risen, 0.0F, 1.0F), all(1.0F - sky_at_foot), all(sky_at_foot));
-    const Floats above_shadow = hn::Mul(hn::Sub(height, shadow), all(1.0F / shadow_border));
-    Floats sun = hn::Mul(wall(facing_sun_value), clamped(above_shadow, 0.0F, 1.0F));
-    const Lanes sunny = hn::And(shown, hn::Gt(sun, zero));
-    sun = hn::IfThenElseZero(beside_meshes(sunny), sun);
-    const auto channel = [&](Floats of_wall, float sun_light, float sky_light,
-                             Floats ground) HWY_ATTR {
-        const Floats light = hn::MulAdd(sun, all(sun_light), hn::Mul(sky, all(sky_light)));
-        return hn::IfThenElse(shown, hn::Mul(of_wall, light), ground);
+HWY_INLINE Along down_wall(const FacadePaint& paint, Floats height, const WallNear& wall,
+                           const PixelOnWall& pixel) {
+    const Floats storeys = hn::Mul(hn::Sub(wall(eaves_value), height), wall(storeys_value));
+    const Floats width =
+        hn::Mul(pixel.up, hn::Mul(wall(storeys_value), all(1.0F / paint.exaggeration)));
+    return {storeys, hn::Max(width, all(narrowest_pixel))};
+}
+
+// Shares of the light of a free wall that faces the sun.
+struct WallLight {
+    Floats sun;
+    Floats sky;
+};
+
+// `beside_meshes(lanes)`: those from which no mesh hides the sun.
+template <class BesideMeshes>
+HWY_INLINE WallLight light_on_walls(const WallHits& on, Floats height,
+                                    const BesideMeshes& beside_meshes) {
+    const Floats foot = on.wall(foot_value);
+    const Floats high = hn::Max(hn::Sub(on.wall(eaves_value), foot), all(1.0F));
+    const Floats risen = clamped(hn::Div(hn::Sub(height, foot), high), 0.0F, 1.0F);
+    const Floats above_shadow = hn::Mul(hn::Sub(height, on.shadow), all(1.0F / shadow_border));
+    const Floats sun = hn::Mul(on.wall(facing_sun_value), clamped(above_shadow, 0.0F, 1.0F));
+    const Lanes sunny = hn::And(on.found, hn::Gt(sun, hn::Zero(floats)));
+    return {hn::IfThenElseZero(beside_meshes(sunny), sun),
+            hn::MulAdd(risen, all(1.0F - sky_at_foot), all(sky_at_foot))};
+}
+
+// The colour of ground with façades. `height`: true metres.
+template <class BesideMeshes>
+HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
+                              const GroundPlace& place, const PacketHits& hits, Floats height,
+                              const Color& lit, const BesideMeshes& beside_meshes) {
+    const WallHits on = wall_hits(paint, tile, hits, height);
+    if (hn::AllFalse(floats, on.found)) {
+        return lit;
+    }
+    const WallNear& wall = on.wall;
+    const PixelOnWall pixel = pixel_on_wall(paint, place, wall);
+    const Color albedo = wall_albedo(
+        along_wall(hits, wall, pixel), down_wall(paint, height, wall, pixel),
+        {wall(red_value), wall(green_value), wall(blue_value)}, hn::Gt(height, wall(eaves_value)));
+    const WallLight light = light_on_walls(on, height, beside_meshes);
+    const auto channel = [&](Floats of_wall, float sun, float sky, Floats ground) HWY_ATTR {
+        const Floats all_light = hn::MulAdd(light.sun, all(sun), hn::Mul(light.sky, all(sky)));
+        return hn::IfThenElse(on.found, hn::Mul(of_wall, all_light), ground);
     };
     return {channel(albedo.r, paint.sun.r, paint.sky.r, lit.r),
             channel(albedo.g, paint.sun.g, paint.sky.g, lit.g),
