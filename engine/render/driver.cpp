@@ -132,7 +132,9 @@ const geo::WrappedRows* rows_of_globe(const view::DrawList& list) {
             break;
         }
     }
-    return rows != nullptr && rows->wrap().rows() > 0 && list.reliefs.empty() ? rows : nullptr;
+    return rows != nullptr && rows->wrap().rows() > 0 && view::searched_terrains(list).empty()
+               ? rows
+               : nullptr;
 }
 
 // Between vertices, only even rows are linear.

@@ -1,19 +1,32 @@
 #include "engine/view/draw_list.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/trigonometric.hpp>
 
 namespace reljef::view {
 
+std::vector<const TerrainDraw*> searched_terrains(const DrawList& list) {
+    std::vector<const TerrainDraw*> searched;
+    for (const TerrainDraw& draw : list.terrains) {
+        if (draw.search) {
+            searched.push_back(&draw);
+        }
+    }
+    std::stable_sort(searched.begin(), searched.end(),
+                     [](const TerrainDraw* a, const TerrainDraw* b) {
+                         return a->search->distance < b->search->distance;
+                     });
+    return searched;
+}
+
 Result<void> check_techniques(const DrawList& list) {
     Result<void> checked;
-    for (const auto* const terrains : {&list.terrains, &list.reliefs}) {
-        for (const TerrainDraw& draw : *terrains) {
-            if (checked) {
-                checked = scene::check_technique(draw.terrain->material.technique,
-                                                 *draw.terrain->surface);
-            }
+    for (const TerrainDraw& draw : list.terrains) {
+        if (checked) {
+            checked =
+                scene::check_technique(draw.terrain->material.technique, *draw.terrain->surface);
         }
     }
     for (const MeshDraw& draw : list.meshes) {

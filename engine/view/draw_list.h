@@ -51,29 +51,29 @@ struct TileDraw {
     [[nodiscard]] bool is_proven() const { return tile->is_proven_everywhere(); }
 };
 
-/// Maximum of TerrainDraw::tiles.
+/// Maximum of SurfaceSearch::tiles.
 inline constexpr std::size_t max_relief_tiles = 2048;
 
-/// A terrain: its tiles are in DrawList::tiles, or each pixel searches for its surface along a ray.
-struct TerrainDraw {
-    const scene::TerrainNode* terrain = nullptr;
-    glm::dmat4 world_from_local{1.0};
-    double distance = 0.0;                     ///< of rays
-    std::optional<Coarseness> coarseness = {}; ///< of its tiles; empty: a vertex at every sample
-    /// For rays: loaded tiles of a stream, the coarsest first: the root, those that the view needs,
-    /// and those above them. Where they overlap, the finest is the surface, so that rays find
-    /// ground beside the picture, too. Empty: the samples of the terrain's surface.
+/// Rays that search for a terrain's surface in each pixel.
+struct SurfaceSearch {
+    scene::Technique technique; ///< the terrain's own, or one chosen for the view
+    double distance = 0.0;      ///< of the whole terrain
+    /// Loaded tiles of a stream, the coarsest first: the root, those that the view needs, and those
+    /// above them. Where they overlap, the finest is the surface, so that rays find ground beside
+    /// the picture, too. Empty: the samples of the terrain's surface.
     std::vector<std::shared_ptr<const scene::TerrainTile>> tiles = {};
     /// How far the surfaces of the proven ones of `tiles` are off where exact rays show them, at
     /// most, pixels; empty: no proven one is shown, or the technique is no exact search.
     std::optional<double> tile_error = {};
     std::optional<RayCourse> course = {}; ///< of rays on the ellipsoid
-    /// What draws it instead of the terrain's own technique.
-    std::optional<scene::Technique> chosen = {};
+};
 
-    [[nodiscard]] const scene::Technique& technique() const {
-        return chosen ? *chosen : terrain->material.technique;
-    }
+/// A terrain: the triangles of its tiles in DrawList::tiles, a search, or both.
+struct TerrainDraw {
+    const scene::TerrainNode* terrain = nullptr;
+    glm::dmat4 world_from_local{1.0};
+    std::optional<Coarseness> coarseness = {}; ///< of its tiles; empty: a vertex at every sample
+    std::optional<SurfaceSearch> search = {};
 };
 
 struct MeshDraw {
@@ -88,9 +88,8 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::vector<TerrainDraw> terrains; ///< as tiles
-    std::vector<TileDraw> tiles;       ///< of `terrains`, front to back
-    std::vector<TerrainDraw> reliefs;  ///< by rays, front to back
+    std::vector<TerrainDraw> terrains;
+    std::vector<TileDraw> tiles; ///< of `terrains`, as triangles, front to back
     std::vector<MeshDraw> meshes;
     std::vector<MeshDraw> meshes_beside; ///< outside the frustum: they may cast shadows into it
     std::vector<MeshDraw> bases; ///< walls below terrains (TerrainNode::base), in pictures only
@@ -100,6 +99,9 @@ struct DrawList {
         return terrains[draw.node].world_from_local;
     }
 };
+
+/// The terrains with a search, front to back. Valid as long as the list.
+std::vector<const TerrainDraw*> searched_terrains(const DrawList& list);
 
 /// Fails as scene::check_technique of each terrain and mesh.
 Result<void> check_techniques(const DrawList& list);

@@ -198,15 +198,14 @@ private:
 
     void add_relief(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         const Box bounds = transformed(world_from_local, terrain.surface->bounds());
-        TerrainDraw draw{.terrain = &terrain,
-                         .world_from_local = world_from_local,
-                         .distance = glm::length(away_from(list_.camera.eye, bounds))};
+        SurfaceSearch search{.technique = terrain.material.technique,
+                             .distance = glm::length(away_from(list_.camera.eye, bounds))};
         bool is_seen = frustum_.may_see(bounds);
         std::optional<TileSelection> choice;
         if (has_streamed_tiles(terrain)) {
             choice = select_streamed(terrain, world_from_local);
             if (choice->has_root) {
-                draw.tiles = with_coarser(terrain, choice->drawn);
+                search.tiles = with_coarser(terrain, choice->drawn);
                 is_seen = !choice->drawn.empty();
             } else if (needs_cones(terrain) && terrain.cones == nullptr) {
                 add_tiles(terrain, world_from_local); // meanwhile
@@ -217,6 +216,10 @@ private:
             ++list_.stats.skipped.nodes_outside_frustum;
             return;
         }
+        TerrainDraw draw{.terrain = &terrain,
+                         .world_from_local = world_from_local,
+                         .coarseness = {},
+                         .search = std::move(search)};
         if (is_on_ellipsoid(terrain)) {
             add_on_ellipsoid(std::move(draw), std::move(choice));
         } else {
@@ -225,16 +228,17 @@ private:
     }
 
     void add_rays(TerrainDraw draw, const std::optional<TileSelection>& choice) {
-        if (!draw.tiles.empty() && draw.technique().id() == scene::TechniqueId::exact) {
+        SurfaceSearch& search = *draw.search;
+        if (!search.tiles.empty() && search.technique.id() == scene::TechniqueId::exact) {
             const auto errors =
                 error_of_ray_tiles(*draw.terrain, list_.camera, list_.size, draw.world_from_local,
-                                   choice->drawn, draw.tiles);
-            draw.tile_error = errors.proven;
+                                   choice->drawn, search.tiles);
+            search.tile_error = errors.proven;
             list_.stats.tiles_unproven += errors.unproven;
-        } else if (draw.tiles.empty() && !draw.terrain->surface->has_all_samples()) {
+        } else if (search.tiles.empty() && !draw.terrain->surface->has_all_samples()) {
             list_.stats.tiles_unproven += static_cast<int>(draw.terrain->surface->tiles().size());
         }
-        list_.reliefs.push_back(std::move(draw));
+        list_.terrains.push_back(std::move(draw));
     }
 
     void add_on_ellipsoid(TerrainDraw draw, std::optional<TileSelection> choice) {
@@ -247,10 +251,10 @@ private:
             ++list_.stats.skipped.nodes_outside_frustum;
             return;
         }
-        draw.course =
+        draw.search->course =
             ray_course(list_.camera, list_.size, draw.world_from_local,
                        terrain.surface->placement(), samples, sun_rays(terrain, list_.sun));
-        if (draw.course) {
+        if (draw.search->course) {
             add_rays(std::move(draw), choice);
             return;
         }
@@ -394,7 +398,6 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         selector.add(seen);
     }
     selector.order_tiles();
-    list.reliefs = nearest_first(std::move(list.reliefs));
     list.stats.nodes = view.node_count();
     list.stats.skipped.invisible_nodes = view.node_count() - view.visible_count();
     list.stats.skipped.sky = list.sky ? 0 : 1;

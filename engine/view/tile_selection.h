@@ -67,7 +67,7 @@ struct RayTilesError {
     int unproven = 0;             ///< shown tiles whose errors are estimates
 };
 
-/// Of a view's drawn tiles, and of what shows of the coarser ones in `tiles` (TerrainDraw::tiles)
+/// Of a view's drawn tiles, and of what shows of the coarser ones in `tiles` (SurfaceSearch::tiles)
 /// beside them.
 RayTilesError error_of_ray_tiles(const scene::TerrainNode& terrain, const scene::Camera& camera,
                                  glm::ivec2 size, const glm::dmat4& world_from_local,

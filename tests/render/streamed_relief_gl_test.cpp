@@ -89,7 +89,7 @@ struct CutWorld {
         }
         stream.request(tiles, {}, true);
         stream.wait({});
-        auto& shown = frame.list.reliefs.at(0).tiles;
+        auto& shown = frame.list.terrains.at(0).search->tiles;
         shown.clear();
         for (const TreeTile tile : tiles) {
             shown.push_back(stream.find(tile));
@@ -202,14 +202,14 @@ double tile_height(const scene::TileBuilder& builder, const scene::TerrainTile& 
 
 const scene::TerrainTile& finest_at(const scene::TileBuilder& builder,
                                     const view::TerrainDraw& draw, glm::dvec2 sample) {
-    for (auto tile = draw.tiles.rbegin(); tile != draw.tiles.rend(); ++tile) {
+    for (auto tile = draw.search->tiles.rbegin(); tile != draw.search->tiles.rend(); ++tile) {
         const terrain::TileLattice lattice = builder.lattice((*tile)->id);
         if (glm::all(glm::greaterThanEqual(sample, lattice.first - 1e-3)) &&
             glm::all(glm::lessThanEqual(sample, lattice.last + 1e-3))) {
             return **tile;
         }
     }
-    return *draw.tiles.front();
+    return *draw.search->tiles.front();
 }
 
 // Tiles of several levels, and sides whose last cells are cut.
@@ -221,8 +221,8 @@ TEST_F(StreamedReliefGlTest, HitsLieOnTheFinestTileAndOnTheirRay) {
         for (const Pose pose : {Pose::overview, Pose::low, Pose::grazing}) {
             cut.look(pose);
             const view::FrameView frame = cut.selected();
-            const view::TerrainDraw& draw = frame.list.reliefs.at(0);
-            ASSERT_GT(draw.tiles.front()->id.level, draw.tiles.back()->id.level);
+            const view::TerrainDraw& draw = frame.list.terrains.at(0);
+            ASSERT_GT(draw.search->tiles.front()->id.level, draw.search->tiles.back()->id.level);
             const scene::TileBuilder& builder = draw.terrain->stream->maker();
             const HitBuffer hits = test::must(driver.draw_hits(frame)).hits;
             const glm::dmat4 clip_from_world = scene::clip_from_world(frame.list.camera, size);
@@ -287,7 +287,7 @@ TEST_F(StreamedReliefGlTest, TilesAboveTheDrawnOnesChangeNothing) {
         cut.look(pose);
         view::FrameView frame = cut.selected();
         const HitBuffer hits = test::must(driver.draw_hits(frame)).hits;
-        auto& tiles = frame.list.reliefs.at(0).tiles;
+        auto& tiles = frame.list.terrains.at(0).search->tiles;
         const auto is_above = [](TreeTile tile, TreeTile other) {
             const int levels = tile.level - other.level;
             return levels > 0 && other.col >> levels == tile.col && other.row >> levels == tile.row;

@@ -154,6 +154,33 @@ TEST(DrawList, NeverDropsAFlatTileThatShowsOnAnEllipsoid) {
     }
 }
 
+// Each terrain is one entry, whether rays search it or its tiles are triangles.
+TEST(DrawList, ListsEachTerrainOnceAndSearchedOnesFrontToBack) {
+    scene::Scene scene;
+    const auto add = [&](double north, scene::TechniqueId technique) {
+        scene::Node& node = test::add_terrain(
+            scene, test::plane_heightfield(test::hills(40, 40, 60.0), {3.0, 4.0}));
+        node.get<scene::TerrainNode>()->material.technique = scene::make_technique(technique);
+        node.set_position({0.0, north, 0.0});
+        return node.get<scene::TerrainNode>();
+    };
+    const auto* const far = add(1000.0, scene::TechniqueId::relief);
+    const auto* const triangles = add(500.0, scene::TechniqueId::polygons);
+    const auto* const near = add(200.0, scene::TechniqueId::exact);
+    scene.add_camera(test::camera_at({0.0, 0.0, 100.0}, {0.0, 500.0, 0.0}));
+    const view::DrawList list = view::select(scene, picture_size).list;
+    ASSERT_EQ(list.terrains.size(), 3U);
+    const auto searched = view::searched_terrains(list);
+    ASSERT_EQ(searched.size(), 2U);
+    EXPECT_EQ(searched.front()->terrain, near);
+    EXPECT_EQ(searched.back()->terrain, far);
+    ASSERT_FALSE(list.tiles.empty());
+    for (const view::TileDraw& draw : list.tiles) {
+        EXPECT_EQ(draw.terrain, triangles);
+        EXPECT_EQ(list.terrains[draw.node].terrain, triangles);
+    }
+}
+
 TEST(DrawList, CountsWhatIsHidden) {
     scene::Scene scene;
     scene::Node& group = scene.root().add("group");

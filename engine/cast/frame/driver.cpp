@@ -39,35 +39,36 @@ std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
     return largest ? std::optional(*largest + of_rays) : largest;
 }
 
-// The finest tiles of reliefs over streams as tiles, and the others, above them.
-StreamedList with_tiles_of_reliefs(view::DrawList list) {
+// The finest tiles that are searched as tiles, and the others, above them.
+StreamedList with_searched_tiles(view::DrawList list) {
     StreamedList made;
-    for (view::TerrainDraw& relief : list.reliefs) {
+    for (std::size_t i = 0; i < list.terrains.size(); ++i) {
+        const view::TerrainDraw& terrain = list.terrains[i];
+        if (!terrain.search || terrain.search->tiles.empty()) {
+            continue;
+        }
+        const view::SurfaceSearch search = *std::exchange(list.terrains[i].search, {});
         std::set<terrain::TreeTile> above;
-        for (const auto& tile : relief.tiles) {
+        for (const auto& tile : search.tiles) {
             terrain::TreeTile id = tile->id;
-            const int top = relief.tiles.front()->id.level;
+            const int top = search.tiles.front()->id.level;
             while (id.level < top) {
                 id = {id.level + 1, id.col / 2, id.row / 2};
                 above.insert(id);
             }
         }
-        for (const auto& tile : relief.tiles) {
+        for (const auto& tile : search.tiles) {
             if (above.contains(tile->id)) {
                 made.above.push_back(tile);
                 continue;
             }
             view::TileDraw& draw = list.tiles.emplace_back();
-            draw.terrain = relief.terrain;
+            draw.terrain = terrain.terrain;
             draw.tile = tile;
-            draw.node = list.terrains.size();
-            draw.error = relief.tile_error.value_or(0.0);
+            draw.node = i;
+            draw.error = search.tile_error.value_or(0.0);
         }
-        list.terrains.push_back(
-            {.terrain = relief.terrain, .world_from_local = relief.world_from_local});
     }
-    std::erase_if(list.reliefs,
-                  [](const view::TerrainDraw& relief) { return !relief.tiles.empty(); });
     made.list = std::move(list);
     return made;
 }
@@ -390,7 +391,7 @@ Result<view::PictureWork> Driver::count_work(const view::FrameView& frame) {
     if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
     }
-    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    const StreamedList streamed = with_searched_tiles(frame.list);
     view::FrameStats stats;
     return count(streamed.list, placed_tiles(streamed, true, stats));
 }
@@ -403,7 +404,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
     if (!options_.keeps_content) {
         forget_content();
     }
-    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    const StreamedList streamed = with_searched_tiles(frame.list);
     view::FrameStats stats = frame.list.stats;
     PlacedTiles placed = placed_tiles(streamed, true, stats);
     PainterOptions painting = painter_options(streamed.list, placed);
@@ -423,7 +424,7 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
     if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
     }
-    const StreamedList streamed = with_tiles_of_reliefs(frame.list);
+    const StreamedList streamed = with_searched_tiles(frame.list);
     const glm::ivec2 size = frame.list.size;
     view::DrawnHits drawn{HitBuffer(size.x, size.y), frame.list.stats};
     const PlacedTiles placed = placed_tiles(streamed, false, drawn.stats);

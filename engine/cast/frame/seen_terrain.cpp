@@ -54,9 +54,9 @@ void add_surface(SeenTerrain& seen) {
 
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
     std::vector<SeenTerrain> seen;
-    for (const view::TerrainDraw& draw : list.reliefs) {
-        SeenTerrain& terrain = found_or_added(seen, draw.terrain, draw.world_from_local);
-        for (const auto& tile : draw.tiles) {
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        SeenTerrain& terrain = found_or_added(seen, draw->terrain, draw->world_from_local);
+        for (const auto& tile : draw->search->tiles) {
             add_tile(terrain, *tile);
         }
     }

@@ -36,8 +36,10 @@ PictureRays picture_rays(const scene::Camera& camera, glm::ivec2 size, const Rel
 }
 
 bool needs_beams(const view::DrawList& list) {
-    return std::any_of(list.reliefs.begin(), list.reliefs.end(),
-                       [](const view::TerrainDraw& draw) { return has_beams(draw.technique()); });
+    return std::any_of(list.terrains.begin(), list.terrains.end(),
+                       [](const view::TerrainDraw& draw) {
+                           return draw.search && has_beams(draw.search->technique);
+                       });
 }
 
 Result<void> BeamTarget::prepare(const view::DrawList& list) {

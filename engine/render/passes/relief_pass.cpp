@@ -17,11 +17,12 @@ namespace reljef::render {
 namespace {
 
 bool is_streamed(const view::TerrainDraw& draw) {
-    return !draw.tiles.empty();
+    return !draw.search->tiles.empty();
 }
 
 std::uint32_t surface_features(const view::TerrainDraw& draw) {
-    return (is_streamed(draw) ? feature_streamed : 0U) | (draw.course ? feature_curved : 0U);
+    return (is_streamed(draw) ? feature_streamed : 0U) |
+           (draw.search->course ? feature_curved : 0U);
 }
 
 // A draw's search space. Its origin is near the eye, where floats are precise.
@@ -39,9 +40,10 @@ DrawnSpace space_of(const FrameContext& frame, const view::TerrainDraw& draw) {
     }
     const ReliefSpace& whole = frame.residency.relief(draw).space;
     const glm::dvec3 eye =
-        draw.course ? draw.course->eye
-                    : whole.space_from_local * local_eye(frame.list.camera, draw.world_from_local) +
-                          whole.space_of_origin;
+        draw.search->course
+            ? draw.search->course->eye
+            : whole.space_from_local * local_eye(frame.list.camera, draw.world_from_local) +
+                  whole.space_of_origin;
     const glm::dvec2 origin = glm::clamp(glm::floor(glm::dvec2(eye)), glm::dvec2(whole.box.low),
                                          glm::dvec2(whole.box.high) - 1.0);
     return {moved_to(whole, origin), glm::ivec2(origin), origin, 1.0};
@@ -63,10 +65,11 @@ Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
 }
 
 Box local_box(const view::TerrainDraw& draw, const ReliefSpace& space) {
-    if (!draw.course) {
+    const auto& course = draw.search->course;
+    if (!course) {
         return space.local_box;
     }
-    const Box visible = visible_samples(*draw.course, space);
+    const Box visible = visible_samples(*course, space);
     return terrain::placed_bounds(draw.terrain->surface->placement(), glm::dvec2(visible.low),
                                   glm::dvec2(visible.high), {visible.low.z, visible.high.z});
 }
@@ -190,8 +193,8 @@ Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw
     if (auto set = state.set(relief_block(draw, space)); !set) {
         return set;
     }
-    if (draw.course) {
-        if (auto set = state.set(course_block(*draw.course, space, frame.list)); !set) {
+    if (const auto& course = draw.search->course) {
+        if (auto set = state.set(course_block(*course, space, frame.list)); !set) {
             return set;
         }
         const ReliefSpace world;
@@ -272,7 +275,7 @@ void set_certain_sun(gl::Program& program, const FrameContext& frame,
 
 Result<void> set_relief(gl::Program& program, const FrameContext& frame,
                         const view::TerrainDraw& draw) {
-    const scene::Technique& technique = draw.technique();
+    const scene::Technique& technique = draw.search->technique;
     const DrawnSpace drawn = space_of(frame, draw);
     const ReliefSpace& space = drawn.space;
     if (!frame.hits) {
@@ -289,8 +292,8 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         return set;
     }
     set_space(program, frame.list.camera, space, draw.world_from_local);
-    if (draw.course) {
-        if (auto set = frame.state.set(course_block(*draw.course, space, frame.list)); !set) {
+    if (const auto& course = draw.search->course) {
+        if (auto set = frame.state.set(course_block(*course, space, frame.list)); !set) {
             return set;
         }
     }
@@ -305,7 +308,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
 }
 
 Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& draw) {
-    const scene::Technique& technique = draw.technique();
+    const scene::Technique& technique = draw.search->technique;
     DrawState& state = frame.state;
     frame.no_vertices.bind();
     if (uses_beams(frame, technique)) {
@@ -331,17 +334,17 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     stats.triangles += box_vertices - 2;
     stats.state_changes += 3;
     ++stats.draws;
-    stats.tiles += std::max<int>(1, static_cast<int>(draw.tiles.size()));
+    stats.tiles += std::max<int>(1, static_cast<int>(draw.search->tiles.size()));
     return {};
 }
 
 } // namespace
 
 Result<void> draw_reliefs(const FrameContext& frame) {
-    for (const view::TerrainDraw& draw : frame.list.reliefs) {
+    for (const view::TerrainDraw* const draw : view::searched_terrains(frame.list)) {
         // The eye may be inside the box: draw its far sides.
         frame.state.set_culling(gl::Culling::front);
-        if (auto drawn = draw_relief(frame, draw); !drawn) {
+        if (auto drawn = draw_relief(frame, *draw); !drawn) {
             return drawn;
         }
     }

@@ -25,15 +25,13 @@ Grid<glm::vec4> texels_of(const std::vector<view::FacadeTexels>& walls) {
 
 Result<void> FacadeResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
     std::erase_if(entries_, [](const auto& entry) { return entry.second.owner.expired(); });
-    for (const auto* const draws : {&list.terrains, &list.reliefs}) {
-        for (const view::TerrainDraw& draw : *draws) {
-            if (!view::shows_facades(*draw.terrain)) {
-                continue;
-            }
-            const auto light = view::light_on(list, draw.world_from_local);
-            if (auto done = prepare(*draw.terrain, draw.world_from_local, light, stats); !done) {
-                return done;
-            }
+    for (const view::TerrainDraw& draw : list.terrains) {
+        if (!view::shows_facades(*draw.terrain)) {
+            continue;
+        }
+        const auto light = view::light_on(list, draw.world_from_local);
+        if (auto done = prepare(*draw.terrain, draw.world_from_local, light, stats); !done) {
+            return done;
         }
     }
     return {};

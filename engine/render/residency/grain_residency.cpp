@@ -14,10 +14,10 @@
 namespace reljef::render {
 namespace {
 
-bool has_grain(const std::vector<view::TerrainDraw>& draws) {
-    return std::any_of(draws.begin(), draws.end(), [](const view::TerrainDraw& draw) {
-        return scene::shown_grain(*draw.terrain) > 0.0F;
-    });
+bool has_grain(const view::DrawList& list) {
+    return std::any_of(
+        list.terrains.begin(), list.terrains.end(),
+        [](const view::TerrainDraw& draw) { return scene::shown_grain(*draw.terrain) > 0.0F; });
 }
 
 Grid<Rgba8> level_of(const material::GrainMap& map, material::GrainMap::Layer layer, int level) {
@@ -55,7 +55,7 @@ Result<gl::Texture2D> uploaded(const material::GrainMap& map, material::GrainMap
 } // namespace
 
 Result<void> GrainResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
-    if (rock_ || !(has_grain(list.terrains) || has_grain(list.reliefs))) {
+    if (rock_ || !has_grain(list)) {
         return {};
     }
     const material::GrainMap map;

@@ -235,11 +235,11 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
 Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, TileMaps& lights,
                                   view::FrameStats& stats) {
     ++frame_;
-    for (const view::TerrainDraw& draw : list.reliefs) {
-        if (draw.tiles.empty()) {
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (draw->search->tiles.empty()) {
             continue;
         }
-        if (auto done = prepare(list, draw, with_light, lights, stats); !done) {
+        if (auto done = prepare(list, *draw, with_light, lights, stats); !done) {
             return done;
         }
     }
@@ -253,12 +253,13 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, T
 Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::TerrainDraw& draw,
                                   bool with_light, TileMaps& lights, view::FrameStats& stats) {
     const std::shared_ptr<scene::TileStream>& source = draw.terrain->stream;
-    const scene::Technique& technique = draw.technique();
+    const scene::Technique& technique = draw.search->technique;
     Stream& stream = streams_[source.get()];
     stream.owner = source;
     stream.drawn = frame_;
     const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
-    stream.resident.space = streamed_space(source->maker(), draw.tiles, eye, draw.course);
+    stream.resident.space =
+        streamed_space(source->maker(), draw.search->tiles, eye, draw.search->course);
     const std::vector<Drawn> tiles = placed(stream, draw);
     auto done = prepare_heights(stream, tiles, stats);
     done = done ? prepare_search(stream, tiles, technique, stats) : done;
@@ -276,7 +277,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Terrai
 std::vector<ReliefTiles::Drawn> ReliefTiles::placed(Stream& stream,
                                                     const view::TerrainDraw& draw) const {
     std::vector<Drawn> drawn;
-    for (const Tile& tile : draw.tiles) {
+    for (const Tile& tile : draw.search->tiles) {
         if (tile->id.level >= stream.resident.space.level) {
             Slot& slot = stream.slots[tile->id];
             const bool is_new = slot.owner.lock() != tile;

@@ -94,12 +94,12 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
 Result<void> Residency::prepare_reliefs(const view::DrawList& list, bool with_maps,
                                         view::FrameStats& stats) {
     CertainSuns last = with_maps ? std::exchange(certain_suns_, {}) : CertainSuns();
-    for (const view::TerrainDraw& draw : list.reliefs) {
-        if (!draw.tiles.empty()) { // of a stream: relief_tiles_ has them
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (!draw->search->tiles.empty()) { // of a stream: relief_tiles_ has them
             continue;
         }
-        auto done = prepare_relief(draw, stats);
-        done = done && with_maps ? prepare_certain_sun(list, draw, last, stats) : done;
+        auto done = prepare_relief(*draw, stats);
+        done = done && with_maps ? prepare_certain_sun(list, *draw, last, stats) : done;
         if (!done) {
             return done;
         }
@@ -148,11 +148,11 @@ Result<void> Residency::prepare_all_maps(const view::DrawList& list, view::Frame
             return done;
         }
     }
-    for (const view::TerrainDraw& draw : list.reliefs) {
-        if (!draw.tiles.empty()) {
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (!draw->search->tiles.empty()) {
             continue;
         }
-        if (auto done = prepare_maps(list, *draw.terrain, draw.world_from_local, stats); !done) {
+        if (auto done = prepare_maps(list, *draw->terrain, draw->world_from_local, stats); !done) {
             return done;
         }
     }
@@ -198,7 +198,7 @@ Residency::maps_for(const scene::TerrainNode& terrain,
 
 Result<void> Residency::prepare_relief(const view::TerrainDraw& draw, view::FrameStats& stats) {
     const scene::TerrainSurface& surface = *draw.terrain->surface;
-    const scene::Technique& technique = draw.technique();
+    const scene::Technique& technique = draw.search->technique;
     std::optional<ResidentRelief>& relief = surface_of(draw.terrain->surface).relief;
     const bool uses_mipmap = uses_max_mipmap(technique);
     const bool needs_mipmap = uses_mipmap && !(relief && relief->max_mipmap);

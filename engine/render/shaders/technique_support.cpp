@@ -128,17 +128,12 @@ nearest_technique(scene::TechniqueId id, const DrawnSurface& surface, const gl::
 }
 
 Result<void> check_support(const view::DrawList& list, const gl::Limits& limits) {
-    const auto check_terrains = [&](const std::vector<view::TerrainDraw>& draws) -> Result<void> {
-        for (const view::TerrainDraw& draw : draws) {
-            const scene::TerrainNode& terrain = *draw.terrain;
-            if (auto good = check_surface(draw.technique(), surface_of(terrain), limits); !good) {
-                return good;
-            }
-        }
-        return {};
-    };
-    auto good = check_terrains(list.terrains);
-    good = good ? check_terrains(list.reliefs) : good;
+    Result<void> good;
+    for (const view::TerrainDraw& draw : list.terrains) {
+        const DrawnSurface surface = surface_of(*draw.terrain);
+        good = good ? check_surface(draw.terrain->material.technique, surface, limits) : good;
+        good = good && draw.search ? check_surface(draw.search->technique, surface, limits) : good;
+    }
     for (const view::MeshDraw& draw : list.meshes) {
         const scene::Material& material = draw.mesh->material;
         if (good && material.detail.set != nullptr) {

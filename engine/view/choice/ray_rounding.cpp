@@ -289,10 +289,11 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
                      2.0 * rounding.from_afar(part.slopes.steepness) > error};
         }
     }
-    if (floats == RayFloats::opengl && draw.course) {
+    if (floats == RayFloats::opengl && draw.search && draw.search->course) {
         const double pixel = metres_a_pixel(list.camera, list.size).y; // radians
-        found.error = more_on_ellipsoid * found.error +
-                      world_metres * (local_metres * draw.course->error / pixel + max_chord_error);
+        found.error =
+            more_on_ellipsoid * found.error +
+            world_metres * (local_metres * draw.search->course->error / pixel + max_chord_error);
     }
     return found;
 }

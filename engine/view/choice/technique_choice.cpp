@@ -43,9 +43,8 @@ bool may_have_rays(const DrawList& list, const TerrainDraw& draw, int max_map_si
     const scene::TerrainNode& terrain = *draw.terrain;
     const Grid<float>& heights = terrain.surface->heightfield().heights;
     const auto side = static_cast<unsigned>(std::max(heights.cols(), heights.rows()));
-    return list.terrains.size() == 1 && list.reliefs.empty() && list.meshes.empty() &&
-           list.bases.empty() && terrain.stream == nullptr && !terrain.material.wireframe &&
-           terrain.detail == nullptr &&
+    return list.terrains.size() == 1 && !draw.search && list.meshes.empty() && list.bases.empty() &&
+           terrain.stream == nullptr && !terrain.material.wireframe && terrain.detail == nullptr &&
            terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
            list.camera.projection == scene::ProjectionKind::perspective &&
            glm::dmat3(draw.world_from_local) == glm::dmat3(1.0) &&
@@ -155,13 +154,11 @@ ViewCosts view_costs(const DrawList& list, const TriangleCounts& counts, const P
 
 // Leaves the tiles up to a ring to triangles, and all else to rays.
 void split_at(DrawList& list, int last_ring, const scene::Technique& search) {
-    const glm::ivec2 below = tile_below(list, list.terrains.front());
-    TerrainDraw rays = list.terrains.front();
-    rays.chosen = search;
-    rays.coarseness.reset();
+    TerrainDraw& terrain = list.terrains.front();
+    const glm::ivec2 below = tile_below(list, terrain);
     std::erase_if(list.tiles,
                   [&](const TileDraw& draw) { return ring_of(*draw.tile, below) > last_ring; });
-    list.reliefs.push_back(std::move(rays));
+    terrain.search = SurfaceSearch{.technique = search};
 }
 
 bool allows_typical(const scene::TerrainNode& terrain) {
@@ -315,13 +312,13 @@ void TechniqueChooser::choose_for_parts(const DrawList& whole) {
 // Rays on the CPU state their own, and other searches none.
 void TechniqueChooser::state_error_of_rays(DrawList& list) {
     const auto is_exact = [](const TerrainDraw& draw) {
-        return draw.technique().id() == scene::TechniqueId::exact;
+        return draw.search && draw.search->technique.id() == scene::TechniqueId::exact;
     };
-    if (std::none_of(list.reliefs.begin(), list.reliefs.end(), is_exact) ||
+    if (std::none_of(list.terrains.begin(), list.terrains.end(), is_exact) ||
         (options_.rays_draw && options_.rays_draw(list))) {
         return;
     }
-    for (const TerrainDraw& draw : list.reliefs) {
+    for (const TerrainDraw& draw : list.terrains) {
         if (is_exact(draw)) {
             state_error_of_rays(list, draw);
         }
@@ -329,16 +326,17 @@ void TechniqueChooser::state_error_of_rays(DrawList& list) {
 }
 
 void TechniqueChooser::state_error_of_rays(DrawList& list, const TerrainDraw& draw) {
-    const bool has_tiles = !draw.tiles.empty();
+    const SurfaceSearch& search = *draw.search;
+    const bool has_tiles = !search.tiles.empty();
     const bool is_proven =
-        has_tiles ? draw.tile_error.has_value()
+        has_tiles ? search.tile_error.has_value()
                   : draw.terrain->stream == nullptr && draw.terrain->surface->has_all_samples();
     if (!is_proven) {
         return;
     }
-    const auto& tiles = has_tiles ? draw.tiles : draw.terrain->surface->tiles();
+    const auto& tiles = has_tiles ? search.tiles : draw.terrain->surface->tiles();
     const auto rounding = rounding_.of(list, draw, tiles, RayFloats::opengl);
-    const double of_tiles = draw.tile_error.value_or(0.0);
+    const double of_tiles = search.tile_error.value_or(0.0);
     const double before = list.stats.kept_error.value_or(0.0);
     if (of_tiles + rounding.error > before) {
         list.stats.exceeded_by_rounding = rounding.is_of_view && rounding.error > of_tiles;

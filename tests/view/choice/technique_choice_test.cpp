@@ -66,6 +66,10 @@ struct ChosenView {
     }
 };
 
+bool has_rays(const DrawList& list) {
+    return !searched_terrains(list).empty();
+}
+
 // Metres from the eye.
 double nearest_hit(const scene::Camera& camera, const scene::TerrainSurface& surface) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -197,7 +201,7 @@ TEST(TechniqueChooserTest, HiddenTilesAreLookedForOnlyWhereTheyMayDecide) {
         });
         ++cases[{has_dropped, of_all.stats.lacks_triangles}];
         ASSERT_EQ(of_seen.tiles.size(), of_all.tiles.size());
-        ASSERT_EQ(of_seen.reliefs.size(), of_all.reliefs.size());
+        ASSERT_EQ(has_rays(of_seen), has_rays(of_all));
         ASSERT_EQ(of_seen.stats.kept_error, of_all.stats.kept_error);
         ASSERT_EQ(of_seen.stats.lacks_triangles, of_all.stats.lacks_triangles);
         ASSERT_EQ(of_seen.stats.choice->rays_ms, of_all.stats.choice->rays_ms);
@@ -213,16 +217,17 @@ TEST(TechniqueChooserTest, HiddenTilesAreLookedForOnlyWhereTheyMayDecide) {
 TEST(TechniqueChooserTest, DrawsTrianglesRaysOrBothByTheirCosts) {
     const ChosenView view("auto:error=1", plain_before_hills());
     const DrawList triangles = view.chosen(triangles_only);
-    EXPECT_TRUE(triangles.reliefs.empty());
+    EXPECT_FALSE(has_rays(triangles));
     EXPECT_EQ(triangles.stats.choice->tiles_as_triangles, static_cast<int>(triangles.tiles.size()));
     const DrawList rays = view.chosen(rays_only);
     EXPECT_TRUE(rays.tiles.empty());
-    ASSERT_EQ(rays.reliefs.size(), 1U);
-    EXPECT_EQ(rays.reliefs.front().technique().id(), scene::TechniqueId::exact);
+    ASSERT_TRUE(has_rays(rays));
+    EXPECT_EQ(rays.terrains.front().search->technique.id(), scene::TechniqueId::exact);
     EXPECT_EQ(rays.stats.choice->tiles_by_rays, static_cast<int>(triangles.tiles.size()));
     EXPECT_GT(rays.stats.choice->ray_pixels, 0.3);
     const DrawList mixed = view.chosen(both);
-    EXPECT_EQ(mixed.reliefs.size(), 1U);
+    EXPECT_TRUE(has_rays(mixed));
+    EXPECT_EQ(mixed.terrains.size(), 1U);
     EXPECT_FALSE(mixed.tiles.empty());
     EXPECT_LT(mixed.tiles.size(), triangles.tiles.size());
     EXPECT_LT(mixed.stats.choice->ray_pixels, rays.stats.choice->ray_pixels);
@@ -259,7 +264,7 @@ TEST(TechniqueChooserTest, TheSameViewGetsTheSameChoice) {
 TEST(TechniqueChooserTest, LeavesOtherTechniquesAlone) {
     const ChosenView view("polygons:error=1");
     const DrawList list = view.chosen(rays_only);
-    EXPECT_TRUE(list.reliefs.empty());
+    EXPECT_FALSE(has_rays(list));
     EXPECT_FALSE(list.stats.choice.has_value());
 }
 
@@ -267,7 +272,7 @@ TEST(TechniqueChooserTest, DrawsTrianglesWhereRaysHaveNoProof) {
     ChosenView view;
     const auto expect_triangles = [&](const char* why) {
         const DrawList list = view.chosen(rays_only);
-        EXPECT_TRUE(list.reliefs.empty()) << why;
+        EXPECT_FALSE(has_rays(list)) << why;
         EXPECT_EQ(list.stats.choice->tiles_by_rays, 0) << why;
         EXPECT_FALSE(list.stats.choice->rays_ms.has_value()) << why;
     };
@@ -285,7 +290,7 @@ TEST(TechniqueChooserTest, DrawsTrianglesWhereRaysHaveNoProof) {
     view.node->get<scene::TerrainNode>()->material.wireframe = true;
     expect_triangles("a wireframe");
     view.node->get<scene::TerrainNode>()->material.wireframe = false;
-    EXPECT_FALSE(view.chosen(rays_only).reliefs.empty());
+    EXPECT_TRUE(has_rays(view.chosen(rays_only)));
     view.scene.add_mesh(scene::plane_mesh({10.0F, 10.0F}), {});
     expect_triangles("a mesh beside it");
 }
@@ -301,7 +306,7 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
         EXPECT_EQ(list.stats.lacks_triangles, list.stats.kept_error > 0.02);
         return list.stats.kept_error.value_or(0.0);
     };
-    EXPECT_TRUE(view.chosen(triangles_only).reliefs.empty());
+    EXPECT_FALSE(has_rays(view.chosen(triangles_only)));
     terrain.max_triangles = 10;
     EXPECT_EQ(kept_by_rays(triangles_only), 0.02);
     const double ground = test::surface_of(*view.node).height_at(3.0, 4.0).value();
@@ -316,7 +321,7 @@ TEST(TechniqueChooserTest, RaysDrawWhatTrianglesCannotKeepWithinTheMemory) {
     EXPECT_GE(kept, needed);
     EXPECT_LE(kept, 1.3 * needed);
     terrain.max_triangles = std::numeric_limits<std::size_t>::max();
-    EXPECT_TRUE(view.chosen(rays_only).reliefs.empty()) << "triangles keep it";
+    EXPECT_FALSE(has_rays(view.chosen(rays_only))) << "triangles keep it";
 }
 
 // The boxes around cells contain the eye, but the surface is metres away from it.
@@ -365,8 +370,8 @@ TEST(TechniqueChooserTest, DrawsSearchesWithoutAProofOnlyOnRequest) {
     ASSERT_TRUE(list.stats.choice->typical.has_value());
     const TypicalChoice& typical = *list.stats.choice->typical;
     EXPECT_GE(typical.share, 0.9);
-    ASSERT_EQ(list.reliefs.size(), 1U);
-    EXPECT_EQ(scene::to_string(list.reliefs.front().technique()), typical.technique);
+    ASSERT_TRUE(has_rays(list));
+    EXPECT_EQ(scene::to_string(list.terrains.front().search->technique), typical.technique);
     EXPECT_EQ(list.stats.tiles_unproven, list.stats.choice->tiles_by_rays);
     EXPECT_GT(list.stats.tiles_unproven, 0);
     EXPECT_FALSE(list.stats.kept_error.has_value());
@@ -433,7 +438,7 @@ TEST(TechniqueChooserTest, AllPartsOfAPictureShowOneKind) {
                 DrawList list = view::select(view.scene, part_size).list;
                 chooser.choose(list);
                 if (list.stats.choice) {
-                    EXPECT_TRUE(list.tiles.empty() || list.reliefs.empty());
+                    EXPECT_TRUE(list.tiles.empty() || !has_rays(list));
                     kinds.insert(list.tiles.empty());
                 }
             }
