@@ -264,6 +264,14 @@ void add_daylight_options(CLI::App& command, ViewChoice& choice) {
         "metres to 2 % contrast at the lowest ground; 0: no haze (10 widths of the terrain, at "
         "least 30,000)",
         "M");
+    command
+        .add_option(
+            "--sky", choice.sky,
+            "picture of all directions, twice as wide as high; of the sky alone, four times; "
+            "a cross of six faces, 4:3; or a folder of six faces (the sun's own sky)")
+        ->type_name("FILE|FOLDER");
+    add_parsed(command, "--sky-turn", choice.sky_turn, number_in("--sky-turn", -360.0, 360.0),
+               "where the middle of that picture lies, degrees clockwise from north (0)", "DEG");
     add_parsed(command, "--base", choice.base,
                word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
                                                      {"solid", session::BaseKind::solid},

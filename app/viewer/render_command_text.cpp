@@ -106,6 +106,12 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     if (scene.surroundings.visibility) {
         command.add("--visibility", fmt::format("{}", *scene.surroundings.visibility));
     }
+    if (start.scene.sky) {
+        command.add("--sky", start.scene.sky->string());
+    }
+    if (start.scene.sky_turn) {
+        command.add("--sky-turn", fmt::format("{}", *start.scene.sky_turn));
+    }
     if (start.scene.base) {
         command.add("--base", session::to_string(*start.scene.base));
     }

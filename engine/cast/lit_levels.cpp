@@ -21,10 +21,6 @@ std::uint32_t root_bits(float channel) {
         std::lround(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest));
 }
 
-std::uint32_t packed(glm::vec3 linear) {
-    return root_bits(linear.r) | root_bits(linear.g) << 10U | root_bits(linear.b) << 20U;
-}
-
 // Means of two by two; the last column and row count twice where there is no next one.
 template <class T, class Linear>
 Grid<glm::vec3> half_of(const Grid<T>& fine, const Linear& linear) {
@@ -73,6 +69,10 @@ private:
 
 } // namespace
 
+std::uint32_t packed_roots(glm::vec3 linear) {
+    return root_bits(linear.r) | root_bits(linear.g) << 10U | root_bits(linear.b) << 20U;
+}
+
 LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
     const glm::ivec2 size(lit.cols(), lit.rows());
     const glm::vec4 coordinate = view::texture_from_sample(samples, size);
@@ -92,7 +92,7 @@ void LitLevels::add_coarse_levels(Grid<glm::vec3> level) {
     while (true) {
         paint_.begin.at(static_cast<std::size_t>(paint_.level_count++)) =
             static_cast<std::int32_t>(texels_.size());
-        add_level(level, packed, texels_);
+        add_level(level, packed_roots, texels_);
         if (level.size() == 1 ||
             static_cast<std::size_t>(paint_.level_count) == paint_.begin.size()) {
             return;

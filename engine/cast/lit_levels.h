@@ -32,6 +32,9 @@ private:
     TilePaint paint_; // its texels are set when it is used
 };
 
+/// A texel of paints: the square roots of a linear colour in [0, 1], three times 10 bits.
+std::uint32_t packed_roots(glm::vec3 linear);
+
 /// TilePaint::longest_texels of a paint. `spacing`: of the samples, metres.
 glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm::dvec2 spacing);
 

@@ -115,8 +115,11 @@ struct SceneOptions {
     std::optional<double> turbidity; ///< [1, 10]; absent: the scene file's, else clear air
     /// Metres; 0: no haze; absent: the scene file's, else by the size.
     std::optional<double> visibility;
-    std::optional<BaseKind> base;  ///< absent: the scene file's, else a plane
-    std::optional<bool> hides_sky; ///< absent: the scene file's, else true
+    /// A picture of the sky (io::read_sky); absent: the scene file's, else the sun's own sky.
+    std::optional<std::filesystem::path> sky;
+    std::optional<double> sky_turn; ///< degrees clockwise; absent: the scene file's, else 0
+    std::optional<BaseKind> base;   ///< absent: the scene file's, else a plane
+    std::optional<bool> hides_sky;  ///< absent: the scene file's, else true
     /// TerrainNode::grain; absent: the scene file's, else default_grain.
     std::optional<double> grain;
     double default_grain = 0.0;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
+#include "engine/io/image/sky_file.h"
 #include "engine/scene/graph/terrain_base.h"
 #include "engine/terrain/field/tint.h"
 
@@ -88,6 +89,54 @@ std::optional<double> true_north(const TerrainScene& scene) {
 
 namespace {
 
+BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
+    return view.base.value_or(description.base == "none"    ? BaseKind::none
+                              : description.base == "solid" ? BaseKind::solid
+                                                            : BaseKind::plane);
+}
+
+Result<std::shared_ptr<const material::SkyPicture>>
+sky_picture(const io::SceneDescription& description, const SceneOptions& view) {
+    const std::filesystem::path file = view.sky.value_or(description.sky);
+    if (file.empty()) {
+        return view.sky_turn
+                   ? Result<std::shared_ptr<const material::SkyPicture>>(usage_error(
+                         "--sky-turn: no picture of a sky found, --sky FILE was expected"))
+                   : std::shared_ptr<const material::SkyPicture>();
+    }
+    auto picture = io::read_sky(file, view.sky_turn.value_or(description.sky_turn));
+    if (!picture) {
+        return picture.error();
+    }
+    return std::make_shared<const material::SkyPicture>(std::move(*picture));
+}
+
+} // namespace
+
+// Walls follow all samples of the border; a stream shows coarser ones, too.
+Result<Surroundings> surroundings_of(const TerrainScene& scene,
+                                     const io::SceneDescription& description,
+                                     const SceneOptions& view, Log& log) {
+    Surroundings found;
+    found.turbidity =
+        view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
+    found.visibility = view.visibility ? view.visibility : description.visibility;
+    found.base = base_kind(description, view);
+    if (found.base == BaseKind::solid && scene.terrain->get<scene::TerrainNode>()->stream) {
+        log.note("a terrain that is read tile by tile has no walls: it lies on a plane; a larger "
+                 "--memory shows --base solid");
+        found.base = BaseKind::plane;
+    }
+    auto sky = sky_picture(description, view);
+    if (!sky) {
+        return sky.error();
+    }
+    found.sky = std::move(*sky);
+    return found;
+}
+
+namespace {
+
 // Azimuth, [0, 360), and altitude over the terrain's middle, degrees.
 Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
@@ -136,6 +185,12 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
     *scene.light->get<scene::Light>() = sun;
 
     scene::Sky sky = sky_over(scene, daylight.sky);
+    if (const auto& picture = scene.surroundings.sky) {
+        sky.picture = picture;
+        sky.horizon = picture->horizon();
+        sky.zenith = picture->zenith();
+        sky.glow = glm::vec3(0.0F);
+    }
     constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const BaseKind base = scene.surroundings.base;

@@ -309,28 +309,6 @@ Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
     return placed ? place_buildings(scene, source, view, log, stop) : placed;
 }
 
-BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
-    return view.base.value_or(description.base == "none"    ? BaseKind::none
-                              : description.base == "solid" ? BaseKind::solid
-                                                            : BaseKind::plane);
-}
-
-// Walls follow all samples of the border; a stream shows coarser ones, too.
-Surroundings surroundings_of(const TerrainScene& scene, const io::SceneDescription& description,
-                             const SceneOptions& view, Log& log) {
-    Surroundings found;
-    found.turbidity =
-        view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
-    found.visibility = view.visibility ? view.visibility : description.visibility;
-    found.base = base_kind(description, view);
-    if (found.base == BaseKind::solid && scene.terrain->get<scene::TerrainNode>()->stream) {
-        log.note("a terrain that is read tile by tile has no walls: it lies on a plane; a larger "
-                 "--memory shows --base solid");
-        found.base = BaseKind::plane;
-    }
-    return found;
-}
-
 } // namespace
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
@@ -375,7 +353,11 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return done.error();
     }
 
-    result.surroundings = surroundings_of(result, source.description, view, log);
+    auto surroundings = surroundings_of(result, source.description, view, log);
+    if (!surroundings) {
+        return surroundings.error();
+    }
+    result.surroundings = std::move(*surroundings);
     result.light = &result.scene.add_light();
     const auto sun = chosen_sun(result, source.description, view);
     if (!sun) {

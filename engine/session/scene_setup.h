@@ -21,6 +21,7 @@ struct Surroundings {
     double turbidity = scene::default_turbidity;
     std::optional<double> visibility; ///< metres; 0: no haze; absent: by the terrain's size
     BaseKind base = BaseKind::plane;
+    std::shared_ptr<const material::SkyPicture> sky; ///< null: the sky of the sun's altitude
 };
 
 struct TerrainScene {

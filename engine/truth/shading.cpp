@@ -54,6 +54,9 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
         const double metres = (sky.base - ray.origin.z) / direction.z;
         return behind_air(sky, sun, *sky.plane, direction, mist * metres);
     }
+    if (sky.picture != nullptr) {
+        return sky.picture->color(direction);
+    }
     const auto height = static_cast<float>(std::max(direction.z, 0.0));
     const float share = height * (1.0F + sky.curve) / (height + sky.curve);
     const glm::vec3 color =

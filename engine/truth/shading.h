@@ -14,7 +14,7 @@
 namespace reljef::truth {
 
 /// Linear colour of the sky along a world ray (scene::Sky), or of the plane below it; a sun adds
-/// glow and disc.
+/// glow and disc, unless the sky is a picture.
 glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray);
 
 /// A linear colour through `distance` metres of air along a world ray (Koschmieder 1924).

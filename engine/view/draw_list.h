@@ -120,6 +120,10 @@ glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
 /// Width of a pixel, metres: x at the eye, plus y per metre of distance.
 glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
 
+/// The level of the sky's picture whose texels are about as wide as pixels. Precondition: the sky
+/// is a picture.
+std::size_t sky_level(const DrawList& list);
+
 /// Where the pattern of dithers begins: of a part of a picture, so that parts continue it; pixels.
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size);
 

@@ -1,6 +1,9 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 
+layout(binding = sky_faces_unit) uniform sampler2D sky_faces; // of material::SkyPicture::Level
+uniform float sky_side; // texels along a face without its border; 0: no picture
+
 in vec3 ray;
 
 layout(location = 0) out vec4 color;
@@ -16,7 +19,24 @@ vec3 plane_color(vec3 direction) {
 #endif
 }
 
+// As material::SkyPicture::color().
+vec3 picture_color(vec3 direction) {
+    vec3 size = abs(direction);
+    bool along_x = size.x >= size.y;
+    float level = along_x ? direction.x : direction.y;
+    bool upright = abs(level) < size.z;
+    float axis = upright ? direction.z : level;
+    float face = (upright ? 4.0 : along_x ? 0.0 : 2.0) + (axis < 0.0 ? 1.0 : 0.0);
+    vec2 across = vec2(upright || !along_x ? direction.x : direction.y, upright ? direction.y : direction.z);
+    vec2 texel = 0.5 * sky_side * (across / abs(axis) + 1.0) + 1.0;
+    texel.y += face * (sky_side + 2.0);
+    return textureLod(sky_faces, texel / vec2(textureSize(sky_faces, 0)), 0.0).rgb;
+}
+
 vec3 sky_color(vec3 direction) {
+    if (sky_side > 0.0) {
+        return picture_color(direction);
+    }
     float height = max(direction.z, 0.0);
     float curve = sky_zenith.a;
     vec3 sky = mix(sky_horizon.rgb, sky_zenith.rgb, height * (1.0 + curve) / (height + curve));

@@ -306,6 +306,7 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
 
 PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& placed) {
     PainterOptions options{options_.target, options_.skips, options_.samples};
+    options.sky = sky_.prepare(list);
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     if (!terrains.empty()) {
         const SeenTerrain& seen = terrains.front();

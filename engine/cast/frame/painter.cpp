@@ -108,6 +108,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     shared_.needs_nearness = has_samples();
     shared_.grain = options.grain;
     shared_.facades = options.facades;
+    shared_.sky = options.sky;
     shared_.contours = options.contours;
     shared_.mesh_shadow = meshes_ != nullptr ? meshes_->shadow() : MeshShadow{};
     std::transform(places.begin(), places.end(), samples_.places.begin(),

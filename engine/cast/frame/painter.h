@@ -24,6 +24,7 @@ struct PainterOptions {
     const MeshFrame* meshes = nullptr;    ///< null: none; outlives the painter
     const GrainPaint* grain = nullptr;    ///< null: none; outlives the painter
     const FacadePaint* facades = nullptr; ///< null: none; outlives the painter
+    const SkyPaint* sky = nullptr;        ///< null: no picture; outlives the painter
     float contours = 0.0F;                ///< BlockPaint::contours
 };
 

@@ -120,6 +120,12 @@ struct FacadePaint {
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 
+/// The stacked faces of a level of material::SkyPicture.
+struct SkyPaint {
+    const std::uint32_t* texels = nullptr; ///< packed_roots(), row after row
+    int side = 0;                          ///< of a face, texels without the border
+};
+
 /// What is certain of the sun in a cell; 0: nothing.
 inline constexpr std::int32_t sun_certain = 1;
 inline constexpr std::int32_t shadow_certain = 2;
@@ -218,7 +224,8 @@ struct BlockPaint {
     bool is_perspective = true;
     bool needs_nearness = false;
     bool has_sky = false;
-    glm::vec3 horizon{0.0F}; ///< linear
+    const SkyPaint* sky = nullptr; ///< null: no picture, but the colours that follow
+    glm::vec3 horizon{0.0F};       ///< linear
     glm::vec3 zenith{0.0F};
     glm::vec3 glow{0.0F};
     float curve = 1.0F;

@@ -13,6 +13,7 @@
 #include "engine/cast/packet/packet_facades-inl.h"
 #include "engine/cast/packet/packet_grain-inl.h"
 #include "engine/cast/packet/packet_light-inl.h"
+#include "engine/cast/packet/packet_sky-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -130,7 +131,11 @@ HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, 
     return behind_air(paint, angles, color, hn::Mul(mean, metres));
 }
 
-HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewAngles& angles) {
+HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewRays& view,
+                               const ViewAngles& angles) {
+    if (paint.sky != nullptr) {
+        return sky_picture_color(*paint.sky, view.x, view.y, view.z);
+    }
     const Floats zero = hn::Zero(floats);
     const Floats height = hn::Max(angles.rise, zero);
     const Floats share =
@@ -184,10 +189,10 @@ HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
     const ViewAngles angles = angles_of(paint, view);
     const Lanes below = hn::Lt(angles.rise, hn::Zero(floats));
     if (!paint.has_plane || hn::AllFalse(floats, below)) {
-        return dithered(paint, pixels, above_horizon(paint, angles));
+        return dithered(paint, pixels, above_horizon(paint, view, angles));
     }
     return dithered(paint, pixels,
-                    chosen(below, plane_color(paint, angles), above_horizon(paint, angles)));
+                    chosen(below, plane_color(paint, angles), above_horizon(paint, view, angles)));
 }
 
 // How hits lie to their rays.

@@ -285,6 +285,11 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     air.read("visibility", scene.visibility, not_negative);
     air.read("turbidity", scene.turbidity, turbidities);
     air.read("base", scene.base, bases);
+    air.read("sky", scene.sky, folder);
+    air.read("sky_turn", scene.sky_turn, azimuths);
+    if (air.has("sky_turn") && !air.has("sky")) {
+        air.fail("sky_turn", "stands alone, sky was expected, too");
+    }
     read_camera_keys(camera, scene);
     if (auto good = read_arrays(root, folder, scene); !good) {
         return good.error();
@@ -316,7 +321,8 @@ named_files(const SceneDescription& scene) {
         {"the terrain's heights", scene.heights},
         {"the gallery's textures", scene.gallery_textures},
         {"the detail texture", scene.detail.value_or(DetailDescription{}).textures},
-        {"the terrain's ramp", scene.ramp}};
+        {"the terrain's ramp", scene.ramp},
+        {"the sky", scene.sky}};
     for (const std::filesystem::path& image : scene.imagery) {
         files.emplace_back("the terrain's imagery", image);
     }

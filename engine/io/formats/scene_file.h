@@ -99,6 +99,8 @@ struct SceneDescription {
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility; ///< 0: no haze
     std::optional<double> turbidity;  ///< [1, 10]; absent: clear air
+    std::filesystem::path sky;        ///< a picture of the sky (read_sky); empty: the sun's own sky
+    double sky_turn = 0.0;            ///< its middle, degrees clockwise from north, [-360, 360]
     std::string base;      ///< below the terrain's edge: "plane", "solid" or "none"; empty: plane
     bool hides_sky = true; ///< whether terrain keeps the sky's light from itself
 

@@ -1,6 +1,8 @@
 #include "engine/render/passes/frame_context.h"
+#include "engine/render/shaders/uniforms.h"
 
 namespace reljef::render {
+
 Result<void> draw_sky(const FrameContext& frame) {
     if (!frame.list.sky || frame.hits) {
         return {};
@@ -14,6 +16,9 @@ Result<void> draw_sky(const FrameContext& frame) {
     state.set_wireframe(false);
     gl::set_depth_writing(false);
     gl::set_depth_test(gl::DepthTest::greater_or_equal);
+    const SkyResidency& sky = frame.residency.sky();
+    sky.bind();
+    (*program)->set(uniforms.sky_side, static_cast<float>(sky.side()));
     frame.no_vertices.bind();
     gl::draw_arrays(gl::Primitive::triangles, 3);
     gl::set_depth_writing(true);

@@ -82,6 +82,7 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
         done = done ? ground_.prepare(list, stats) : done;
         done = done ? grain_.prepare(list, stats) : done;
         done = done ? facades_.prepare(list, stats) : done;
+        done = done ? sky_.prepare(list, stats) : done;
     }
     done = done ? prepare_warped(list, stats) : done;
     done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;

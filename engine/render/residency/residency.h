@@ -15,6 +15,7 @@
 #include "engine/render/residency/mesh_residency.h"
 #include "engine/render/residency/relief_maps.h"
 #include "engine/render/residency/relief_tiles.h"
+#include "engine/render/residency/sky_residency.h"
 #include "engine/render/residency/tile_maps.h"
 #include "engine/render/triangles/terrain_meshes.h"
 #include "engine/view/draw_list.h"
@@ -61,6 +62,8 @@ public:
     [[nodiscard]] const GrainResidency& grain() const { return grain_; }
     /// Preconditions: a terrain of the prepared list shows façades, and it was prepared with maps.
     [[nodiscard]] const FacadeResidency& facades() const { return facades_; }
+    /// Precondition: prepared with maps.
+    [[nodiscard]] const SkyResidency& sky() const { return sky_; }
     [[nodiscard]] const ReliefTiles& relief_tiles() const { return relief_tiles_; }
     /// What is certain of the sun in each cell (scene::CertainSun as a float), for exact with hard
     /// shadows on a plane; else null.
@@ -112,6 +115,7 @@ private:
     GroundResidency ground_;
     GrainResidency grain_;
     FacadeResidency facades_;
+    SkyResidency sky_;
 };
 
 } // namespace reljef::render

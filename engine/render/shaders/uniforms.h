@@ -55,6 +55,7 @@ struct Uniforms {
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
 
+    gl::Uniform<float> sky_side{"sky_side"};
     gl::Uniform<int> picture_count{"picture_count"};
 };
 inline constexpr Uniforms uniforms;

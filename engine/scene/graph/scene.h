@@ -11,6 +11,7 @@
 
 #include "engine/core/event.h"
 #include "engine/core/geometry.h"
+#include "engine/material/sky_picture.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/facing.h"
 #include "engine/scene/graph/mesh.h"
@@ -22,6 +23,7 @@ namespace reljef::scene {
 /// The background, and the air in front of it. At a sine h of the height above the horizon the sky
 /// is a share h · (1 + curve) / (h + curve) of the way from the horizon's to the zenith's colour,
 /// plus the glow times the 8th power of the cosine of the angle to the sun. All colours are linear.
+/// A picture replaces these, and the sun's disc; the horizon's colour stays that of the haze.
 struct Sky {
     glm::vec3 zenith{0.13F, 0.30F, 0.62F};
     glm::vec3 horizon{0.62F, 0.74F, 0.87F};
@@ -33,6 +35,7 @@ struct Sky {
     double base = 0.0;       ///< z of the full density and of the plane, world metres
     /// Reflected light of an endless plane at `base`; absent: the horizon's haze.
     std::optional<glm::vec3> plane = {};
+    std::shared_ptr<const material::SkyPicture> picture = {};
 
     friend bool operator==(const Sky&, const Sky&) = default;
 };

@@ -64,6 +64,8 @@ occlusion = false
 visibility = 50000.0
 turbidity = 3
 base = "none"
+sky = "dusk.jpg"
+sky_turn = -30
 [camera]
 eye = [1, 2.5, 3]
 look = [0, 0, 0]
@@ -87,6 +89,10 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->ramp, "/data/colors.txt");
     EXPECT_FALSE(scene->hides_sky);
     EXPECT_EQ(scene->turbidity, 3.0);
+    EXPECT_EQ(scene->sky, "/data/dusk.jpg");
+    EXPECT_EQ(scene->sky_turn, -30.0);
+    EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[air]\nsky_turn = 5"),
+                HasSubstr("sky_turn"));
     EXPECT_EQ(scene->grain, 0.5);
     EXPECT_EQ(scene->contours, 20.0);
     EXPECT_EQ(scene->base, "none");
