@@ -290,14 +290,14 @@ std::string DeviceFrames::remedy() const {
 }
 
 std::string DeviceFrames::unproven_note() const {
-    const char* const bound = names_bound_ ? "the error bound" : "a pixel";
+    const std::string farther = fmt::format("pixels may be farther off than {}",
+                                            names_bound_ ? "the error bound" : "a pixel");
     return megabytes_for_all_samples_
-               ? fmt::format("averages of the samples are drawn, and pixels may be farther off "
-                             "than {}: --memory {} reads all samples",
-                             bound, *megabytes_for_all_samples_)
-               : fmt::format("the errors of {} tiles are estimates, and pixels may be farther off "
-                             "than {}: 'reljef index' proves them except on voids and flat globes",
-                             max_unproven_, bound);
+               ? fmt::format(
+                     "averages of the samples are drawn, and {}: --memory {} reads all samples",
+                     farther, *megabytes_for_all_samples_)
+               : fmt::format("the errors of {} tiles are estimates, and {}: {}", max_unproven_,
+                             farther, why_unproven(stream_stats_));
 }
 
 std::vector<std::string> DeviceFrames::error_notes() const {

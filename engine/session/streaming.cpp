@@ -239,6 +239,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     options.reported = std::move(reported);
     options.source_changes = [reader] { return reader.changes(); };
     if (proofs != nullptr) {
+        options.is_all_proven = proofs->is_complete();
         options.find_proof = [proofs](terrain::TreeTile tile) { return proofs->find(tile); };
     }
     const auto read = [reader](terrain::TreeTile tile, const std::stop_token& stop) {
@@ -415,6 +416,14 @@ std::size_t failed_files(const scene::Scene& scene) {
     std::size_t count = 0;
     for_each_stream(scene, [&](scene::TileStream& stream) { count += stream.failed_files(); });
     return count;
+}
+
+const char* why_unproven(const std::vector<scene::TileStreamStats>& streams) {
+    const bool is_indexed =
+        !streams.empty() &&
+        std::ranges::all_of(streams, [](const auto& stream) { return stream.is_all_proven; });
+    return is_indexed ? "they have voids, where nothing is proven"
+                      : "'reljef index' proves them except on voids and flat globes";
 }
 
 std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene) {

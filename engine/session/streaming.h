@@ -72,5 +72,7 @@ std::size_t failed_files(const scene::Scene& scene);
 
 /// Counts of each stream: tiles read, evicted and kept. Empty if nothing is streamed.
 std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene);
+/// Why tiles of these streams are unproven, for notes.
+const char* why_unproven(const std::vector<scene::TileStreamStats>& streams);
 
 } // namespace reljef::session

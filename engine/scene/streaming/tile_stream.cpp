@@ -227,6 +227,7 @@ TileStreamStats TileStream::stats() const {
     const std::lock_guard lock(mutex_);
     TileStreamStats stats = stats_;
     stats.tiles = tiles_.size();
+    stats.is_all_proven = has_proofs_ && options_.is_all_proven;
     return stats;
 }
 

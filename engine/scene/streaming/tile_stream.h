@@ -54,6 +54,7 @@ struct TileStreamOptions {
     /// As the stream's reader, without pictures; empty: that reader.
     TileContentReader read_heights = {};
     TileProofFinder find_proof = {}; ///< empty: no tile is proven
+    bool is_all_proven = false;      ///< whether it has all proofs that there can be
     /// Grows when a reading finds that the source changed: tiles of earlier readings are outdated.
     /// Empty: it does not change.
     std::function<std::uint64_t()> source_changes = {};
@@ -73,6 +74,7 @@ struct TileStreamStats {
     int cancelled = 0; ///< requests withdrawn before their tiles arrived
     int evicted = 0;
     std::size_t bytes_read = 0; ///< from files
+    bool is_all_proven = false; ///< but for tiles with voids
 };
 
 /// The loaded tiles of a terrain, and the threads that read requested ones. Tiles are shared and

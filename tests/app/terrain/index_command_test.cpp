@@ -117,9 +117,12 @@ TEST_F(IndexCommand, StatisticsSayWhichErrorsAreKept) {
     test::write_waves(folder_.path() / "waves.tif", 300, 300);
     const auto none = drawn({"--max-error", "2", "--no-index", "--stats"});
     EXPECT_NE(none.out.find("unproven: 1, kept error: none"), std::string::npos) << none.out;
+    EXPECT_NE(none.err.find("'reljef index' proves them"), std::string::npos) << none.err;
     int partly_proven = 0;
     for (const char* const bound : {"1", "0.7", "0.5", "0.3", "0.1"}) {
-        const std::string text = drawn({"--max-error", bound, "--stats"}).out;
+        const auto frame = drawn({"--max-error", bound, "--stats"});
+        const std::string& text = frame.out;
+        EXPECT_EQ(frame.err.find("reljef index"), std::string::npos) << "it is made: " << frame.err;
         const bool is_proven = text.find("unproven: 0,") != std::string::npos;
         const bool is_none = text.find("kept error: none") != std::string::npos;
         const bool is_limited = text.find(" px where tiles are proven\n") != std::string::npos;
