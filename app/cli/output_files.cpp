@@ -44,6 +44,7 @@ std::vector<NamedFile> input_files(const TerrainChoice& terrain, const ViewChoic
         {"--textures", terrain.textures.value_or("")},
         {"--detail", view.detail.value_or(session::DetailChoice{}).textures},
         {"--path", view.path},
+        {"--sky", view.sky.value_or("")},
         {"--ramp", terrain.ramp.value_or("")},
         {"--geoid", terrain.geoid},
         {"--calibration", view.calibration}};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 namespace reljef::io {
@@ -11,6 +12,11 @@ inline std::string lowercase(std::string text) {
         return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
     });
     return text;
+}
+
+/// Of a file's name, in small letters: ".tif" of a.TIF.
+inline std::string extension_of(const std::filesystem::path& path) {
+    return lowercase(path.extension().string());
 }
 
 } // namespace reljef::io

@@ -38,7 +38,7 @@ constexpr std::array<std::string_view, 18> raster_extensions{
     ".img", ".bil",  ".ter", ".hf2", ".flt", ".adf", ".xyz", ".zip", ".gz"};
 
 template <class List> bool has_extension_in(const List& extensions, const fs::path& path) {
-    const std::string extension = lowercase(path.extension().string());
+    const std::string extension = extension_of(path);
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/formats/flight_file.h"
 
 namespace reljef::io {
@@ -78,10 +79,10 @@ Result<AtomicFile> prepare_flight(const std::filesystem::path& path, const Fligh
     const auto prepare = [&](const std::string& text) {
         return prepare_file(path, std::as_bytes(std::span(text)));
     };
-    if (path.extension() == ".toml") {
+    if (extension_of(path) == ".toml") {
         return prepare(toml_text(flight));
     }
-    if (path.extension() != ".gpx") {
+    if (extension_of(path) != ".gpx") {
         return Error{fmt::format("{}: the name of a path ends in .toml or .gpx", path.string())};
     }
     const auto* const keys = std::get_if<std::vector<GeodeticKey>>(&flight.keys);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <ogr_srs_api.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 
@@ -65,7 +66,7 @@ std::optional<Grid<float>> undulation_of(GDALRasterBand& band) {
 
 Result<geo::Geoid> read_geoid(const fs::path& path) {
     const std::string name = path.string();
-    if (path.extension() == ".pgm") {
+    if (extension_of(path) == ".pgm") {
         return geo::Geoid::read_pgm(path);
     }
     GdalMessages messages;

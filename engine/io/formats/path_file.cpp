@@ -4,6 +4,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/core/geometry.h"
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/formats/toml_reader.h"
 
@@ -82,7 +83,7 @@ Result<Flight> flight_along(std::vector<TomlTable>& tables, const std::string& n
 } // namespace
 
 Result<Flight> read_flight(const std::filesystem::path& path, double metres_a_second) {
-    if (path.extension() != ".toml") {
+    if (extension_of(path) != ".toml") {
         return read_track(path, metres_a_second);
     }
     const std::string name = path.string();

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/image/image_encoder.h"
 #include "engine/io/image/picture_file.h"
 
@@ -39,7 +40,7 @@ Result<Channels> read_open_channels(PictureInput& input, const fs::path& path) {
 bool is_map_file(const fs::path& path) {
     constexpr std::array extensions{".png", ".tif", ".tiff", ".exr"};
     return std::any_of(extensions.begin(), extensions.end(),
-                       [&](const char* extension) { return path.extension() == extension; });
+                       [&](const char* extension) { return extension_of(path) == extension; });
 }
 
 Error no_map_file(const fs::path& path) {
@@ -138,7 +139,7 @@ Result<std::vector<std::byte>> encode_channels(const fs::path& path, const Chann
         return output.error();
     }
     const auto count = static_cast<std::size_t>(channels.count);
-    if (path.extension() == ".exr") {
+    if (extension_of(path) == ".exr") {
         return encoded(std::move(*output), map_spec(channels, SampleType::float32),
                        {channels.values.data(), count * sizeof(float)});
     }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/image/image.h"
 #include "engine/io/image/image_encoder.h"
 #include "engine/io/image/picture_file.h"
@@ -58,7 +59,7 @@ Result<HitBuffer> read_hit_channels(PictureInput& input, const fs::path& path) {
 } // namespace
 
 Result<void> check_hits_name(const fs::path& path) {
-    if (path.extension() == ".exr") {
+    if (extension_of(path) == ".exr") {
         const auto found = find_picture_module();
         return found ? found
                      : Error{fmt::format("{}: cannot be written: {}", path.string(),

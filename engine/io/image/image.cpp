@@ -115,7 +115,7 @@ std::string_view common_format(const fs::path& path) {
                                                     {".env", "tiff"},
                                                     {".sm", "tiff"},
                                                     {".vsm", "tiff"}}};
-    const std::string extension = lowercase(path.extension().string());
+    const std::string extension = extension_of(path);
     const auto* const found =
         std::find_if(extensions.begin(), extensions.end(),
                      [&](const Extension& of) { return of.text == extension; });

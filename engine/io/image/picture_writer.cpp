@@ -56,10 +56,6 @@ private:
 
 namespace {
 
-std::string extension_of(const fs::path& path) {
-    return lowercase(path.extension().string());
-}
-
 bool is_png(const fs::path& path) {
     return extension_of(path) == ".png";
 }

@@ -257,7 +257,7 @@ Result<void> sort_in(const fs::path& file, TextureFiles& files, std::vector<fs::
 bool is_picture(const fs::path& file) {
     constexpr std::array<std::string_view, 9> extensions{".png", ".jpg", ".jpeg", ".bmp", ".dds",
                                                          ".tga", ".tif", ".tiff", ".exr"};
-    return is_one_of(lowercase(file.extension().string()), extensions);
+    return is_one_of(extension_of(file), extensions);
 }
 
 // Rejects floats that are not finite; 8-bit colours would hide them.

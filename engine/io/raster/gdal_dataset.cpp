@@ -77,7 +77,7 @@ Result<std::string> name_for_gdal(const fs::path& path) {
         const std::string name = path.string();
         return name.starts_with("/vsi") ? name : "/vsicurl/" + name;
     }
-    const std::string extension = lowercase(path.extension().string());
+    const std::string extension = extension_of(path);
     if (extension == ".zip") {
         return raster_in_zip(path);
     }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/formats/raster_writer.h"
 #include "engine/io/image/image.h"
 #include "engine/terrain/measure/sight.h"
@@ -16,7 +17,8 @@ constexpr auto in_void = static_cast<std::uint8_t>(terrain::SeenState::unknown);
 constexpr auto in_sight = static_cast<std::uint8_t>(terrain::SeenState::visible);
 
 bool is_geotiff(const std::filesystem::path& path) {
-    return path.extension() == ".tif" || path.extension() == ".tiff";
+    const std::string extension = io::extension_of(path);
+    return extension == ".tif" || extension == ".tiff";
 }
 
 Result<glm::dvec2> sample_of_eye(const terrain::Terrain& terrain, glm::dvec2 place) {

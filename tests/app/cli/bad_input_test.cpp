@@ -37,6 +37,14 @@ TEST_F(BadInput, missing_file) {
     expect_refusal(render((folder_.path() / "none.tif").string()), 1, {"none.tif"});
 }
 
+TEST_F(BadInput, no_sky) {
+    const std::string dem = write("small.asc", small_dem);
+    expect_refusal(render(dem, {"--sky", (folder_.path() / "none.png").string()}), 1, {"none.png"});
+    expect_refusal(render(dem, {"--sky", dem}), 1, {"small.asc"});
+    expect_refusal(render(dem, {"--sky-turn", "5"}), 2, {"--sky-turn", "--sky FILE"});
+    expect_refusal(render(dem, {"--sky", picture()}), 2, {"picture.png", "--sky"});
+}
+
 TEST_F(BadInput, unknown_name) {
     expect_refusal(render("atlantis"), 1, {"atlantis", "gallery, natural, urban"});
 }

@@ -92,6 +92,16 @@ TEST(RenderCommand, NamesEachBase) {
     }
 }
 
+TEST(RenderCommand, NamesThePictureOfTheSky) {
+    session::TerrainScene scene = hill_scene();
+    StartOptions start = start_of("natural");
+    start.scene.sky = "red sky.png";
+    start.scene.sky_turn = -20.0;
+    const auto command = render_command(start, scene, shown_of(scene));
+    ASSERT_TRUE(command) << command.error().message;
+    EXPECT_THAT(*command, HasSubstr("--sky 'red sky.png' --sky-turn -20"));
+}
+
 // The options give the same camera to the last bit on a plane.
 TEST(RenderCommand, ItsCameraIsTheViewsOnAPlane) {
     session::SceneOptions view;
