@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -126,11 +127,13 @@ public:
             return heights;
         }
         const double near = ground_.near;
+        const auto& tile = tile_at(glm::clamp(sample - near, 0.0, last));
+        if (&tile == &tile_at(glm::clamp(sample + near, 0.0, last))) {
+            return {height_in(tile, sample)}; // not near a border
+        }
         for (const glm::dvec2 beside : {glm::dvec2(-near, -near), glm::dvec2(near, -near),
                                         glm::dvec2(-near, near), glm::dvec2(near, near)}) {
-            const auto& tile = tile_at(glm::clamp(sample + beside, 0.0, last));
-            const glm::dvec2 vertex = builder().lattice(tile.id).from_terrain(sample);
-            heights.push_back(terrain::bilinear_height(tile.heightfield.heights.view(), vertex));
+            heights.push_back(height_in(tile_at(glm::clamp(sample + beside, 0.0, last)), sample));
         }
         return heights;
     }
@@ -142,8 +145,15 @@ public:
         return test::must(driver.draw_hits(frame)).hits;
     }
     [[nodiscard]] const Ground& ground() const { return ground_; }
+    // Of all samples.
+    [[nodiscard]] double highest() const { return highest_; }
 
 private:
+    [[nodiscard]] double height_in(const scene::TerrainTile& tile, glm::dvec2 sample) const {
+        return terrain::bilinear_height(tile.heightfield.heights.view(),
+                                        builder().lattice(tile.id).from_terrain(sample));
+    }
+
     void add(terrain::TreeTile id, test::Chance& chance) {
         const terrain::TileTree& tree = builder().tree();
         if (id.level > 0 && !chance.one_in(3)) {
@@ -157,6 +167,8 @@ private:
         draw.tile = std::make_shared<const scene::TerrainTile>(
             builder().make(id, read_tile(id, {}).heights));
         tiles_[id] = draw.tile;
+        const auto heights = draw.tile->heightfield.heights.samples();
+        highest_ = std::max<double>(highest_, *std::max_element(heights.begin(), heights.end()));
         list_.tiles.push_back(std::move(draw));
     }
 
@@ -173,6 +185,7 @@ private:
     std::shared_ptr<const scene::TerrainSurface> overview_;
     scene::TerrainNode node_;
     view::DrawList list_;
+    double highest_ = -std::numeric_limits<double>::infinity();
     std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> tiles_;
 };
 
@@ -223,6 +236,9 @@ bool passes_below(const RandomCut& cut, glm::ivec2 pixel, double begin, double e
     constexpr int steps = 120;
     for (int i = 0; i < steps; ++i) {
         const glm::dvec3 place = cut.on_ray(pixel, begin + (end - begin) * i / steps);
+        if (place.z > cut.highest()) {
+            continue;
+        }
         const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
         if (!heights.empty() && place.z < *std::min_element(heights.begin(), heights.end()) -
                                               cut.ground().height_tolerance) {
