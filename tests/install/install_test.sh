@@ -40,6 +40,7 @@ dem() { # dem FILE WEST: 33 x 33 samples of 0.001 degrees
         >"$folder/dems/$1.prj"
 }
 
+quick=-DCMAKE_CXX_FLAGS_RELEASE='-O0 -DNDEBUG' # what is built runs once
 prefix=$folder/prefix
 for component in programs library docs; do
     run "installing $component" "$cmake" --install "$build" --prefix "$folder/elsewhere" --component $component
@@ -59,7 +60,7 @@ printf '%s\n' '#include <cstdio>' '#include "engine/io/image/image.h"' 'int main
     'return picture ? 0 : std::puts(picture.error().message.c_str()); }' >"$folder/consumer/reader.cpp"
 awk '/^```cpp$/ { on = 1; next } /^```$/ { on = 0 } on' "$source/README.md" >"$folder/consumer/main.cpp"
 run "configuring against the package" "$cmake" -S "$folder/consumer" -B "$folder/consumer/build" \
-    -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
+    -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release "$quick"
 run "building against the package" "$cmake" --build "$folder/consumer/build"
 mkdir "$folder/dems"
 dem west 7.0
@@ -77,7 +78,7 @@ printf '%s\n' '#include "engine/geo/georeference.h"' \
     'int main() { return reljef::geo::geodesic_distance({0, 0, 0}, {0, 0, 0}) == 0.0 ? 0 : 1; }' \
     >"$folder/parent/main.cpp"
 run "configuring as a subdirectory" "$cmake" -S "$folder/parent" -B "$folder/parent/build" -G Ninja \
-    -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_BUILD_TYPE=Release "$quick"
 run "building as a subdirectory" "$cmake" --build "$folder/parent/build"
 run "the program" "$folder/parent/build/parent"
 

@@ -1,6 +1,7 @@
 // A terrain cut into the tiles of a stream gives the picture of the uncut terrain.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <fmt/format.h>
@@ -138,14 +139,39 @@ Difference difference(const HitBuffer& a, const HitBuffer& b, const Image& seen_
     return found;
 }
 
+// All techniques show the same worlds, whose cones take long to find.
+struct SameGround {
+    CutWorld whole;
+    CutWorld cut;
+
+    explicit SameGround(bool is_on_earth)
+        : whole({257, 193}, false, 1.0, is_on_earth), cut({257, 193}, true, 1.0, is_on_earth) {}
+};
+
 class StreamedTechniqueGlTest : public StreamedReliefGlTest,
-                                public ::testing::WithParamInterface<std::string> {};
+                                public ::testing::WithParamInterface<std::string> {
+protected:
+    static void TearDownTestSuite() {
+        on_plane_.reset();
+        on_earth_.reset();
+    }
+    static SameGround& ground(bool is_on_earth) {
+        auto& ground = is_on_earth ? on_earth_ : on_plane_;
+        if (!ground) {
+            ground = std::make_unique<SameGround>(is_on_earth);
+        }
+        return *ground;
+    }
+
+private:
+    static inline std::unique_ptr<SameGround> on_plane_;
+    static inline std::unique_ptr<SameGround> on_earth_;
+};
 
 // Rays begin at other roundings: at silhouettes, and where a step ends close to the surface, they
 // may find another place. Cones end at the borders of tiles.
-void expect_cut_looks_as_uncut(const std::string& technique, bool is_on_earth) {
-    CutWorld whole({257, 193}, false, 1.0, is_on_earth);
-    CutWorld cut({257, 193}, true, 1.0, is_on_earth);
+void expect_cut_looks_as_uncut(const std::string& technique, bool is_on_earth, SameGround& ground) {
+    auto& [whole, cut] = ground;
     Driver driver = test::must(Driver::create({.size = size, .shader_dir = {}}));
     for (const Pose pose : {Pose::overview, Pose::low, is_on_earth ? Pose::oblique : Pose::map}) {
         for (CutWorld* const world : {&whole, &cut}) {
@@ -172,11 +198,11 @@ void expect_cut_looks_as_uncut(const std::string& technique, bool is_on_earth) {
 }
 
 TEST_P(StreamedTechniqueGlTest, CutTerrainLooksAsUncut) {
-    expect_cut_looks_as_uncut(GetParam(), false);
+    expect_cut_looks_as_uncut(GetParam(), false, ground(false));
 }
 
 TEST_P(StreamedTechniqueGlTest, CutTerrainLooksAsUncutOnTheEllipsoid) {
-    expect_cut_looks_as_uncut(GetParam(), true);
+    expect_cut_looks_as_uncut(GetParam(), true, ground(true));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -261,7 +287,7 @@ TEST_F(StreamedReliefGlTest, HitsLieOnTheFinestTileAndOnTheirRay) {
 // Between ground there is no sky: neighbours of any levels join.
 TEST_F(StreamedReliefGlTest, NoSkyShowsBetweenTiles) {
     Driver driver = made_driver();
-    CutWorld cut({1025, 1025}, true);
+    CutWorld cut({515, 515}, true);
     for (const char* const technique : {"exact", "cone"}) {
         cut.set(technique);
         for (const Pose pose : {Pose::overview, Pose::low}) {

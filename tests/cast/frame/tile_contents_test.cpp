@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -108,10 +109,13 @@ public:
             glm::dvec3(builder().on_overview(glm::dvec2(sample)), sample.z));
     }
 
-    // A sample of the terrain and a height on the ray of a pixel's middle; far beside the terrain
-    // there may be none.
-    [[nodiscard]] glm::dvec3 on_ray(glm::ivec2 pixel, double t) const {
-        const Ray ray = scene::view_ray(list_.camera, view_size, glm::dvec2(pixel) + 0.5);
+    // Of a pixel's middle.
+    [[nodiscard]] Ray ray_of(glm::ivec2 pixel) const {
+        return scene::view_ray(list_.camera, view_size, glm::dvec2(pixel) + 0.5);
+    }
+
+    // A sample of the terrain and a height on a ray; far beside the terrain there may be none.
+    [[nodiscard]] glm::dvec3 on_ray(const Ray& ray, double t) const {
         const glm::dvec3 place = overview_->placement()
                                      .sample_from_world(ray.origin + t * ray.direction)
                                      .value_or(glm::dvec3(-raster_side));
@@ -126,11 +130,13 @@ public:
             return heights;
         }
         const double near = ground_.near;
+        const auto& tile = tile_at(glm::clamp(sample - near, 0.0, last));
+        if (&tile == &tile_at(glm::clamp(sample + near, 0.0, last))) {
+            return {height_in(tile, sample)}; // not near a border
+        }
         for (const glm::dvec2 beside : {glm::dvec2(-near, -near), glm::dvec2(near, -near),
                                         glm::dvec2(-near, near), glm::dvec2(near, near)}) {
-            const auto& tile = tile_at(glm::clamp(sample + beside, 0.0, last));
-            const glm::dvec2 vertex = builder().lattice(tile.id).from_terrain(sample);
-            heights.push_back(terrain::bilinear_height(tile.heightfield.heights.view(), vertex));
+            heights.push_back(height_in(tile_at(glm::clamp(sample + beside, 0.0, last)), sample));
         }
         return heights;
     }
@@ -142,8 +148,15 @@ public:
         return test::must(driver.draw_hits(frame)).hits;
     }
     [[nodiscard]] const Ground& ground() const { return ground_; }
+    // Of all samples.
+    [[nodiscard]] double highest() const { return highest_; }
 
 private:
+    [[nodiscard]] double height_in(const scene::TerrainTile& tile, glm::dvec2 sample) const {
+        return terrain::bilinear_height(tile.heightfield.heights.view(),
+                                        builder().lattice(tile.id).from_terrain(sample));
+    }
+
     void add(terrain::TreeTile id, test::Chance& chance) {
         const terrain::TileTree& tree = builder().tree();
         if (id.level > 0 && !chance.one_in(3)) {
@@ -157,6 +170,8 @@ private:
         draw.tile = std::make_shared<const scene::TerrainTile>(
             builder().make(id, read_tile(id, {}).heights));
         tiles_[id] = draw.tile;
+        const auto heights = draw.tile->heightfield.heights.samples();
+        highest_ = std::max<double>(highest_, *std::max_element(heights.begin(), heights.end()));
         list_.tiles.push_back(std::move(draw));
     }
 
@@ -173,6 +188,7 @@ private:
     std::shared_ptr<const scene::TerrainSurface> overview_;
     scene::TerrainNode node_;
     view::DrawList list_;
+    double highest_ = -std::numeric_limits<double>::infinity();
     std::map<terrain::TreeTile, std::shared_ptr<const scene::TerrainTile>> tiles_;
 };
 
@@ -208,8 +224,9 @@ struct Faults {
 // Whether a ray of a map comes in below the surface, from beside the terrain.
 bool comes_in_below(const RandomCut& cut, glm::ivec2 pixel) {
     constexpr double step = 5.0; // metres
+    const Ray ray = cut.ray_of(pixel);
     for (double t = -6000.0; t < 6000.0; t += step) {
-        const glm::dvec3 place = cut.on_ray(pixel, t);
+        const glm::dvec3 place = cut.on_ray(ray, t);
         const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
         if (!heights.empty()) {
             return place.z < *std::max_element(heights.begin(), heights.end()) + 40.0;
@@ -221,8 +238,12 @@ bool comes_in_below(const RandomCut& cut, glm::ivec2 pixel) {
 // Whether a ray is below all tiles somewhere before t.
 bool passes_below(const RandomCut& cut, glm::ivec2 pixel, double begin, double end) {
     constexpr int steps = 120;
+    const Ray ray = cut.ray_of(pixel);
     for (int i = 0; i < steps; ++i) {
-        const glm::dvec3 place = cut.on_ray(pixel, begin + (end - begin) * i / steps);
+        const glm::dvec3 place = cut.on_ray(ray, begin + (end - begin) * i / steps);
+        if (place.z > cut.highest()) {
+            continue;
+        }
         const std::vector<double> heights = cut.heights_at(glm::dvec2(place));
         if (!heights.empty() && place.z < *std::min_element(heights.begin(), heights.end()) -
                                               cut.ground().height_tolerance) {
@@ -235,7 +256,7 @@ bool passes_below(const RandomCut& cut, glm::ivec2 pixel, double begin, double e
 void check_hit(const RandomCut& cut, glm::ivec2 pixel, const Hit& hit, Faults& faults) {
     const std::vector<double> heights = cut.heights_at(hit.place());
     ++faults.hits;
-    const glm::dvec3 on_ray = cut.on_ray(pixel, hit.depth);
+    const glm::dvec3 on_ray = cut.on_ray(cut.ray_of(pixel), hit.depth);
     const double height_tolerance = cut.ground().height_tolerance;
     if (heights.empty() || std::abs(on_ray.z - hit.height) > 4.0 * height_tolerance ||
         glm::distance(glm::dvec2(on_ray), hit.place()) > cut.ground().place_tolerance) {

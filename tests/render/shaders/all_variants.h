@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <set>
+#include <unordered_set>
 #include <vector>
 
 #include "engine/render/shaders/shader_library.h"
@@ -49,14 +51,21 @@ inline std::uint32_t possible_features(ShaderKind kind) {
 /// Every variant with an effect, each once.
 inline std::vector<ShaderVariant> all_variants() {
     std::set<ShaderVariant> variants;
+    std::unordered_set<std::uint64_t> known; // most of millions of subsets are one of few variants
+    const auto add = [&](ShaderVariant variant) {
+        const auto kind = static_cast<std::uint64_t>(variant.kind);
+        if (known.insert(kind << 32U | variant.features).second) {
+            variants.insert(variant);
+        }
+    };
     for (int index = 0; index <= static_cast<int>(ShaderKind::average); ++index) {
         const auto kind = static_cast<ShaderKind>(index);
         const std::uint32_t all = possible_features(kind);
         std::uint32_t features = all;
-        variants.insert(canonical_variant({kind, features}));
+        add(canonical_variant({kind, features}));
         while (features != 0) {
             features = (features - 1) & all; // the next subset
-            variants.insert(canonical_variant({kind, features}));
+            add(canonical_variant({kind, features}));
         }
     }
     return {variants.begin(), variants.end()};

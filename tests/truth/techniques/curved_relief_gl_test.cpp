@@ -19,17 +19,20 @@ namespace {
 using test::EarthPlace;
 using test::EarthStage;
 
+// Pixels are compared one by one with the truth's rays: a quarter of the other tests' do.
+constexpr glm::ivec2 curved_size{160, 120};
+
 class CurvedReliefGlTest : public DriverGlTest {
 protected:
     view::DrawnHits hits(EarthStage& stage, const std::string& technique) {
         stage.set(test::must(scene::parse_technique(technique)));
-        return test::must(driver_of_all().draw_hits(view::select(stage.scene, size)));
+        return test::must(driver_of_all().draw_hits(view::select(stage.scene, curved_size)));
     }
 
     Image picture(EarthStage& stage, const std::string& technique) {
         Driver& driver = driver_of_all();
         stage.set(test::must(scene::parse_technique(technique)));
-        const view::FrameView frame = view::select(stage.scene, size);
+        const view::FrameView frame = view::select(stage.scene, curved_size);
         EXPECT_EQ(frame.list.stats.reliefs_as_triangles, 0);
         test::must(driver.draw(frame));
         return driver.read_color();
@@ -54,7 +57,7 @@ private:
     // One for all stages of a test: programs are compiled once.
     Driver& driver_of_all() {
         if (!driver_) {
-            driver_ = test::must(Driver::create({.size = size, .shader_dir = {}}));
+            driver_ = test::must(Driver::create({.size = curved_size, .shader_dir = {}}));
         }
         return *driver_;
     }
@@ -183,7 +186,7 @@ std::vector<std::optional<bool>> lit_pixels(EarthStage& stage) {
     const scene::Light sun = *stage.scene.sun();
     const truth::SceneCaster caster = truth::SceneCaster::create(stage.scene).value();
     const scene::TerrainIrradiance irradiance(stage.surface(), {sun, glm::dmat3(1.0)});
-    const HitBuffer& hits = stage.true_hits(size);
+    const HitBuffer& hits = stage.true_hits(curved_size);
     std::vector<std::optional<bool>> lit(hits.size());
     for (std::size_t i = 0; i < hits.size(); ++i) {
         const Hit& hit = hits.samples()[i];
@@ -275,7 +278,8 @@ TEST_F(CurvedReliefGlTest, OptionsShowOnSmallTerrainsWhatTheyShowOnAPlane) {
                 different += differ(on_plane);
                 without += differ(plain);
             }
-            EXPECT_LE(different, size.x * size.y / 50) << technique << ", " << above << " m";
+            EXPECT_LE(different, curved_size.x * curved_size.y / 50)
+                << technique << ", " << above << " m";
             EXPECT_GE(without, 2 * different) << technique << ", " << above << " m";
         }
     }
@@ -287,7 +291,7 @@ TEST_F(CurvedReliefGlTest, ViewsThatBendRaysTooMuchShowTriangles) {
     stage.look({120.3, 201.7}, 3e4, {140.0, 40.0});
     const view::DrawnHits shown = hits(stage, "exact");
     EXPECT_EQ(shown.stats.reliefs_as_triangles, 1);
-    EXPECT_GT(shown.stats.triangles, 1000U);
+    EXPECT_GT(shown.stats.triangles, 500U);
 }
 
 } // namespace
