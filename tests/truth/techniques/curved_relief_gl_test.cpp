@@ -114,7 +114,7 @@ TEST_F(CurvedReliefGlTest, FlatGroundHasNoHolesFromHighAbove) {
             for (const char* const technique : {"exact", "cone", "relief"}) {
                 const view::DrawnHits shown = hits(stage, technique);
                 ASSERT_EQ(shown.stats.reliefs_as_triangles, 0) << above;
-                EXPECT_LE(stage.errors(shown.hits).holes, 4U)
+                EXPECT_LE(stage.errors(shown.hits).holes, 1U)
                     << technique << ", " << relief << " m, from " << above << " m";
             }
         }
