@@ -1,11 +1,13 @@
 #include "engine/view/grain_view.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/material/grain_map.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::view {
@@ -52,6 +54,13 @@ glm::dmat3 metres_per_sample(const terrain::Placement& placement, glm::dvec3 sam
 glm::dvec3 turned(glm::dvec3 world) {
     const glm::dvec2 turn(GrainView::turn);
     return {turn.x * world.x + turn.y * world.y, turn.x * world.y - turn.y * world.x, world.z};
+}
+
+bool shows_grain(const DrawList& list, const scene::TerrainNode& terrain, double distance) {
+    const glm::dvec2 metres(metres_a_pixel(list.camera, list.size));
+    const double texel = samples_a_width * finest_spacing(terrain) / material::GrainMap::side;
+    return scene::shown_grain(terrain) > 0.0F &&
+           metres.x + metres.y * distance < std::exp2(GrainView::unseen_level) * texel;
 }
 
 GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,

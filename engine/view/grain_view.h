@@ -17,6 +17,7 @@ namespace reljef::view {
 /// repetitions do not show along rows and columns of the data.
 struct GrainView {
     static constexpr int max_patterns = 3;
+    static constexpr double unseen_level = 6.0;  ///< of a pattern's mip levels: it has faded
     static constexpr glm::vec2 turn{0.8F, 0.6F}; ///< cosine and sine
     /// The widest pattern is bent by waves of 7 and 11 widths, so that its copies differ.
     static constexpr double copies = 77.0;
@@ -35,6 +36,9 @@ struct GrainView {
 
 /// Along the turned axes.
 glm::dvec3 turned(glm::dvec3 world);
+
+/// Whether ground that is at least `distance` metres away may show grain.
+bool shows_grain(const DrawList& list, const scene::TerrainNode& terrain, double distance);
 
 /// Precondition: the terrain is drawn by the list.
 GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,

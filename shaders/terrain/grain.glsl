@@ -1,17 +1,17 @@
-// Fine structure of near ground.
+// Fine structure of near ground. A software renderer has no branches where pixels differ, only loops: a pattern is one
+// fetch, of one layer in one plane.
 
-// Slopes along u and v, change of the brightness: 2 · texel - 1.
-layout(binding = soil_grain_unit) uniform sampler2D soil_grain;
-layout(binding = rock_grain_unit) uniform sampler2D rock_grain;
-
-vec3 grain_in(sampler2D map, vec2 place, float level) {
-    return 2.0 * textureLod(map, place, level).rgb - 1.0;
-}
+// Layers of soil and rock. Slopes along u and v, change of the brightness: 2 · texel - 1.
+layout(binding = grain_layers_unit) uniform sampler2DArray grain_layers;
 
 // A sine of amplitude 1 and period 1, but of parabolas.
-vec2 wave(vec2 x) {
-    vec2 part = x - round(x);
+vec3 wave(vec3 x) {
+    vec3 part = x - round(x);
     return 8.0 * part * (1.0 - 2.0 * abs(part));
+}
+
+vec2 wave(vec2 x) {
+    return wave(x.xyy).xy;
 }
 
 // The widest pattern is bent: view::GrainView::copies.
@@ -19,48 +19,76 @@ vec2 bent(vec2 place) {
     return place + bend_height * (wave(place.yx / 7.0) + wave(place.yx / 11.0 + 0.3));
 }
 
-// The change of the cosine of the angle to the sun, and of the brightness. `sun`: in the pattern's plane.
-vec2 pattern_at(vec2 place, float level, float rock, vec2 sun) {
-    vec3 soil = rock < 1.0 ? grain_in(soil_grain, place, level) : vec3(0.0);
-    vec3 stone = rock > 0.0 ? grain_in(rock_grain, place, level) : vec3(0.0);
-    vec3 grain = mix(soil, stone, rock);
-    return vec2(-dot(grain.xy, sun), grain.z);
+// Noise that the mip levels follow, and the choices of the widest pattern; those of the others follow the pattern
+// before.
+vec3 widest_noise(vec3 at) {
+    const mat3 turns = mat3(99.0, 42.0, 110.0, -66.0, 98.0, 56.0, 35.0, -99.0, 84.0) / 77.0; // view::GrainView::copies
+    vec3 waves = wave(at * turns);
+    return choice_noise * (waves + waves.yzx);
 }
 
-// Shares of the planes xz, yz and xy.
-vec3 shares_of_planes(vec3 normal) {
-    vec3 facing = abs(normal);
-    float level = smoothstep(upright_end, upright_begin, facing.z);
-    float along_y = smoothstep(-upright_turn, upright_turn, facing.x - facing.y);
-    return vec3((1.0 - level) * (1.0 - along_y), (1.0 - level) * along_y, level);
+// Shares of rock, of the level plane, and of yz in the upright ones.
+vec3 shares_of_choices(GroundPlace place) {
+    vec3 facing = abs(place.normal);
+    return vec3(1.0 - smoothstep(rock_end, rock_begin, dot(place.normal, place.up)),
+                smoothstep(upright_end, upright_begin, facing.z),
+                smoothstep(-upright_turn, upright_turn, facing.x - facing.y));
+}
+
+// A pattern shows one of two looks. The line between them wanders with the noise. Above 0: the first one.
+vec3 choices(vec3 shares, vec3 noise) {
+    return shares - 0.5 - clamp(noise.zxy, -widest_wander, widest_wander);
+}
+
+// Near a mip level, that level alone: most pixels fetch no second one.
+float steepened(float level) {
+    float whole = floor(level);
+    return whole + clamp((level - whole - 0.5) * level_steepness + 0.5, 0.0, 1.0);
+}
+
+// The change of the cosine of the angle to the sun, and of the brightness.
+struct Look {
+    vec2 look;
+    vec3 noise; // for the choices of the next pattern
+};
+
+// `at`: in widths of the pattern; `wander`: of its level. Grain fades at the lines between looks.
+Look pattern_at(vec3 at, float level, vec3 chosen, float wander, bool is_bent) {
+    bool is_flat = chosen.y > 0.0;
+    bool by_y = !is_flat && chosen.z > 0.0;
+    vec2 place = vec2(by_y ? at.y : at.x, is_flat ? at.y : at.z);
+    vec2 sun = vec2(by_y ? grain_sun.y : grain_sun.x, is_flat ? grain_sun.y : grain_sun.z);
+    float layer = chosen.x > 0.0 ? 1.0 : 0.0;
+    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer);
+    vec3 grain = 2.0 * textureLod(grain_layers, in_layer, steepened(max(level + wander, 0.0))).rgb - 1.0;
+    vec3 clear = min(abs(chosen) / choice_border, 1.0);
+    float seen = clamp(last_seen_level + 1.0 - level, 0.0, 1.0);
+    float strength = seen * clear.x * clear.y * (is_flat ? 1.0 : clear.z);
+    return Look(strength * vec2(-dot(grain.xy, sun), grain.z), grain);
 }
 
 // The sum of the visible patterns.
 vec2 grain_at(GroundPlace place) {
-    vec4 patterns[3] = vec4[3](grain_pattern_0, grain_pattern_1, grain_pattern_2);
     float longer = 1.0 / max(abs(dot(place.normal, place.view)), flattest_facing);
     float pixel = place.pixel * sqrt(longer) * sqrt(sqrt(longer)); // between its width and its length
-    float rock = 1.0 - smoothstep(rock_end, rock_begin, dot(place.normal, place.up));
-    vec3 planes = shares_of_planes(place.normal);
-    vec3 sun = grain_sun.xyz;
+    float texels = pixel * float(textureSize(grain_layers, 0).x);
+    vec3 shares = shares_of_choices(place);
+    vec4 pattern = grain_pattern_0;
+    vec3 at = place.from_eye * pattern.w + pattern.xyz;
+    vec3 noise = widest_noise(at);
+    float wander = noise.z;
+    float level = max(log2(texels * pattern.w), 0.0);
     vec2 sum = vec2(0.0);
-    for (int i = 0; i < int(grain_turn.z); ++i) {
-        vec4 pattern = patterns[i];
-        float level = max(log2(pixel * pattern.w * float(textureSize(soil_grain, 0).x)), 0.0);
-        float seen = clamp(last_seen_level + 1.0 - level, 0.0, 1.0);
-        if (seen == 0.0) {
-            continue;
-        }
-        vec3 at = place.from_eye * pattern.w + pattern.xyz;
-        vec2 places[3] = vec2[3](at.xz, at.yz, at.xy);
-        vec2 suns[3] = vec2[3](sun.xz, sun.yz, sun.xy);
-        for (int plane = 0; plane < 3; ++plane) {
-            if (planes[plane] > 0.0) {
-                vec2 on = i == 0 ? bent(places[plane]) : places[plane];
-                sum += seen * planes[plane] * pattern_at(on, level, rock, suns[plane]);
-            }
-        }
-    }
+    int i = 0;
+    do {
+        Look look = pattern_at(at, level, choices(shares, noise), wander, i == 0);
+        sum += look.look;
+        noise = look.noise;
+        ++i;
+        pattern = i == 1 ? grain_pattern_1 : grain_pattern_2;
+        at = place.from_eye * pattern.w + pattern.xyz;
+        level = max(log2(texels * pattern.w), 0.0);
+    } while (i < int(grain_turn.z) && level < last_seen_level + 1.0);
     return sum;
 }
 

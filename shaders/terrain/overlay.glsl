@@ -32,16 +32,18 @@ GroundPlace ground_place(vec3 relative, vec3 perpendicular) {
 }
 #include "terrain/grain.glsl"
 #include "terrain/contours.glsl"
+#ifdef FACADES
 #include "terrain/facade.glsl"
+#endif
 
 // `at`: sample; `height`: true metres. `has_slope`: the height changes.
 vec3 overlaid(vec3 lit, GroundPlace place, vec2 at, float height, bool has_slope) {
     if (grain_up.w > 0.0) {
         lit = with_grain(lit, place);
     }
-    if (facade_sky.w > 0.0) {
-        lit = with_facades(lit, place, at, height);
-    }
+#ifdef FACADES
+    lit = with_facades(lit, place, at, height);
+#endif
     if (contours.x > 0.0 && has_slope) {
         lit = with_contours(lit, place, height);
     }

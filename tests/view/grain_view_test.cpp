@@ -43,6 +43,22 @@ TEST(GrainView, BeginsWhereTheDataEnd) {
     }
 }
 
+// The widest pattern, ten samples, has faded where its 256 texels cover four pixels.
+TEST(GrainView, IsSeenUntilTheWidestPatternHasFaded) {
+    for (const double spacing : {1.0, 30.0}) {
+        Ground ground{glm::dvec2(spacing)};
+        scene::TerrainNode& terrain = *ground.terrain->get<scene::TerrainNode>();
+        terrain.grain = 1.0F;
+        ground.list.size = {400, 300};
+        const double pixel = static_cast<double>(metres_a_pixel(ground.list.camera, {400, 300}).y);
+        const double last = 10.0 * spacing / 4.0 / pixel;
+        EXPECT_TRUE(shows_grain(ground.list, terrain, 0.99 * last));
+        EXPECT_FALSE(shows_grain(ground.list, terrain, 1.01 * last));
+        terrain.grain = 0.0F;
+        EXPECT_FALSE(shows_grain(ground.list, terrain, 0.0));
+    }
+}
+
 // From every eye, a place has the same grain: patterns do not swim.
 TEST(GrainView, APlaceHasTheSameGrainFromEveryEye) {
     Ground ground({3.0, 2.0});

@@ -77,13 +77,9 @@ struct Grain {
     Floats u;
     Floats v;
     Floats brightness;
-
-    HWY_INLINE static Grain nothing() {
-        return {hn::Zero(floats), hn::Zero(floats), hn::Zero(floats)};
-    }
 };
 
-// The bits of texels. add_layer() turns their sum into slopes and brightness.
+// The bits of texels. grain_in() turns their sum into slopes and brightness.
 HWY_INLINE void add_grain(Ints texel, Floats weight, Grain& sum) {
     const auto [u, v, brightness] = channels_of(texel);
     sum.u = hn::MulAdd(u, weight, sum.u);
@@ -97,9 +93,9 @@ struct PatternPlace {
     Floats v;
 };
 
-// Bilinear, of a level of each lane.
-HWY_INLINE void add_grain_level(const GrainPaint& grain, int layer, const PatternPlace& place,
-                                Ints level, Floats weight, Grain& sum) {
+// Bilinear, of the layer and level of each lane.
+HWY_INLINE Grain grain_in(const GrainPaint& grain, Ints layer, const PatternPlace& place,
+                          Ints level) {
     const Ints last = hn::Sub(hn::Shr(all(grain.side), level), all(std::int32_t{1}));
     const Floats width = hn::ConvertTo(floats, hn::Shr(all(grain.side), level));
     const Floats u = hn::MulSub(place.u, width, all(0.5F));
@@ -114,15 +110,16 @@ HWY_INLINE void add_grain_level(const GrainPaint& grain, int layer, const Patter
     const Ints next_col = hn::And(hn::Add(col, one), last);
     const Ints next_row = hn::And(hn::Add(row, one), last);
     const Ints shift = hn::Sub(all(std::countr_zero(static_cast<unsigned>(grain.side))), level);
-    const Ints begin = hn::GatherIndex(ints, grain.begin.data(), level);
+    const Ints begin = hn::Add(hn::Mul(layer, all(grain.layer_texels)),
+                               hn::GatherIndex(ints, grain.begin.data(), level));
     const Ints here = hn::Add(begin, hn::Shl(row, shift));
     const Ints below = hn::Add(begin, hn::Shl(next_row, shift));
-    const auto* const first =
-        reinterpret_cast<const std::int32_t*>(grain.texels) + layer * grain.layer_texels;
-    const Floats right = hn::Mul(weight, part_u);
-    const Floats left = hn::Sub(weight, right);
+    const auto* const first = reinterpret_cast<const std::int32_t*>(grain.texels);
+    const Floats right = part_u;
+    const Floats left = hn::Sub(all(1.0F), part_u);
     const Floats right_below = hn::Mul(right, part_v);
     const Floats left_below = hn::Mul(left, part_v);
+    Grain sum{hn::Zero(floats), hn::Zero(floats), hn::Zero(floats)};
     const auto at = [&](Ints row_begin, Ints texel_col) HWY_ATTR {
         return hn::GatherIndex(ints, first, hn::Add(row_begin, texel_col));
     };
@@ -130,26 +127,29 @@ HWY_INLINE void add_grain_level(const GrainPaint& grain, int layer, const Patter
     add_grain(at(here, next_col), hn::Sub(right, right_below), sum);
     add_grain(at(below, col), left_below, sum);
     add_grain(at(below, next_col), right_below, sum);
+    const auto shown = [](Floats bits)
+                           HWY_ATTR { return hn::MulSub(bits, all(2.0F / 1023.0F), all(1.0F)); };
+    return {shown(sum.u), shown(sum.v), shown(sum.brightness)};
 }
 
-// A layer of a pattern: bilinear in the two levels nearest to each lane's.
-HWY_INLINE void add_layer(const GrainPaint& grain, int layer, const PatternPlace& place,
-                          Floats level, Floats weight, Grain& sum) {
+// Between the two levels nearest to each lane's, but near a level that level alone: most packets
+// fetch no second one.
+HWY_INLINE Grain grain_between(const GrainPaint& grain, Ints layer, const PatternPlace& place,
+                               Floats level) {
+    const Floats zero = hn::Zero(floats);
     const Ints fine = hn::ConvertTo(ints, level);
-    const Floats coarse_part = hn::Sub(level, hn::ConvertTo(floats, fine));
-    const Floats coarse = hn::Mul(weight, coarse_part);
-    Grain bits = Grain::nothing();
-    add_grain_level(grain, layer, place, fine, hn::Sub(weight, coarse), bits);
-    if (!hn::AllTrue(floats, hn::Eq(coarse, hn::Zero(floats)))) {
-        const Ints next = hn::Min(hn::Add(fine, all(std::int32_t{1})), all(grain.level_count - 1));
-        add_grain_level(grain, layer, place, next, coarse, bits);
+    const Floats off = hn::Sub(hn::Sub(level, hn::ConvertTo(floats, fine)), all(0.5F));
+    const Floats steep = hn::MulAdd(off, all(level_steepness), all(0.5F));
+    const Floats part = hn::Min(hn::Max(steep, zero), all(1.0F));
+    const Grain near = grain_in(grain, layer, place, fine);
+    if (hn::AllTrue(floats, hn::Eq(part, zero))) {
+        return near;
     }
-    const auto add = [&](Floats part, Floats& channel) HWY_ATTR {
-        channel = hn::Add(channel, hn::MulSub(part, all(2.0F / 1023.0F), weight));
-    };
-    add(bits.u, sum.u);
-    add(bits.v, sum.v);
-    add(bits.brightness, sum.brightness);
+    const Ints next = hn::Min(hn::Add(fine, all(std::int32_t{1})), all(grain.level_count - 1));
+    const Grain coarse = grain_in(grain, layer, place, next);
+    const auto mix = [&](Floats from, Floats to)
+                         HWY_ATTR { return hn::MulAdd(part, hn::Sub(to, from), from); };
+    return {mix(near.u, coarse.u), mix(near.v, coarse.v), mix(near.brightness, coarse.brightness)};
 }
 
 // A sine of amplitude 1 and period 1, but of parabolas.
@@ -167,24 +167,47 @@ HWY_INLINE PatternPlace bent(const PatternPlace& place) {
     return {hn::Add(place.u, bend(place.v)), hn::Add(place.v, bend(place.u))};
 }
 
-// A plane between two axes, and its share.
-struct PatternPlane {
-    int u = 0;
-    int v = 1;
-    Floats share;
+// Noise that the mip levels follow, and the choices of the widest pattern; those of the others
+// follow the pattern before.
+HWY_INLINE Grain widest_noise(const std::array<Floats, 3>& at) {
+    const auto wave_along = [&](float x, float y, float z) HWY_ATTR {
+        return wave(dot(at, {all(x / 77.0F), all(y / 77.0F), all(z / 77.0F)}));
+    };
+    const Floats first = wave_along(99.0F, 42.0F, 110.0F);
+    const Floats second = wave_along(-66.0F, 98.0F, 56.0F);
+    const Floats third = wave_along(35.0F, -99.0F, 84.0F);
+    const auto noise = [](Floats a, Floats b)
+                           HWY_ATTR { return hn::Mul(all(choice_noise), hn::Add(a, b)); };
+    return {noise(first, second), noise(second, third), noise(third, first)};
+}
 
-    HWY_INLINE PatternPlace of(const std::array<Floats, 3>& vector) const {
-        return {vector[static_cast<std::size_t>(u)], vector[static_cast<std::size_t>(v)]};
-    }
+// One of two looks, which a pattern shows, and its strength beside the line between them. The line
+// wanders with the noise.
+struct Choice {
+    Lanes is_first;
+    Floats strength;
 };
 
-// Level ground lies in the plane xy, steep ground in the upright plane that it faces.
-HWY_INLINE std::array<PatternPlane, 3> pattern_planes(const std::array<Floats, 3>& normal) {
-    const Floats level = smooth_step(upright_end, upright_begin, hn::Abs(normal[2]));
+HWY_INLINE Choice choice(Floats share, Floats noise) {
+    const Floats wander = hn::Min(hn::Max(noise, all(-widest_wander)), all(widest_wander));
+    const Floats off = hn::Sub(hn::Sub(share, all(0.5F)), wander);
+    return {hn::Gt(off, hn::Zero(floats)),
+            hn::Min(hn::Mul(hn::Abs(off), all(1.0F / choice_border)), all(1.0F))};
+}
+
+// Shares of the first look of each choice.
+struct ShareOfChoices {
+    Floats rock;
+    Floats flat; // the level plane
+    Floats by_y; // of upright planes, yz
+};
+
+HWY_INLINE ShareOfChoices shares_of_choices(const GrainPaint& grain,
+                                            const std::array<Floats, 3>& normal) {
     const Floats turn = hn::Sub(hn::Abs(normal[0]), hn::Abs(normal[1]));
-    const Floats upright = hn::Sub(all(1.0F), level);
-    const Floats along_y = hn::Mul(upright, smooth_step(-upright_turn, upright_turn, turn));
-    return {{{0, 2, hn::Sub(upright, along_y)}, {1, 2, along_y}, {0, 1, level}}};
+    return {smooth_step(rock_begin, rock_end, dot(normal, all_of(grain.up))),
+            smooth_step(upright_end, upright_begin, hn::Abs(normal[2])),
+            smooth_step(-upright_turn, upright_turn, turn)};
 }
 
 // Changes of the cosine of the angle to the sun, and of the brightness.
@@ -193,22 +216,47 @@ struct GrainLook {
     Floats brightness;
 };
 
-// A pattern in a plane. `seen`: its share.
-HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternPlane& plane,
-                            const PatternPlace& place, Floats level, Floats rock, Floats seen,
+// Where a pattern is seen, in its widths, and as how large pixels.
+struct PatternView {
+    std::array<Floats, 3> at;
+    Floats level; // of its mip levels
+    Floats seen;  // its share
+};
+
+HWY_INLINE PatternView pattern_view(const glm::vec4& pattern, const std::array<Floats, 3>& from_eye,
+                                    Floats texels) {
+    const Floats fine = hn::Max(log2_of(hn::Mul(texels, all(pattern.w))), hn::Zero(floats));
+    const Floats level = hn::Min(fine, all(last_seen_level + 1.0F));
+    return {{hn::MulAdd(from_eye[0], all(pattern.w), all(pattern.x)),
+             hn::MulAdd(from_eye[1], all(pattern.w), all(pattern.y)),
+             hn::MulAdd(from_eye[2], all(pattern.w), all(pattern.z))},
+            level,
+            hn::Min(hn::Sub(all(last_seen_level + 1.0F), level), all(1.0F))};
+}
+
+// Adds a pattern: one layer in one plane. `noise`: what its choices follow; then what those of the
+// next one do.
+HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
+                            const ShareOfChoices& shares, bool is_bent, Grain& noise,
                             GrainLook& sum) {
-    const Floats zero = hn::Zero(floats);
-    Grain slopes = Grain::nothing();
-    const std::array<Floats, 2> shares{hn::NegMulAdd(seen, rock, seen), hn::Mul(seen, rock)};
-    for (int layer = 0; layer < 2; ++layer) {
-        const Floats share = shares[static_cast<std::size_t>(layer)];
-        if (!hn::AllTrue(floats, hn::Le(share, zero))) {
-            add_layer(grain, layer, place, level, share, slopes);
-        }
-    }
-    const PatternPlace sun = plane.of(all_of(grain.to_sun));
-    sum.to_sun = hn::NegMulAdd(slopes.u, sun.u, hn::NegMulAdd(slopes.v, sun.v, sum.to_sun));
-    sum.brightness = hn::Add(sum.brightness, slopes.brightness);
+    const Choice rock = choice(shares.rock, noise.brightness);
+    const Choice flat = choice(shares.flat, noise.u);
+    const Choice by_y = choice(shares.by_y, noise.v);
+    const Lanes is_y = hn::AndNot(flat.is_first, by_y.is_first);
+    const auto in_plane = [&](const std::array<Floats, 3>& vector) HWY_ATTR {
+        return PatternPlace{hn::IfThenElse(is_y, vector[1], vector[0]),
+                            hn::IfThenElse(flat.is_first, vector[1], vector[2])};
+    };
+    const PatternPlace place = in_plane(view.at);
+    const PatternPlace sun = in_plane(all_of(grain.to_sun));
+    const Ints layer = hn::IfThenElseZero(hn::RebindMask(ints, rock.is_first), all(1));
+    noise = grain_between(grain, layer, is_bent ? bent(place) : place, view.level);
+    const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
+    const Floats strength =
+        hn::Mul(hn::Mul(view.seen, rock.strength), hn::Mul(flat.strength, of_plane));
+    const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
+    sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
+    sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
 }
 
 // The sum of the visible patterns.
@@ -221,26 +269,25 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
     const Floats width =
         hn::MulAdd(place.distance, all(grain.metres_a_pixel.y), all(grain.metres_a_pixel.x));
     const Floats pixel = hn::Mul(width, hn::Mul(longer, hn::Sqrt(longer))); // and its length
-    const Floats rock = smooth_step(rock_begin, rock_end, dot(normal, all_of(grain.up)));
-    const std::array<PatternPlane, 3> planes = pattern_planes(normal);
+    const Floats texels = hn::Mul(pixel, all(static_cast<float>(grain.side)));
     const std::array<Floats, 3> from_eye = turned(grain.turn, place.from_eye);
+    const ShareOfChoices shares = shares_of_choices(grain, normal);
     GrainLook sum{zero, zero};
+    Grain noise{zero, zero, zero};
+    Floats wander = zero;
     for (int i = 0; i < grain.pattern_count; ++i) {
-        const glm::vec4 pattern = grain.patterns[static_cast<std::size_t>(i)];
-        const Floats texels = hn::Mul(pixel, all(pattern.w * static_cast<float>(grain.side)));
-        const Floats fine = hn::Max(log2_of(texels), zero);
-        const Floats level = hn::Min(fine, all(last_seen_level + 1.0F));
-        const Floats seen = hn::Min(hn::Sub(all(last_seen_level + 1.0F), level), all(1.0F));
-        const std::array<Floats, 3> at{hn::MulAdd(from_eye[0], all(pattern.w), all(pattern.x)),
-                                       hn::MulAdd(from_eye[1], all(pattern.w), all(pattern.y)),
-                                       hn::MulAdd(from_eye[2], all(pattern.w), all(pattern.z))};
-        for (const PatternPlane& plane : planes) {
-            const Floats share = hn::IfThenElseZero(found, hn::Mul(seen, plane.share));
-            if (!hn::AllTrue(floats, hn::Le(share, zero))) {
-                const PatternPlace on = plane.of(at);
-                add_pattern(grain, plane, i == 0 ? bent(on) : on, level, rock, share, sum);
-            }
+        PatternView view =
+            pattern_view(grain.patterns[static_cast<std::size_t>(i)], from_eye, texels);
+        view.seen = hn::IfThenElseZero(found, view.seen);
+        if (hn::AllTrue(floats, hn::Le(view.seen, zero))) {
+            return sum; // nor are narrower ones
         }
+        if (i == 0) {
+            noise = widest_noise(view.at);
+            wander = noise.brightness;
+        }
+        view.level = hn::Max(hn::Add(view.level, wander), zero);
+        add_pattern(grain, view, shares, i == 0, noise, sum);
     }
     return sum;
 }

@@ -41,16 +41,22 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
 
 } // namespace
 
-std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain) {
-    const bool shows_ground = !frame.hits && !frame.counts() && !terrain.material.wireframe;
-    const bool has_overlay = scene::shown_grain(terrain) > 0.0F ||
-                             scene::shown_contours(terrain) > 0.0 || view::shows_facades(terrain);
-    return has_overlay && shows_ground ? feature_overlay : 0U;
+std::uint32_t overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
+                               double distance) {
+    if (frame.hits || frame.counts() || terrain.material.wireframe) {
+        return 0;
+    }
+    if (view::shows_facades(terrain)) {
+        return feature_overlay | feature_facades;
+    }
+    const bool has_overlay =
+        view::shows_grain(frame.list, terrain, distance) || scene::shown_contours(terrain) > 0.0;
+    return has_overlay ? std::uint32_t{feature_overlay} : 0U;
 }
 
 Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& terrain,
                          const glm::dmat4& world_from_local, const ReliefSpace* space) {
-    if (overlay_feature(frame, terrain) == 0) {
+    if (overlay_features(frame, terrain) == 0) {
         return {};
     }
     if (scene::shown_grain(terrain) > 0.0F) {
@@ -68,7 +74,7 @@ Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& te
         const ResidentFacades& facades = frame.residency.facades().bind(terrain);
         ++frame.state.stats().state_changes;
         block.facade_sun = glm::vec4(facades.sun, 0.0F);
-        block.facade_sky = glm::vec4(facades.sky, 1.0F);
+        block.facade_sky = glm::vec4(facades.sky, 0.0F);
     }
     return frame.state.set(block);
 }

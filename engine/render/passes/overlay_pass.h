@@ -10,8 +10,10 @@
 
 namespace reljef::render {
 
-/// feature_overlay for a terrain that shows grain, façades or contours, else 0.
-std::uint32_t overlay_feature(const FrameContext& frame, const scene::TerrainNode& terrain);
+/// The features of a terrain that shows grain, façades or contours on ground that is at least
+/// `distance` metres away; else 0.
+std::uint32_t overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
+                               double distance = 0.0);
 
 /// Sets the grain, façades and contours of a terrain, if it has some. Fails without memory.
 /// `space`: of a relief; null: none.

@@ -319,7 +319,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     const std::uint32_t unused = uses_beams(frame, technique) ? 0U : feature_beams;
     auto program = state.use(
         {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
-                                 surface_features(draw) | overlay_feature(frame, *draw.terrain)});
+                                 surface_features(draw) | overlay_features(frame, *draw.terrain)});
     if (!program) {
         return program.error();
     }

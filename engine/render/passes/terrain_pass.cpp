@@ -54,8 +54,8 @@ public:
         }
         const view::DetailLevel detail = shown(draw.detail);
         const glm::dmat4& world_from_local = frame_.list.world_from_local(draw);
-        if (!is_set_for(*draw.terrain, detail)) {
-            if (auto set = set_for(*draw.terrain, detail, world_from_local); !set) {
+        if (!is_set_for(draw, detail)) {
+            if (auto set = set_for(draw, detail, world_from_local); !set) {
                 return set;
             }
             if (draw.tile->borrows) {
@@ -81,13 +81,19 @@ private:
         return has_ground() ? bindings::ground_lit_map_unit : bindings::lit_map_unit;
     }
 
-    [[nodiscard]] bool is_set_for(const scene::TerrainNode& terrain,
-                                  view::DetailLevel detail) const {
-        return terrain_ == &terrain && detail_ == detail;
+    [[nodiscard]] bool is_set_for(const view::TileDraw& draw, view::DetailLevel detail) const {
+        return terrain_ == draw.terrain && detail_ == detail && overlay_ == overlay_of(draw);
     }
 
-    Result<void> set_for(const scene::TerrainNode& terrain, view::DetailLevel detail,
+    // Far tiles show no grain.
+    [[nodiscard]] std::uint32_t overlay_of(const view::TileDraw& draw) const {
+        return overlay_features(frame_, *draw.terrain, draw.distance);
+    }
+
+    Result<void> set_for(const view::TileDraw& draw, view::DetailLevel detail,
                          const glm::dmat4& world_from_local) {
+        const scene::TerrainNode& terrain = *draw.terrain;
+        overlay_ = overlay_of(draw);
         auto program = state_.use(variant_for(terrain, detail));
         if (!program) {
             return program.error();
@@ -103,7 +109,7 @@ private:
             frame_.residency.warped(terrain).bind(bindings::warped_places_unit);
             return {};
         }
-        return set_overlay(frame_, terrain, world_from_local);
+        return overlay_ != 0 ? set_overlay(frame_, terrain, world_from_local) : Result<void>();
     }
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
@@ -115,8 +121,7 @@ private:
             return ground_variant(*terrain.detail, detail, features);
         }
         return {ShaderKind::terrain,
-                features | (is_warped(terrain) ? std::uint32_t{feature_warped}
-                                               : overlay_feature(frame_, terrain))};
+                features | (is_warped(terrain) ? std::uint32_t{feature_warped} : overlay_)};
     }
 
     // Of a terrain in memory.
@@ -231,6 +236,7 @@ private:
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* terrain_ = nullptr; // of the program's state
     view::DetailLevel detail_ = view::DetailLevel::none;
+    std::uint32_t overlay_ = 0;
 };
 
 } // namespace

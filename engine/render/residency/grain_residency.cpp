@@ -34,47 +34,44 @@ Grid<Rgba8> level_of(const material::GrainMap& map, material::GrainMap::Layer la
     return texels;
 }
 
-Result<gl::Texture2D> uploaded(const material::GrainMap& map, material::GrainMap::Layer layer,
-                               view::FrameStats& stats) {
-    auto texture = gl::Texture2D::create({.size = glm::ivec2(material::GrainMap::side),
-                                          .format = gl::Format::rgba8,
-                                          .levels = material::GrainMap::level_count,
-                                          .filter = gl::Filter::trilinear,
-                                          .wrap = gl::Wrap::repeat});
+// The layers of `map`, one after the other.
+Result<gl::TextureArray> uploaded(const material::GrainMap& map, view::FrameStats& stats) {
+    auto texture = gl::TextureArray::create({.size = glm::ivec2(material::GrainMap::side),
+                                             .format = gl::Format::rgba8,
+                                             .levels = material::GrainMap::level_count,
+                                             .filter = gl::Filter::trilinear,
+                                             .wrap = gl::Wrap::repeat},
+                                            material::GrainMap::layer_count);
     if (!texture) {
         return texture;
     }
-    for (int level = 0; level < material::GrainMap::level_count; ++level) {
-        texture->upload(level, level_of(map, layer, level));
+    for (int layer = 0; layer < material::GrainMap::layer_count; ++layer) {
+        for (int level = 0; level < material::GrainMap::level_count; ++level) {
+            texture->upload(layer, level,
+                            level_of(map, static_cast<material::GrainMap::Layer>(layer), level));
+        }
+        stats.upload_bytes += texture->bytes_per_layer();
     }
     ++stats.uploads;
-    stats.upload_bytes += texture->bytes();
     return texture;
 }
 
 } // namespace
 
 Result<void> GrainResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
-    if (rock_ || !has_grain(list)) {
+    if (layers_ || !has_grain(list)) {
         return {};
     }
-    const material::GrainMap map;
-    auto soil = uploaded(map, material::GrainMap::soil, stats);
-    if (!soil) {
-        return soil.error();
+    auto layers = uploaded(material::GrainMap(), stats);
+    if (!layers) {
+        return layers.error();
     }
-    auto rock = uploaded(map, material::GrainMap::rock, stats);
-    if (!rock) {
-        return rock.error();
-    }
-    soil_ = std::move(*soil);
-    rock_ = std::move(*rock);
+    layers_ = std::move(*layers);
     return {};
 }
 
 void GrainResidency::bind() const {
-    soil_->bind(bindings::soil_grain_unit);
-    rock_->bind(bindings::rock_grain_unit);
+    layers_->bind(bindings::grain_layers_unit);
 }
 
 } // namespace reljef::render

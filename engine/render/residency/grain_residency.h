@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "engine/core/result.h"
-#include "engine/gl/texture.h"
+#include "engine/gl/texture_array.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/frame_stats.h"
 
@@ -18,8 +18,7 @@ public:
     void bind() const;
 
 private:
-    std::optional<gl::Texture2D> soil_;
-    std::optional<gl::Texture2D> rock_;
+    std::optional<gl::TextureArray> layers_;
 };
 
 } // namespace reljef::render

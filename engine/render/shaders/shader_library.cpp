@@ -18,13 +18,14 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 30> feature_names{
+constexpr std::array<std::string_view, 31> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY"};
-static_assert(std::bit_width(std::uint32_t{feature_overlay}) == feature_names.size());
+    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY",
+    "FACADES"};
+static_assert(std::bit_width(std::uint32_t{feature_facades}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -199,7 +200,8 @@ std::uint32_t sliver_of(std::uint32_t features) {
 }
 
 std::uint32_t overlay_of(std::uint32_t features) {
-    return (features & feature_hit) != 0 ? 0U : features & feature_overlay;
+    const bool has_none = (features & feature_hit) != 0 || (features & feature_overlay) == 0;
+    return has_none ? 0U : features & (feature_overlay | feature_facades);
 }
 
 // Features of a kind of shader except light, fog and hit.
@@ -265,7 +267,7 @@ bool counts_work(ShaderVariant variant) {
 
 ShaderVariant counting_variant(ShaderVariant variant) {
     constexpr std::uint32_t looks = feature_counting | feature_fog | feature_write_depth |
-                                    feature_multisampled | feature_overlay;
+                                    feature_multisampled | feature_overlay | feature_facades;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;

@@ -68,6 +68,7 @@ enum ShaderFeature : std::uint32_t {
     feature_sliver = 1U << 27U,   ///< of a terrain: triangles from their corners (view::SliverView)
     feature_corner_depth = 1U << 28U, ///< of slivers: depth from their corners, too
     feature_overlay = 1U << 29U,      ///< of a terrain: grain and contours
+    feature_facades = 1U << 30U,      ///< of an overlay
 };
 
 struct ShaderVariant {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,22 @@ TEST_F(GrainGlTest, RaysAndShadersShowTheSame) {
                 << technique << ' ' << scene::to_string(pose);
         }
     }
+}
+
+// They have another shader.
+TEST_F(GrainGlTest, FarTilesLoseNone) {
+    Grid<float> heights = test::hills(301, 259, 30.0);
+    for (float& height : heights.samples()) {
+        height += 1000.0F;
+    }
+    OverlayStage stage(std::move(heights), {1.0, 1.0});
+    stage.look_from(scene::Pose::low);
+    const Image plain = stage.drawn_by_opengl("polygons");
+    stage.set_grain(1.0F);
+    const Image grainy = stage.drawn_by_opengl("polygons");
+    EXPECT_GT(test::share_of_others(grainy, plain, 6), 0.1);
+    stage.node().contours = 1e6; // no line is seen, but all tiles have the shader of overlays
+    EXPECT_EQ(test::share_of_others(grainy, stage.drawn_by_opengl("polygons"), 1), 0.0);
 }
 
 // In a view without perspective, the eye is anywhere on its rays.

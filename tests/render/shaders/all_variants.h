@@ -21,12 +21,12 @@ inline std::uint32_t possible_features(ShaderKind kind) {
     switch (kind) {
     case ShaderKind::terrain:
         return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
-               feature_corner_depth | feature_overlay;
+               feature_corner_depth | feature_overlay | feature_facades;
     case ShaderKind::mesh:
         return any | feature_multisampled;
     case ShaderKind::relief:
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
-               feature_curved | feature_counting | feature_overlay;
+               feature_curved | feature_counting | feature_overlay | feature_facades;
     case ShaderKind::beams:
         return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:

@@ -29,8 +29,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 30;
-static_assert(1U << (feature_count - 1) == feature_overlay, "the last feature");
+constexpr std::size_t feature_count = 31;
+static_assert(1U << (feature_count - 1) == feature_facades, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
