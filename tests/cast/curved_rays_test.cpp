@@ -17,7 +17,8 @@
 namespace reljef::cast {
 namespace {
 
-constexpr glm::ivec2 curved_size{160, 120};
+constexpr glm::ivec2 curved_size{320, 240};
+constexpr glm::ivec2 ground_size{160, 120};
 
 struct EarthStage : test::EarthStage {
     explicit EarthStage(const test::EarthPlace& place) : test::EarthStage(place) {
@@ -40,8 +41,8 @@ struct EarthStage : test::EarthStage {
         return test::must(driver.draw_hits(view::select(scene, size)));
     }
 
-    void expect_true(const std::string& name, double most) const {
-        const view::DrawnHits shown = drawn(curved_size);
+    void expect_true(const std::string& name, double most, glm::ivec2 size = curved_size) const {
+        const view::DrawnHits shown = drawn(size);
         const truth::GeometricErrors found = errors(shown.hits);
         ASSERT_TRUE(found.reprojection.distribution && shown.stats.kept_error) << name;
         EXPECT_GT(found.reprojection.distribution->count, shown.hits.size() / 200) << name;
@@ -60,7 +61,8 @@ TEST(CurvedRays, HitWhatTheTruthHits) {
         EarthStage stage({.latitude = latitude, .turn = latitude > 0.0 ? 20.0 : 0.0});
         for (const double above : {0.3, 30.0, 3e3, 2e4}) {
             stage.look({120.3, 201.7}, above, {140.0, 40.0});
-            stage.expect_true(fmt::format("latitude {}, {} m above", latitude, above), 0.01);
+            stage.expect_true(fmt::format("latitude {}, {} m above", latitude, above), 0.01,
+                              ground_size);
         }
     }
 }
@@ -72,7 +74,7 @@ TEST(CurvedRays, HitWhatTheTruthHitsInStreamedTiles) {
         for (const double above : {0.3, 30.0, 3e3, 2e4}) {
             stage.look({120.3, 201.7}, above, {140.0, 40.0});
             stage.expect_true(fmt::format("streamed, latitude {}, {} m above", latitude, above),
-                              0.01);
+                              0.01, ground_size);
         }
     }
 }
