@@ -14,6 +14,7 @@
 #include "app/commands.h"
 #include "engine/core/atomic_file.h"
 #include "engine/io/image/surface_maps.h"
+#include "engine/io/raster/raster.h"
 #include "engine/material/straight_walls.h"
 #include "engine/session/measuring/straight_heights.h"
 #include "engine/session/terrain_source.h"
@@ -209,7 +210,7 @@ void expect_outputs(const MapChoice& choice) {
         throw CLI::ValidationError(fmt::format(
             "--straight-walls: found beside {}, one of them was expected", outputs.front().option));
     }
-    if (!straight.empty() && !straight.ends_with(".tif") && !straight.ends_with(".tiff")) {
+    if (!straight.empty() && !io::names_geotiff(straight)) {
         throw CLI::ValidationError(
             fmt::format("--straight-walls: {} found, a name with .tif was expected", straight));
     }

@@ -323,11 +323,11 @@ std::string house_raster(const test::TemporaryFolder& folder) {
 
 TEST_F(MapsCommand, StraightWallsKeepPlaceVoidsAndRange) {
     const std::string house = house_raster(folder_);
-    const auto made = test::reljef({"maps", house, "--straight-walls", file("straight.tif")});
+    const auto made = test::reljef({"maps", house, "--straight-walls", file("straight.TIF")});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.err, testing::HasSubstr("samples changed, all at walls"));
     const auto before = test::reljef({"info", house});
-    const auto after = test::reljef({"info", file("straight.tif")});
+    const auto after = test::reljef({"info", file("straight.TIF")});
     ASSERT_EQ(after.exit_code, 0) << after.err;
     for (const char* const line : {"latitude", "heights", "voids", "spacing"}) {
         const auto of = [&](const std::string& text) {

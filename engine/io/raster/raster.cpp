@@ -1,9 +1,15 @@
 #include "engine/io/raster/raster.h"
 
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/georeferencing.h"
 
 namespace reljef::io {
+
+bool names_geotiff(const std::filesystem::path& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".tif" || extension == ".tiff";
+}
 
 Result<RasterInfo> read_raster_info(const std::filesystem::path& path) {
     GdalMessages messages;

@@ -50,6 +50,9 @@ void allow_external(bool allowed);
 /// Limits GDAL's block cache, which all readers share.
 void limit_block_cache(std::size_t bytes);
 
+/// Whether a name ends in .tif or .tiff, or the same in capitals.
+bool names_geotiff(const std::filesystem::path& path);
+
 /// Metadata of a raster.
 struct RasterInfo {
     int cols = 0;

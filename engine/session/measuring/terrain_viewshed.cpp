@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "engine/io/checks/lowercase.h"
 #include "engine/io/formats/raster_writer.h"
 #include "engine/io/image/image.h"
+#include "engine/io/raster/raster.h"
 #include "engine/terrain/measure/sight.h"
 
 namespace reljef::session {
@@ -15,11 +15,6 @@ namespace {
 
 constexpr auto in_void = static_cast<std::uint8_t>(terrain::SeenState::unknown);
 constexpr auto in_sight = static_cast<std::uint8_t>(terrain::SeenState::visible);
-
-bool is_geotiff(const std::filesystem::path& path) {
-    const std::string extension = io::extension_of(path);
-    return extension == ".tif" || extension == ".tiff";
-}
 
 Result<glm::dvec2> sample_of_eye(const terrain::Terrain& terrain, glm::dvec2 place) {
     const terrain::Heightfield& field = terrain.heightfield;
@@ -94,14 +89,14 @@ Result<TerrainViewshed> viewshed_of(const terrain::Terrain& terrain, const Views
 }
 
 Result<void> check_viewshed_name(const std::filesystem::path& path) {
-    return is_geotiff(path) ? Result<void>() : io::check_image_name(path);
+    return io::names_geotiff(path) ? Result<void>() : io::check_image_name(path);
 }
 
 Result<void> write_viewshed(const std::filesystem::path& path, const TerrainViewshed& viewshed,
                             const terrain::Heightfield& heightfield) {
     const Grid<std::uint8_t> seen = source_samples(viewshed.seen, heightfield);
-    return is_geotiff(path) ? io::write_bytes(path, seen, heightfield.georeference, in_void)
-                            : io::write_image(path, grey_picture(seen));
+    return io::names_geotiff(path) ? io::write_bytes(path, seen, heightfield.georeference, in_void)
+                                   : io::write_image(path, grey_picture(seen));
 }
 
 } // namespace reljef::session

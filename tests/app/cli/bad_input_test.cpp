@@ -39,10 +39,14 @@ TEST_F(BadInput, missing_file) {
 
 TEST_F(BadInput, no_sky) {
     const std::string dem = write("small.asc", small_dem);
-    expect_refusal(render(dem, {"--sky", (folder_.path() / "none.png").string()}), 1, {"none.png"});
-    expect_refusal(render(dem, {"--sky", dem}), 1, {"small.asc"});
-    expect_refusal(render(dem, {"--sky-turn", "5"}), 2, {"--sky-turn", "--sky FILE"});
-    expect_refusal(render(dem, {"--sky", picture()}), 2, {"picture.png", "--sky"});
+    const auto with = [&](const char* option, const std::string& value) {
+        return render(dem, {"--quiet", option, value});
+    };
+    expect_refusal(with("--sky", (folder_.path() / "none.png").string()), 1, {"none.png"});
+    expect_refusal(with("--sky", dem), 1, {"small.asc"});
+    expect_refusal(with("--sky-turn", "5"), 2, {"--sky-turn", "--sky FILE"});
+    expect_refusal(with("--sky-turn", "nan"), 2, {"--sky-turn", "nan"});
+    expect_refusal(with("--sky", picture()), 2, {"picture.png", "--sky"});
 }
 
 TEST_F(BadInput, unknown_name) {
