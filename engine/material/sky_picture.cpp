@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -87,22 +88,17 @@ glm::dvec3 direction_from(double azimuth, double altitude) {
             std::sin(altitude)};
 }
 
-// Between two altitudes, degrees.
-glm::vec3 mean_color(const SkyPicture& sky, double low, double high) {
+// In the lowest three degrees.
+glm::vec3 color_of_horizon(const SkyPicture& sky) {
     constexpr int azimuths = 90;
-    constexpr int altitudes = 8;
     glm::vec3 sum(0.0F);
-    float weights = 0.0F;
-    for (int row = 0; row < altitudes; ++row) {
-        const double altitude = glm::radians(low + (high - low) * (row + 0.5) / altitudes);
-        const auto weight = static_cast<float>(std::cos(altitude));
-        for (int col = 0; col < azimuths; ++col) {
-            sum += weight *
-                   sky.color(direction_from(2.0 * std::numbers::pi * col / azimuths, altitude));
-            weights += weight;
+    for (int col = 0; col < azimuths; ++col) {
+        const double azimuth = 2.0 * std::numbers::pi * col / azimuths;
+        for (const double altitude : {0.5, 1.5, 2.5}) {
+            sum += sky.color(direction_from(azimuth, glm::radians(altitude)));
         }
     }
-    return sum / weights;
+    return sum / (3.0F * azimuths);
 }
 
 glm::dvec3 turned_back(glm::dvec3 direction, double turn) {
@@ -116,6 +112,44 @@ glm::dvec3 turned_back(glm::dvec3 direction, double turn) {
 int side_for(double texels_a_radian) {
     return std::clamp(static_cast<int>(std::lround(2.0 * texels_a_radian)), 1,
                       SkyPicture::max_side);
+}
+
+// Means of two by two.
+Image halved(const Image& fine) {
+    Image coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
+    for_each_cell(coarse.cols(), coarse.rows(), {}, [&](int col, int row) {
+        glm::vec3 sum(0.0F);
+        for (const int right : {0, 1}) {
+            for (const int down : {0, 1}) {
+                sum += linear_from_rgba8(fine.clamped(2 * col + right, 2 * row + down));
+            }
+        }
+        coarse(col, row) = rgba8_from_linear(0.25F * sum);
+    });
+    return coarse;
+}
+
+// With texels that are not much narrower than those of the largest faces.
+Image reduced(Image picture, double texels_a_radian) {
+    constexpr double reach = 1.5; // of bilinear texels
+    while (2.0 * texels_a_radian > reach * SkyPicture::max_side) {
+        picture = halved(picture);
+        texels_a_radian /= 2.0;
+    }
+    return picture;
+}
+
+// Columns get narrow towards the zenith and the nadir: the mean of those that a texel is as wide
+// as.
+glm::vec3 color_across(const Image& picture, glm::dvec2 texel, double columns) {
+    constexpr double max_columns = 64.0;
+    const int count = static_cast<int>(std::ceil(std::clamp(columns, 1.0, max_columns)));
+    glm::vec3 sum(0.0F);
+    for (int i = 0; i < count; ++i) {
+        const double part = (i + 0.5) / count - 0.5;
+        sum += bilinear_color(picture, texel + glm::dvec2(part * (columns - 1.0), 0.0), true);
+    }
+    return sum / static_cast<float>(count);
 }
 
 struct SeenFace {
@@ -148,10 +182,7 @@ SkyPicture::SkyPicture(int side, const ColorAt& color_at) {
         const std::size_t finer = levels_.size() - 1;
         levels_.push_back(halved(*this, finer, levels_.back().side / 2));
     }
-    constexpr double near_horizon = 3.0; // degrees
-    constexpr double upper = 60.0;
-    horizon_ = mean_color(*this, 0.0, near_horizon);
-    zenith_ = mean_color(*this, upper, 90.0);
+    horizon_ = color_of_horizon(*this);
 }
 
 std::size_t SkyPicture::level_for(double radians_a_pixel) const {
@@ -167,23 +198,31 @@ glm::vec3 SkyPicture::color(glm::dvec3 direction, std::size_t level) const {
     return bilinear_color(faces, texel + glm::dvec2(0.0, place.face * (side + 2 * border)), false);
 }
 
-SkyPicture sky_from_panorama(const Image& picture, const SkyPlacement& placement) {
+SkyPicture sky_from_panorama(const Image& whole, const SkyPlacement& placement) {
+    const auto texels_a_radian = [](const Image& image) {
+        return image.cols() / (2.0 * std::numbers::pi);
+    };
+    const Image picture = reduced(whole, texels_a_radian(whole));
     const glm::dvec2 size(picture.cols(), picture.rows());
     const double seen = placement.is_dome ? std::numbers::pi / 2.0
                                           : std::numbers::pi; // radians from the upper row on
-    return {side_for(size.x / (2.0 * std::numbers::pi)), [&](glm::dvec3 direction) {
+    return {side_for(texels_a_radian(picture)), [&](glm::dvec3 direction) {
                 const glm::dvec3 to = turned_back(glm::normalize(direction), placement.turn);
                 const double azimuth = std::atan2(to.x, to.y);
                 const double below_zenith = std::acos(std::clamp(to.z, -1.0, 1.0));
                 const glm::dvec2 share(0.5 + azimuth / (2.0 * std::numbers::pi),
                                        std::min(below_zenith / seen, 1.0));
-                return bilinear_color(picture, share * size - 0.5, true);
+                const double level = std::hypot(to.x, to.y);
+                const double columns = level * size.x > 1.0 ? 1.0 / level : size.x;
+                return color_across(picture, share * size - 0.5, columns);
             }};
 }
 
-SkyPicture sky_from_faces(const SkyFaces& faces, double turn) {
+SkyPicture sky_from_faces(SkyFaces faces, double turn) {
     int widest = 1;
-    for (const Image& picture : faces.pictures) {
+    for (Image& picture : faces.pictures) {
+        const double texels_a_radian = picture.cols() / 2.0;
+        picture = reduced(std::move(picture), texels_a_radian);
         widest = std::max(widest, picture.cols());
     }
     return {std::min(widest, SkyPicture::max_side), [&](glm::dvec3 direction) {

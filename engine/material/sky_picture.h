@@ -34,19 +34,17 @@ public:
 
     /// The finest first.
     [[nodiscard]] std::span<const Level> levels() const { return levels_; }
-    /// Whose texels are about as wide as a pixel of that angle.
+    /// The level whose texels are about as wide as a pixel.
     [[nodiscard]] std::size_t level_for(double radians_a_pixel) const;
     /// Bilinear.
     [[nodiscard]] glm::vec3 color(glm::dvec3 direction, std::size_t level = 0) const;
 
-    /// Mean colours around the horizon, and of the upper third of the sky.
+    /// The mean colour just above the horizon.
     [[nodiscard]] glm::vec3 horizon() const { return horizon_; }
-    [[nodiscard]] glm::vec3 zenith() const { return zenith_; }
 
 private:
     std::vector<Level> levels_;
     glm::vec3 horizon_{0.0F};
-    glm::vec3 zenith_{0.0F};
 };
 
 /// How a picture shows all directions: `turn` degrees clockwise from north is its middle.
@@ -58,7 +56,7 @@ struct SkyPlacement {
 };
 
 /// From an equirectangular picture. Precondition: not empty.
-SkyPicture sky_from_panorama(const Image& picture, const SkyPlacement& placement);
+SkyPicture sky_from_panorama(const Image& whole, const SkyPlacement& placement);
 
 /// Six square pictures, as seen from within: the upright ones in the directions front (north
 /// without a turn), right, back and left, one above whose lower side meets the front, and one below
@@ -69,6 +67,6 @@ struct SkyFaces {
 };
 
 /// Precondition: no picture is empty.
-SkyPicture sky_from_faces(const SkyFaces& faces, double turn);
+SkyPicture sky_from_faces(SkyFaces faces, double turn);
 
 } // namespace reljef::material

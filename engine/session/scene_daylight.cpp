@@ -188,7 +188,6 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
     if (const auto& picture = scene.surroundings.sky) {
         sky.picture = picture;
         sky.horizon = picture->horizon();
-        sky.zenith = picture->zenith();
         sky.glow = glm::vec3(0.0F);
     }
     constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane

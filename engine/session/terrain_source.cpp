@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/cache/disk_cache.h"
+#include "engine/io/checks/lowercase.h"
 #include "engine/io/formats/geoid_file.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/web_tiles.h"
@@ -346,7 +347,7 @@ Result<io::SceneDescription> describe(const std::string& terrain) {
         }
     }
     const fs::path path(terrain);
-    if (path.extension() == ".toml") {
+    if (io::extension_of(path) == ".toml") {
         return io::read_scene_file(path);
     }
     std::error_code ignored;

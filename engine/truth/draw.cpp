@@ -29,7 +29,7 @@ glm::vec3 color_of(const Eye& eye, const Ray& ray, const Seen& seen, const Scene
         return shading.at(*seen.mesh, caster, ray, eye.distance(ray, seen.mesh->t));
     }
     return seen.terrain ? shading.at(*seen.terrain, ray, eye.distance(ray, seen.terrain->surface.t))
-                        : shading.background(ray);
+                        : shading.background(ray, eye.sky());
 }
 
 Hit shown_hit(const Seen& seen) {
@@ -53,7 +53,14 @@ Result<Picture> draw(const SceneCaster& caster, const Shading& shading, const sc
                      glm::ivec2 size, const DrawOptions& options) {
     check(options.rays_per_side >= 1, "at least one ray a pixel was expected");
     Picture picture{HitBuffer(size.x, size.y), Image(size.x, size.y)};
-    const Eye eye(camera, size, caster.bounds());
+    Eye eye(camera, size, caster.bounds());
+    if (!caster.terrains().empty()) {
+        const PlacedTerrain& first = caster.terrains().front();
+        eye.see(shading.sky(), scene::ground_axes(first.surface->placement(),
+                                                  first.world_from_local, eye.place()));
+    } else {
+        eye.see(shading.sky(), glm::dmat3(1.0));
+    }
     const auto color_at = [&](glm::dvec2 place) {
         const Ray ray = eye.ray(place);
         return color_of(eye, ray, seen_by(caster, ray, eye.range()), caster, shading);

@@ -6,7 +6,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/core/hit.h"
-#include "engine/scene/graph/camera.h"
+#include "engine/scene/graph/scene.h"
 #include "engine/terrain/field/ray_cast.h"
 
 namespace reljef::truth {
@@ -22,6 +22,14 @@ public:
     /// Metres of air in front of a hit; 0 on a map, which has no viewing distance.
     [[nodiscard]] double distance(const Ray& ray, double t) const;
 
+    /// Sees the sky's picture, if it is one. `axes`: scene::ground_axes().
+    void see(const std::optional<scene::Sky>& sky, const glm::dmat3& axes) {
+        sky_ = sky ? scene::seen_sky(*sky, camera_, size_, axes) : std::nullopt;
+    }
+    /// Null: none.
+    [[nodiscard]] const scene::SeenSky* sky() const { return sky_ ? &*sky_ : nullptr; }
+    [[nodiscard]] glm::dvec3 place() const { return camera_.eye; }
+
 private:
     [[nodiscard]] bool is_perspective() const {
         return camera_.projection == scene::ProjectionKind::perspective;
@@ -30,6 +38,7 @@ private:
     scene::Camera camera_;
     glm::ivec2 size_;
     Interval range_;
+    std::optional<scene::SeenSky> sky_;
 };
 
 Ray transformed(const glm::dmat4& matrix, const Ray& ray);

@@ -47,15 +47,16 @@ bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
 
 } // namespace
 
-glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray) {
+glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray,
+                    const scene::SeenSky* picture) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
     if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
         constexpr double mist = 3.0; // as dense as the air at the base
         const double metres = (sky.base - ray.origin.z) / direction.z;
         return behind_air(sky, sun, *sky.plane, direction, mist * metres);
     }
-    if (sky.picture != nullptr) {
-        return sky.picture->color(direction);
+    if (picture != nullptr) {
+        return picture->color(direction);
     }
     const auto height = static_cast<float>(std::max(direction.z, 0.0));
     const float share = height * (1.0F + sky.curve) / (height + sky.curve);
@@ -146,12 +147,12 @@ glm::vec3 Backdrop::through_air(glm::vec3 color, const Ray& ray, double distance
     return sky ? seen_through_air(*sky, sun, color, ray, distance) : color;
 }
 
-glm::vec3 Backdrop::behind(const Ray& ray) const {
-    return sky ? sky_color(*sky, sun, ray) : glm::vec3(0.0F);
+glm::vec3 Backdrop::behind(const Ray& ray, const scene::SeenSky* picture) const {
+    return sky ? sky_color(*sky, sun, ray, picture) : glm::vec3(0.0F);
 }
 
-glm::vec3 Shading::background(const Ray& ray) const {
-    return backdrop_.behind(ray);
+glm::vec3 Shading::background(const Ray& ray, const scene::SeenSky* picture) const {
+    return backdrop_.behind(ray, picture);
 }
 
 Ray sun_ray_from(glm::dvec3 place, glm::dvec2 spacing, glm::dvec3 to_sun) {

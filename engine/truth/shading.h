@@ -14,8 +14,9 @@
 namespace reljef::truth {
 
 /// Linear colour of the sky along a world ray (scene::Sky), or of the plane below it; a sun adds
-/// glow and disc, unless the sky is a picture.
-glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray);
+/// glow and disc. `picture`: instead of these; null: none.
+glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray,
+                    const scene::SeenSky* picture = nullptr);
 
 /// A linear colour through `distance` metres of air along a world ray (Koschmieder 1924).
 glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Light>& sun,
@@ -28,8 +29,8 @@ struct Backdrop {
 
     /// A linear colour through `distance` metres of air along a world ray.
     [[nodiscard]] glm::vec3 through_air(glm::vec3 color, const Ray& ray, double distance) const;
-    /// Linear; black without a sky.
-    [[nodiscard]] glm::vec3 behind(const Ray& ray) const;
+    /// Linear; black without a sky. `picture`: that of the sky; null: none.
+    [[nodiscard]] glm::vec3 behind(const Ray& ray, const scene::SeenSky* picture) const;
 };
 
 enum class SunShadow {
@@ -71,8 +72,9 @@ public:
                                double distance) const;
     /// The same through `distance` metres of air.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit, const Ray& ray, double distance) const;
-    /// The sky; black without one.
-    [[nodiscard]] glm::vec3 background(const Ray& ray) const;
+    /// The sky; black without one. `picture`: as seen_sky().
+    [[nodiscard]] glm::vec3 background(const Ray& ray, const scene::SeenSky* picture) const;
+    [[nodiscard]] const std::optional<scene::Sky>& sky() const { return backdrop_.sky; }
 
 private:
     struct Maps {

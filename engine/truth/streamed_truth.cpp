@@ -114,7 +114,10 @@ StreamedTruth::StreamedTruth(const scene::Scene& scene, const scene::TerrainNode
 Eye StreamedTruth::eye_of(const scene::Camera& camera, glm::ivec2 size) const {
     Box bounds = transformed(world_from_local_, terrain::shell_around(surface_));
     bounds.add(meshes_.bounds());
-    return {camera, size, bounds};
+    Eye eye(camera, size, bounds);
+    eye.see(backdrop_.sky, scene::ground_axes(surface_.stream().maker().overview().placement(),
+                                              world_from_local_, camera.eye));
+    return eye;
 }
 
 Result<void> StreamedTruth::trace(const Eye& eye, Batch& batch, const ParallelOptions& parallel) {
@@ -288,7 +291,7 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
                 meshes_.color_at(*hit, backdrop_.sun, batch.sun_at(i).value_or(true));
             batch.colors[i] = backdrop_.through_air(color, ray, eye.distance(ray, hit->t));
         } else if (!batch.hits[i]) {
-            batch.colors[i] = backdrop_.behind(ray);
+            batch.colors[i] = backdrop_.behind(ray, eye.sky());
         }
     }
     const scene::TileStream& stream = surface_.stream();

@@ -57,11 +57,6 @@ glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
     return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
 }
 
-std::size_t sky_level(const DrawList& list) {
-    const glm::vec2 metres = metres_a_pixel(list.camera, list.size);
-    return list.sky->picture->level_for(static_cast<double>(metres.y));
-}
-
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size) {
     constexpr int repeat = 64; // of the pattern, pixels
     const int height = scene::whole_picture(camera, size).y;

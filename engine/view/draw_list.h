@@ -88,6 +88,7 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
+    std::optional<scene::SeenSky> sky_picture; ///< empty: the sky is none
     std::vector<TerrainDraw> terrains;
     std::vector<TileDraw> tiles; ///< of `terrains`, as triangles, front to back
     std::vector<MeshDraw> meshes;
@@ -119,10 +120,6 @@ glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
 
 /// Width of a pixel, metres: x at the eye, plus y per metre of distance.
 glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
-
-/// The level of the sky's picture whose texels are about as wide as pixels. Precondition: the sky
-/// is a picture.
-std::size_t sky_level(const DrawList& list);
 
 /// Where the pattern of dithers begins: of a part of a picture, so that parts continue it; pixels.
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size);

@@ -376,6 +376,23 @@ private:
     std::vector<TileDraw> draws_;
 };
 
+// North and up are those of the first terrain.
+std::optional<scene::SeenSky> picture_of_sky(const SceneView& view) {
+    if (!view.sky()) {
+        return std::nullopt;
+    }
+    const auto& nodes = view.nodes();
+    const auto first = std::find_if(nodes.begin(), nodes.end(), [](const SeenNode& seen) {
+        return seen.node->get<scene::TerrainNode>() != nullptr;
+    });
+    const glm::dmat3 axes =
+        first == nodes.end()
+            ? glm::dmat3(1.0)
+            : scene::ground_axes(first->node->get<scene::TerrainNode>()->surface->placement(),
+                                 first->world_from_local, view.camera().eye);
+    return scene::seen_sky(*view.sky(), view.camera(), view.size(), axes);
+}
+
 } // namespace
 
 FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options) {
@@ -389,6 +406,7 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
     list.size = view.size();
     list.sun = view.sun();
     list.sky = view.sky();
+    list.sky_picture = picture_of_sky(view);
     if (list.camera.projection == scene::ProjectionKind::orthographic) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }

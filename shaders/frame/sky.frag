@@ -2,6 +2,7 @@
 #include "frame/air.glsl"
 
 layout(binding = sky_faces_unit) uniform sampler2D sky_faces; // of material::SkyPicture::Level
+uniform mat3 picture_from_world; // a rotation
 uniform float sky_side; // texels along a face without its border; 0: no picture
 
 in vec3 ray;
@@ -35,7 +36,7 @@ vec3 picture_color(vec3 direction) {
 
 vec3 sky_color(vec3 direction) {
     if (sky_side > 0.0) {
-        return picture_color(direction);
+        return picture_color(picture_from_world * direction);
     }
     float height = max(direction.z, 0.0);
     float curve = sky_zenith.a;

@@ -16,7 +16,7 @@
 #include "engine/cast/frame/painter.h"
 #include "engine/cast/frame/ray_support.h"
 #include "engine/cast/frame/seen_terrain.h"
-#include "engine/cast/frame/sky_faces.h"
+#include "engine/cast/frame/sky_texels.h"
 #include "engine/cast/frame/tile_contents.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/mesh/mesh_surface.h"
@@ -127,7 +127,7 @@ private:
     TileContents streamed_;
     GroundGrain grain_;
     GroundFacades facades_;
-    SkyFaces sky_;
+    SkyTexels sky_;
     MeshTrees mesh_trees_;
     MeshPictures mesh_pictures_;
 };

@@ -124,6 +124,7 @@ struct FacadePaint {
 struct SkyPaint {
     const std::uint32_t* texels = nullptr; ///< packed_roots(), row after row
     int side = 0;                          ///< of a face, texels without the border
+    glm::mat3 picture_from_world{1.0F};    ///< a rotation
 };
 
 /// What is certain of the sun in a cell; 0: nothing.

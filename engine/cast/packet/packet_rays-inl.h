@@ -190,9 +190,10 @@ HWY_INLINE Floats leaving_of(const Rays& rays, const BlockRays& block) {
 
 // Up to the border of the tile, or to the height beyond which nothing is hit.
 HWY_INLINE Floats end_of(const Rays& rays, const BlockRays& block) {
-    const Lanes rises = hn::Gt(rays.rise, hn::Zero(floats));
+    const Floats rise = moving(rays.rise); // of level rays, too
+    const Lanes rises = hn::Gt(rise, hn::Zero(floats));
     const Floats height = hn::IfThenElse(rises, all(block.highest), all(block.lowest));
-    const Floats past = hn::Div(hn::Sub(height, rays.height), moving(rays.rise));
+    const Floats past = hn::Div(hn::Sub(height, rays.height), rise);
     return hn::Min(leaving_of(rays, block), past);
 }
 

@@ -39,7 +39,12 @@ HWY_INLINE FacePlaces face_places(const SkyPaint& sky, Floats x, Floats y, Float
 }
 
 HWY_INLINE Color sky_picture_color(const SkyPaint& sky, Floats x, Floats y, Floats z) {
-    const FacePlaces places = face_places(sky, x, y, z);
+    const auto turned = [&](int row) HWY_ATTR {
+        const glm::mat3& turn = sky.picture_from_world;
+        return hn::MulAdd(all(turn[0][row]), x,
+                          hn::MulAdd(all(turn[1][row]), y, hn::Mul(all(turn[2][row]), z)));
+    };
+    const FacePlaces places = face_places(sky, turned(0), turned(1), turned(2));
     const Ints col = hn::ConvertTo(ints, places.col);
     const Ints row = hn::ConvertTo(ints, places.row);
     const Floats part_col = hn::Sub(places.col, hn::ConvertTo(floats, col));

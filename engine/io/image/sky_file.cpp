@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -47,7 +49,7 @@ Image part_of_cross(const Image& picture, glm::ivec2 place) {
     return cut_out(picture, corner(place), corner(place + 1));
 }
 
-// About one colour: compression changes it a little.
+// Whether it has one colour: compression changes it a little.
 bool is_even(const Image& picture) {
     constexpr int tolerance = 16; // of 255
     const Rgba8 first = picture(0, 0);
@@ -57,7 +59,7 @@ bool is_even(const Image& picture) {
     });
 }
 
-// Other pictures of that shape fill the corners.
+// A photo of the same shape has content in its corners.
 bool is_cross(const Image& picture) {
     constexpr double ratio = 4.0 / 3.0;
     return has_ratio(picture, ratio) && picture.rows() >= 3 &&
@@ -86,52 +88,73 @@ constexpr std::array<FaceName, material::SkyPicture::face_count> face_names{{{"f
                                                                              {"up", "up"},
                                                                              {"down", "dn"}}};
 
-// Of files whose names end in that of a face, the first one by name. A name's end is a word: after
-// its beginning, or after a character that is no letter.
-fs::path face_file(const std::set<fs::path>& files, const FaceName& face) {
-    const auto ends_in = [](std::string_view stem, std::string_view word) {
-        const std::size_t before = stem.size() - std::min(stem.size(), word.size());
-        return stem.substr(before) == word &&
-               (before == 0 || stem[before - 1] < 'a' || stem[before - 1] > 'z');
+// In small letters. No letter may stand before two letters: cup is not up.
+bool names_face(const std::string& stem, const FaceName& face) {
+    const auto ends_in = [&](std::string_view word) {
+        const bool ends = stem.ends_with(word);
+        const char before =
+            ends && stem.size() > word.size() ? stem[stem.size() - word.size() - 1] : '_';
+        return ends && (word.size() > 2 || before < 'a' || before > 'z');
     };
-    for (const fs::path& file : files) {
-        const std::string stem = lowercase(file.stem().string());
-        if (ends_in(stem, face.word) || ends_in(stem, face.letters)) {
-            return file;
-        }
-    }
-    return {};
+    return ends_in(face.word) || ends_in(face.letters);
 }
 
-Result<material::SkyPicture> read_faces(const fs::path& folder, double turn) {
-    std::set<fs::path> files;
+// Visible files, by name.
+std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
     std::error_code failed;
     for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
          entry.increment(failed)) {
-        files.insert(entry->path());
+        std::error_code ignored;
+        if (entry->is_regular_file(ignored) &&
+            !entry->path().filename().string().starts_with('.')) {
+            files.push_back(entry->path());
+        }
     }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+Result<fs::path> face_file(const fs::path& folder, const std::vector<fs::path>& files,
+                           const FaceName& face) {
+    std::vector<fs::path> found;
+    std::copy_if(files.begin(), files.end(), std::back_inserter(found), [&](const fs::path& file) {
+        return names_face(lowercase(file.stem().string()), face);
+    });
+    if (found.empty()) {
+        return Error{
+            fmt::format("{}: no face {} found, files whose names end in front, right, back, "
+                        "left, up and down (or _ft, _rt, _bk, _lf, _up, _dn) were expected",
+                        folder.string(), face.word)};
+    }
+    if (found.size() > 1) {
+        return Error{fmt::format("{}: {} and {} found, one face {} was expected", folder.string(),
+                                 found[0].filename().string(), found[1].filename().string(),
+                                 face.word)};
+    }
+    return found.front();
+}
+
+Result<material::SkyPicture> read_faces(const fs::path& folder, double turn) {
+    const std::vector<fs::path> files = files_in(folder);
     SkyFaces faces;
     for (std::size_t i = 0; i < face_names.size(); ++i) {
-        const FaceName& name = face_names[i];
-        const fs::path file = face_file(files, name);
-        if (file.empty()) {
-            return Error{fmt::format("{}: no face {} found, files whose names end in front, right, "
-                                     "back, left, up and down (or ft, rt, bk, lf, up, dn) were "
-                                     "expected",
-                                     folder.string(), name.word)};
+        const auto file = face_file(folder, files, face_names[i]);
+        if (!file) {
+            return file.error();
         }
-        auto picture = read_image(file);
+        auto picture = read_image(*file);
         if (!picture) {
             return picture.error();
         }
         if (!has_ratio(*picture, 1.0)) {
             return Error{
                 fmt::format("{}: {} x {} pixels found, a square face of a sky was expected",
-                            file.string(), picture->cols(), picture->rows())};
+                            file->string(), picture->cols(), picture->rows())};
         }
         faces.pictures[i] = std::move(*picture);
     }
-    return material::sky_from_faces(faces, turn);
+    return material::sky_from_faces(std::move(faces), turn);
 }
 
 } // namespace

@@ -19,6 +19,10 @@ Result<void> draw_sky(const FrameContext& frame) {
     const SkyResidency& sky = frame.residency.sky();
     sky.bind();
     (*program)->set(uniforms.sky_side, static_cast<float>(sky.side()));
+    if (frame.list.sky_picture) {
+        (*program)->set(uniforms.picture_from_world,
+                        glm::mat3(frame.list.sky_picture->picture_from_world));
+    }
     frame.no_vertices.bind();
     gl::draw_arrays(gl::Primitive::triangles, 3);
     gl::set_depth_writing(true);

@@ -8,12 +8,12 @@
 namespace reljef::render {
 
 Result<void> SkyResidency::prepare(const view::DrawList& list, view::FrameStats& stats) {
-    if (!list.sky || list.sky->picture == nullptr) {
+    if (!list.sky_picture) {
         faces_.reset();
         return {};
     }
-    const auto& picture = list.sky->picture;
-    const std::size_t level = view::sky_level(list);
+    const auto& picture = list.sky_picture->picture;
+    const std::size_t level = list.sky_picture->level;
     if (faces_ && picture_.lock() == picture && level_ == level) {
         return {};
     }

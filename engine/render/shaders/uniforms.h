@@ -56,6 +56,7 @@ struct Uniforms {
     gl::Uniform<float> beam_lift{"beam_lift"};
 
     gl::Uniform<float> sky_side{"sky_side"};
+    gl::Uniform<glm::mat3> picture_from_world{"picture_from_world"};
     gl::Uniform<int> picture_count{"picture_count"};
 };
 inline constexpr Uniforms uniforms;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -83,6 +84,44 @@ Result<void> check_technique(const Technique& technique, const MeshNode& mesh) {
 double extinction(const Sky& sky) {
     constexpr double contrast_left = 0.02;
     return sky.visibility > 0.0 ? -std::log(contrast_left) / sky.visibility : 0.0;
+}
+
+glm::vec3 SeenSky::color(glm::dvec3 direction) const {
+    return picture->color(picture_from_world * direction, level);
+}
+
+glm::dmat3 ground_axes(const terrain::Placement& placement, const glm::dmat4& world_from_local,
+                       glm::dvec3 eye) {
+    const glm::dvec3 local_eye(glm::inverse(world_from_local) * glm::dvec4(eye, 1.0));
+    const glm::dmat3 turn(world_from_local);
+    const glm::dvec3 up = glm::normalize(turn * placement.up(local_eye));
+    const glm::dvec3 east = glm::normalize(glm::cross(turn * placement.north(local_eye), up));
+    return {east, glm::cross(up, east), up};
+}
+
+namespace {
+
+// Radians: the geometric mean of those in the middle and in the corners, where pixels are narrower.
+double angle_of_pixels(const Camera& camera, glm::ivec2 size) {
+    if (camera.projection == ProjectionKind::orthographic) {
+        return 0.0;
+    }
+    const glm::ivec2 whole = whole_picture(camera, size);
+    const double half_height =
+        std::tan(0.5 * glm::radians(camera_of_whole(camera, size).vertical_fov));
+    const double corner = half_height * glm::length(glm::dvec2(whole)) / whole.y; // tangent
+    return 2.0 * half_height / whole.y / std::sqrt(1.0 + corner * corner);
+}
+
+} // namespace
+
+std::optional<SeenSky> seen_sky(const Sky& sky, const Camera& camera, glm::ivec2 size,
+                                const glm::dmat3& axes) {
+    if (sky.picture == nullptr) {
+        return std::nullopt;
+    }
+    return SeenSky{sky.picture, glm::transpose(axes),
+                   sky.picture->level_for(angle_of_pixels(camera, size))};
 }
 
 AirSeen air_seen(const Sky& sky, const Camera& camera) {

@@ -53,6 +53,25 @@ struct AirSeen {
 };
 AirSeen air_seen(const Sky& sky, const Camera& camera);
 
+/// The picture of a sky as a camera sees it.
+struct SeenSky {
+    std::shared_ptr<const material::SkyPicture> picture;
+    glm::dmat3 picture_from_world{1.0}; ///< a rotation
+    std::size_t level = 0;              ///< whose texels are about as wide as pixels
+
+    /// Linear. `direction`: in the world, of any length above 0.
+    [[nodiscard]] glm::vec3 color(glm::dvec3 direction) const;
+};
+
+/// The directions east, true north and up at an eye, unit vectors of the world. `world_from_local`:
+/// of the terrain with the placement.
+glm::dmat3 ground_axes(const terrain::Placement& placement, const glm::dmat4& world_from_local,
+                       glm::dvec3 eye);
+
+/// Empty if the sky is no picture. `axes`: of ground_axes().
+std::optional<SeenSky> seen_sky(const Sky& sky, const Camera& camera, glm::ivec2 size,
+                                const glm::dmat3& axes);
+
 struct MeshNode {
     std::shared_ptr<const Mesh> mesh;
     Material material;

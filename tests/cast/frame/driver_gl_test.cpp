@@ -13,6 +13,7 @@
 #include "engine/scene/graph/picture_detail.h"
 #include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/motion/poses.h"
+#include "engine/truth/draw.h"
 #include "engine/truth/image_error.h"
 #include "engine/view/sample_count.h"
 #include "tests/cast/frame/compared_pictures.h"
@@ -164,6 +165,38 @@ TEST(CastDriver, ABaseIsHiddenFromWithinAndLeavesHitsAsTheyAre) {
               0);
     stage.look_from(scene::Pose::low);
     EXPECT_EQ(drawn_by_rays(stage.scene), bare);
+}
+
+// The middle row of a level view of odd height, and all rows of a level view without perspective:
+// such rays were taken for falling, and ended before they began.
+TEST(CastDriver, LevelRaysHitWhatStandsInTheirWay) {
+    constexpr glm::ivec2 odd_picture{81, 61};
+    LitStage stage;
+    const Box bounds = stage.surface().bounds();
+    const double middle = bounds.center().z;
+    scene::Camera camera;
+    camera.eye = {bounds.low.x - 20.0, 3.0, middle};
+    camera.target = {0.0, 3.0, middle};
+    camera.vertical_fov = 20.0;
+    camera.view_height = bounds.size().z;
+    Driver driver = test::must(Driver::create({.size = odd_picture}));
+    for (const auto projection :
+         {scene::ProjectionKind::perspective, scene::ProjectionKind::orthographic}) {
+        camera.projection = projection;
+        stage.look(camera);
+        const auto hits = test::must(driver.draw_hits(view::select(stage.scene, odd_picture))).hits;
+        const auto truth = test::must(truth::draw_hits(stage.scene, odd_picture));
+        int ground = 0;
+        int others = 0;
+        for (int col = 0; col < odd_picture.x; ++col) {
+            ground += truth(col, odd_picture.y / 2).is_sky() ? 0 : 1;
+            others +=
+                truth(col, odd_picture.y / 2).is_sky() != hits(col, odd_picture.y / 2).is_sky() ? 1
+                                                                                                : 0;
+        }
+        EXPECT_GT(ground, 10);
+        EXPECT_LE(others, 1);
+    }
 }
 
 TEST_F(CastDriverGlTest, DrawsSkyAndSunWithoutTerrain) {

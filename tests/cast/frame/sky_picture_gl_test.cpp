@@ -12,6 +12,7 @@
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/session/made_session.h"
+#include "tests/terrain/made_heightfield.h"
 
 namespace reljef::cast {
 namespace {
@@ -59,7 +60,43 @@ TEST_F(SkyPictureGlTest, BackendsAndTheTruthAgree) {
         const auto truth = truth::draw(stage.scene, sky_view);
         const auto off = truth::image_errors(by_rays, test::must(truth).image);
         ASSERT_TRUE(off);
-        EXPECT_LE(off->rmse, 0.02) << "a coarser level " << to.x << " " << to.y;
+        EXPECT_LE(off->rmse, 0.006) << to.x << " " << to.y;
+    }
+}
+
+// On the Earth, far from the terrain's middle, too.
+TEST_F(SkyPictureGlTest, StandsUprightAtTheEye) {
+    scene::Scene scene;
+    scene::Node& node = test::add_terrain(
+        scene, test::geographic_heightfield(test::hills(41, 41, 12.0), 46.0, 7.0, 0.01));
+    node.get<scene::TerrainNode>()->material.technique = scene::Technique{scene::Exact{}};
+    scene::Sky sky; // red northern sky, blue other sky, black below the horizon
+    sky.picture = std::make_shared<const material::SkyPicture>(128, [](glm::dvec3 to) {
+        const bool is_north = to.y > std::abs(to.x);
+        return to.z < 0.0 ? glm::vec3(0.0F) : is_north ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+    });
+    scene.set_sky(sky);
+    const terrain::Placement& placement = test::surface_of(node).placement();
+    Driver rays = test::must(Driver::create({.size = sky_view}));
+    session::SceneRenderer opengl = test::must(test::make_renderer(sky_view));
+    scene::Node& camera = scene.add_camera();
+    for (const double longitude : {7.0, 17.0, -30.0}) {
+        const glm::dvec3 eye = placement.world_from_geodetic({46.0, longitude, 5e4}).value();
+        const glm::dvec3 up = placement.up(eye);
+        scene::Camera at;
+        at.eye = eye;
+        at.up = up;
+        at.target = eye + placement.north(eye);
+        *camera.get<scene::Camera>() = at;
+        test::must(rays.draw(view::select(scene, sky_view)));
+        test::must(opengl.draw(scene));
+        const auto true_picture = test::must(truth::draw(scene, sky_view)).image;
+        for (const Image& picture : {rays.read_color(), opengl.read_color(), true_picture}) {
+            for (const int col : {20, 160, 300}) {
+                EXPECT_GE(picture(col, 115).r, 254) << longitude << ", " << col;
+                EXPECT_LE(picture(col, 125).r, 1) << longitude << ", " << col;
+            }
+        }
     }
 }
 

@@ -77,6 +77,13 @@ TEST_F(SkyFileTest, ReadsAFolderOfFaces) {
     EXPECT_NEAR(sky.color({1, 0, 0}).r, grey(80), 0.005F);
     EXPECT_NEAR(sky.color({0, 0, 1}).r, grey(200), 0.005F);
     EXPECT_NEAR(sky.color({0, 0, -1}).r, grey(240), 0.005F);
+    std::ofstream(folder_.path() / "box" / "._front.png") << "of another system\n";
+    fs::create_directory(folder_.path() / "box" / "old_front");
+    EXPECT_TRUE(read_sky(folder_.path() / "box", 0.0)) << "neither is a picture of a face";
+    written("box/Skyfront.png", sheet({8, 8}, {}));
+    EXPECT_THAT(error_of(folder_.path() / "box"),
+                HasSubstr("Skyfront.png and dusk_front.png found"));
+    fs::remove(folder_.path() / "box" / "Skyfront.png");
     fs::remove(folder_.path() / "box" / "dusk_up.png");
     EXPECT_THAT(error_of(folder_.path() / "box"), HasSubstr("no face up found"));
     written("box/dusk_up.png", sheet({8, 9}, {}));

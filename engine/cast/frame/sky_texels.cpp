@@ -1,16 +1,15 @@
-#include "engine/cast/frame/sky_faces.h"
+#include "engine/cast/frame/sky_texels.h"
 
 #include "engine/cast/lit_levels.h"
 #include "engine/core/parallel_for.h"
 
 namespace reljef::cast {
 
-const SkyPaint* SkyFaces::prepare(const view::DrawList& list) {
-    if (!list.sky || list.sky->picture == nullptr) {
+const SkyPaint* SkyTexels::prepare(const view::DrawList& list) {
+    if (!list.sky_picture) {
         return nullptr;
     }
-    const auto& picture = list.sky->picture;
-    const std::size_t level = view::sky_level(list);
+    const auto& [picture, picture_from_world, level] = *list.sky_picture;
     if (picture_.lock() != picture || level_ != level || texels_.empty()) {
         const auto& [side, faces] = picture->levels()[level];
         texels_.resize(faces.size());
@@ -24,8 +23,10 @@ const SkyPaint* SkyFaces::prepare(const view::DrawList& list) {
         });
         picture_ = picture;
         level_ = level;
-        paint_ = {texels_.data(), side};
+        paint_.texels = texels_.data();
+        paint_.side = side;
     }
+    paint_.picture_from_world = glm::mat3(picture_from_world);
     return &paint_;
 }
 

@@ -11,7 +11,7 @@
 namespace reljef::cast {
 
 /// The level of a sky's picture that a view shows, for rays. Made anew for another level.
-class SkyFaces {
+class SkyTexels {
 public:
     /// Null: the sky is no picture. Valid as long as this object, until the next call.
     const SkyPaint* prepare(const view::DrawList& list);
