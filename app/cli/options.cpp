@@ -268,7 +268,8 @@ void add_daylight_options(CLI::App& command, ViewChoice& choice) {
         .add_option(
             "--sky", choice.sky,
             "picture of all directions, twice as wide as high; of the sky alone, four times; "
-            "a cross of six faces, 4:3; or a folder of six faces (the sun's own sky)")
+            "a cross of six faces, 4:3; or a folder of six, whose names end in front, right, back, "
+            "left, up and down (the sun's own sky)")
         ->type_name("FILE|FOLDER");
     add_parsed(command, "--sky-turn", choice.sky_turn, number_in("--sky-turn", -360.0, 360.0),
                "where the middle of that picture lies, degrees clockwise from north (0)", "DEG");

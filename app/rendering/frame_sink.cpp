@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <future>
 #include <optional>
 #include <regex>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -148,7 +150,10 @@ Result<void> check_output_name(const fs::path& output, int frames) {
 
 bool is_video(const fs::path& path) {
     constexpr std::array extensions{".mp4", ".mkv", ".webm", ".mov"};
-    return std::find(extensions.begin(), extensions.end(), path.extension()) != extensions.end();
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
 Result<fs::path> numbered(const fs::path& pattern, int index) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/geo/place.h"
+#include "engine/io/checks/lowercase.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/motion/camera_gestures.h"
 #include "engine/terrain/field/heightfield.h"
@@ -251,7 +252,7 @@ Result<scene::CameraPath> open_path(const TerrainScene& scene, const std::string
 }
 
 bool is_path_file(const std::string& name) {
-    return std::filesystem::path(name).extension() == ".toml";
+    return io::extension_of(name) == ".toml";
 }
 
 void fly_to(TerrainScene& scene, const scene::CameraPath& path, int index, int frames) {

@@ -378,7 +378,7 @@ private:
 
 // North and up are those of the first terrain.
 std::optional<scene::SeenSky> picture_of_sky(const SceneView& view) {
-    if (!view.sky()) {
+    if (!view.sky() || view.sky()->picture == nullptr) {
         return std::nullopt;
     }
     const auto& nodes = view.nodes();

@@ -68,7 +68,7 @@ TEST(FrameSink, video_that_is_not_finished_leaves_nothing) {
 
 TEST(FrameSink, video_of_odd_size_appears) {
     const test::TemporaryFolder folder;
-    auto sink = make_frame_sink(folder.path() / "flight.mp4", {.size = {33, 21}, .frames = 2});
+    auto sink = make_frame_sink(folder.path() / "flight.MP4", {.size = {33, 21}, .frames = 2});
     if (!sink) {
         GTEST_SKIP() << sink.error().message;
     }
@@ -76,8 +76,8 @@ TEST(FrameSink, video_of_odd_size_appears) {
     EXPECT_TRUE((*sink)->write(Image(33, 21), 1));
     const auto finished = finish(**sink);
     ASSERT_TRUE(finished) << finished.error().message;
-    EXPECT_EQ(folder.names(), std::vector<std::string>{"flight.mp4"});
-    EXPECT_GT(std::filesystem::file_size(folder.path() / "flight.mp4"), 100U);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"flight.MP4"});
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "flight.MP4"), 100U);
 }
 
 // Names that ffmpeg would take for an option, a protocol or a list of files.
