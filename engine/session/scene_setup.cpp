@@ -309,6 +309,22 @@ Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
     return placed ? place_buildings(scene, source, view, log, stop) : placed;
 }
 
+Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
+                          const SceneOptions& view, Log& log) {
+    auto surroundings = surroundings_of(scene, description, view, log);
+    if (!surroundings) {
+        return surroundings.error();
+    }
+    scene.surroundings = std::move(*surroundings);
+    scene.light = &scene.scene.add_light();
+    const auto sun = chosen_sun(scene, description, view);
+    if (!sun) {
+        return sun.error();
+    }
+    set_daylight(scene, *sun);
+    return {};
+}
+
 } // namespace
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
@@ -353,17 +369,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         return done.error();
     }
 
-    auto surroundings = surroundings_of(result, source.description, view, log);
-    if (!surroundings) {
-        return surroundings.error();
+    if (auto done = add_daylight(result, source.description, view, log); !done) {
+        return done.error();
     }
-    result.surroundings = std::move(*surroundings);
-    result.light = &result.scene.add_light();
-    const auto sun = chosen_sun(result, source.description, view);
-    if (!sun) {
-        return sun.error();
-    }
-    set_daylight(result, *sun);
 
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {

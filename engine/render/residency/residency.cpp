@@ -76,20 +76,22 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
                                 view::FrameStats& stats) {
     forget_unused();
     auto done = terrain_meshes_.prepare(list, stats);
-    if (with_maps) {
-        done = done ? tile_maps_.prepare(list, stats) : done;
-        done = done ? prepare_all_maps(list, stats) : done;
-        done = done ? ground_.prepare(list, stats) : done;
-        done = done ? grain_.prepare(list, stats) : done;
-        done = done ? facades_.prepare(list, stats) : done;
-        done = done ? sky_.prepare(list, stats) : done;
-    }
+    done = done && with_maps ? prepare_colors(list, stats) : done;
     done = done ? prepare_warped(list, stats) : done;
     done = done ? relief_tiles_.prepare(list, with_maps, tile_maps_, stats) : done;
     done = done ? prepare_reliefs(list, with_maps, stats) : done;
     std::vector<view::MeshDraw> meshes = list.meshes;
     meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
     return done ? meshes_.prepare(meshes, list.camera, stats) : done;
+}
+
+Result<void> Residency::prepare_colors(const view::DrawList& list, view::FrameStats& stats) {
+    auto done = tile_maps_.prepare(list, stats);
+    done = done ? prepare_all_maps(list, stats) : done;
+    done = done ? ground_.prepare(list, stats) : done;
+    done = done ? grain_.prepare(list, stats) : done;
+    done = done ? facades_.prepare(list, stats) : done;
+    return done ? sky_.prepare(list, stats) : done;
 }
 
 Result<void> Residency::prepare_reliefs(const view::DrawList& list, bool with_maps,

@@ -91,6 +91,7 @@ private:
     using CertainSuns = std::map<const scene::TerrainNode*, CertainSun>;
     void forget_unused();
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
+    Result<void> prepare_colors(const view::DrawList& list, view::FrameStats& stats);
     Result<void> prepare_all_maps(const view::DrawList& list, view::FrameStats& stats);
     Result<void> prepare_maps(const view::DrawList& list, const scene::TerrainNode& terrain,
                               const glm::dmat4& world_from_local, view::FrameStats& stats);
