@@ -88,7 +88,7 @@ struct DrawList {
     glm::ivec2 size{0};              ///< of the picture, pixels
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
-    std::optional<scene::SeenSky> sky_picture; ///< empty: the sky is none
+    std::optional<scene::SeenSky> sky_picture; ///< empty: the sky is no picture
     std::vector<TerrainDraw> terrains;
     std::vector<TileDraw> tiles; ///< of `terrains`, as triangles, front to back
     std::vector<MeshDraw> meshes;

@@ -125,6 +125,7 @@ TEST_F(IndexCommand, StatisticsSayWhichErrorsAreKept) {
         EXPECT_EQ(frame.err.find("reljef index"), std::string::npos) << "it is made: " << frame.err;
         const bool is_proven = text.find("unproven: 0,") != std::string::npos;
         const bool is_none = text.find("kept error: none") != std::string::npos;
+        EXPECT_EQ(frame.err.find("they have voids") == std::string::npos, is_proven) << frame.err;
         const bool is_limited = text.find(" px where tiles are proven\n") != std::string::npos;
         EXPECT_EQ(is_limited, !is_proven && !is_none) << text;
         partly_proven += is_limited ? 1 : 0;
