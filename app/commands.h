@@ -1,6 +1,5 @@
 #pragma once
 
-#include "app/cli/command.h"
 #include "app/cli/program.h"
 
 namespace reljef::app {

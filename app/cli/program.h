@@ -1,11 +1,23 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "app/cli/command.h"
+#include "app/cli/interrupt.h"
+#include "engine/core/result.h"
+
+namespace CLI {
+class App;
+}
 
 namespace reljef::cli {
+
+/// A verb of the program.
+struct Command {
+    CLI::App* arguments = nullptr;     ///< owned by the program's parser
+    std::function<Result<void>()> run; ///< after parsing
+};
 
 struct Program {
     std::string name; ///< of the file; messages begin with it

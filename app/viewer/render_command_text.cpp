@@ -118,6 +118,9 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
     command.add("--grain", fmt::format("{}", terrain.grain));
     if (terrain.contours > 0.0) {
         command.add("--contours", fmt::format("{}", terrain.contours));
+        if (!terrain.labels_contours) {
+            command.add("--contour-labels", "off");
+        }
     }
     if (start.scene.hides_sky) {
         command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");

@@ -320,6 +320,12 @@ Result<void> Viewer::act(const SetContours& set) {
     return {};
 }
 
+Result<void> Viewer::act(const SetContourLabels& set) {
+    scene_.terrain->get<scene::TerrainNode>()->labels_contours = set.shown;
+    redraw_ = true;
+    return {};
+}
+
 Result<void> Viewer::act(const SetVisibility& set) {
     if (auto sky = scene_.scene.sky()) {
         scene_.surroundings.visibility = set.metres;

@@ -51,6 +51,7 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
     }
     appearance.grain = static_cast<double>(terrain_of(scene).grain);
     appearance.contours = terrain_of(scene).contours;
+    appearance.labels_contours = terrain_of(scene).labels_contours;
     appearance.light = viewer.light();
     appearance.exaggeration = viewer.exaggeration();
     appearance.fixed_exaggeration = viewer.exaggeration_obstacle();

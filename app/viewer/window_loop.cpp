@@ -402,6 +402,7 @@ private:
             }
         }
         renderer_.set_samples(samples_.value_or(quality.samples));
+        renderer_.set_magnification(quality.divisor);
         resamples_ = false;
         while (auto light = viewer_.take_light()) {
             compared_.add_light(light);

@@ -363,6 +363,13 @@ Image Driver::read_color() const {
     return gl::read_color(color_target_);
 }
 
+void Driver::paint_over(glm::ivec2 first, glm::ivec2 size,
+                        const std::function<void(Image&)>& paint) {
+    Image colors = gl::read_area(color_target_, first, size);
+    paint(colors);
+    gl::write_area(color_target_, first, colors);
+}
+
 void Driver::show_in_window(glm::ivec2 window_size) const {
     color_target_.blit_to_window(window_size);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -54,6 +55,9 @@ public:
     Result<void> check_drawn();
     /// The last frame. Waits for the GPU.
     [[nodiscard]] Image read_color() const;
+    /// Replaces a rectangle of the last frame by what `paint` makes of its colours. Waits for the
+    /// GPU. Precondition: it lies inside the frame.
+    void paint_over(glm::ivec2 first, glm::ivec2 size, const std::function<void(Image&)>& paint);
     void show_in_window(glm::ivec2 window_size) const;
 
     /// Adds precomputed light of a terrain in the next frame. Fails when GL has no memory.

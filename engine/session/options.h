@@ -117,9 +117,10 @@ struct SceneOptions {
     std::optional<double> visibility;
     /// A picture of the sky (io::read_sky); absent: the scene file's, else the sun's own sky.
     std::optional<std::filesystem::path> sky;
-    std::optional<double> sky_turn; ///< degrees clockwise; absent: the scene file's, else 0
-    std::optional<BaseKind> base;   ///< absent: the scene file's, else a plane
-    std::optional<bool> hides_sky;  ///< absent: the scene file's, else true
+    std::optional<double> sky_turn;     ///< degrees clockwise; absent: the scene file's, else 0
+    std::optional<BaseKind> base;       ///< absent: the scene file's, else a plane
+    std::optional<bool> hides_sky;      ///< absent: the scene file's, else true
+    std::optional<bool> contour_labels; ///< likewise
     /// TerrainNode::grain; absent: the scene file's, else default_grain.
     std::optional<double> grain;
     double default_grain = 0.0;

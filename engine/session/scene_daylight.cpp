@@ -216,6 +216,7 @@ void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
         static_cast<float>(view.grain.value_or(description.grain.value_or(view.default_grain)));
     const double contours = view.contours.value_or(description.contours);
     terrain.contours = contours > 0.0 ? std::max(contours, scene::min_contours) : 0.0;
+    terrain.labels_contours = view.contour_labels.value_or(description.contour_labels);
 }
 
 } // namespace reljef::session

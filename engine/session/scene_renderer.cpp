@@ -7,6 +7,8 @@
 
 #include "engine/cast/simd_target.h"
 #include "engine/core/check.h"
+#include "engine/core/stopwatch.h"
+#include "engine/view/labels/label_picture.h"
 
 namespace reljef::session {
 
@@ -212,6 +214,7 @@ void SceneRenderer::choose_for_parts(const scene::Scene& scene, glm::ivec2 pictu
     const view::FrameView whole = view::select(scene, picture, select_options_);
     *obstacle_of_whole_ = cast::obstacle_of(whole.list);
     chooser_->choose_for_parts(whole.list);
+    labels_of_whole_ = view::contour_labels(whole.list, magnification_);
     selector_.forget();
 }
 
@@ -223,11 +226,38 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     const view::FrameView& frame = selector_.selected();
     auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
     if (stats) {
+        const Stopwatch labelling;
+        draw_labels();
+        stats->cpu_ms += labelling.milliseconds();
         const bool was_drawn = std::exchange(drawn_, selector_.count()) == selector_.count();
         stats->skipped.selections_unchanged = was_drawn ? 1 : 0;
         stats->cpu_ms += was_drawn ? 0.0 : selector_.milliseconds();
     }
     return stats;
+}
+
+void SceneRenderer::draw_labels() {
+    const scene::Camera& camera = selector_.selected().list.camera;
+    const bool is_part = camera.whole != glm::ivec2(0);
+    view::ContourLabels found =
+        is_part ? labels_of_whole_
+                : view::contour_labels(selector_.selected().list, magnification_);
+    for (view::ContourLabel& label : found.labels) {
+        label.middle -= glm::dvec2(camera.first);
+        const view::LabelArea area = view::label_area(label, found.digit_height, size_);
+        if (area.size.x == 0 || area.size.y == 0) {
+            continue;
+        }
+        const auto draw = [&](GridView<Rgba8> colors) {
+            view::draw_label(label, found.digit_height, colors, area.first);
+        };
+        if (shows_rays_) {
+            draw(rays_->picture().view().window(area.first.x, area.first.y, area.size.x,
+                                                area.size.y));
+        } else {
+            opengl_->paint_over(area.first, area.size, [&](Image& colors) { draw(colors.view()); });
+        }
+    }
 }
 
 Result<view::FrameStats> SceneRenderer::draw(const scene::Scene& scene, bool wait) {

@@ -20,6 +20,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/session/options.h"
 #include "engine/view/choice/technique_choice.h"
+#include "engine/view/labels/contour_labels.h"
 #include "engine/view/select.h"
 
 namespace reljef::session {
@@ -94,6 +95,8 @@ public:
     Result<void> resize(glm::ivec2 size);
     /// For later frames, see render::DriverOptions::samples and cast::DriverOptions::samples.
     void set_samples(int samples);
+    /// For later frames: how many times as large they will be shown. Labels are smaller by as much.
+    void set_magnification(double magnification) { magnification_ = magnification; }
     /// For later frames. Forgets the last view.
     void set_costs(const Costs& costs);
     [[nodiscard]] const Costs& costs() const { return chooser_->costs(); }
@@ -112,6 +115,7 @@ private:
     Result<void> prepare_opengl();
     void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
+    void draw_labels();
 
     std::optional<render::DriverOptions> opengl_options_; // of the driver to be made
     std::function<Result<void>()> make_context_;
@@ -128,7 +132,9 @@ private:
     std::shared_ptr<view::TechniqueChooser> chooser_; // of the selector
     view::SelectOptions select_options_;              // without the choice
     view::FrameSelector selector_;
-    int drawn_ = 0; // the selection that was drawn last, counted from 1
+    double magnification_ = 1.0;
+    view::ContourLabels labels_of_whole_; // for parts of a picture
+    int drawn_ = 0;                       // the selection that was drawn last, counted from 1
 };
 
 struct DeviceOptions {

@@ -57,6 +57,11 @@ glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
     return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
 }
 
+double contour_scale(const scene::Camera& camera, glm::ivec2 size) {
+    constexpr double rows = 768.0;
+    return std::max(1.0, scene::whole_picture(camera, size).y / rows);
+}
+
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size) {
     constexpr int repeat = 64; // of the pattern, pixels
     const int height = scene::whole_picture(camera, size).y;

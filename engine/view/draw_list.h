@@ -121,6 +121,10 @@ glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
 /// Width of a pixel, metres: x at the eye, plus y per metre of distance.
 glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
 
+/// How many times as wide as in a picture of 768 rows the contours and their labels are, at least
+/// 1: in high pictures they look as in those.
+double contour_scale(const scene::Camera& camera, glm::ivec2 size);
+
 /// Where the pattern of dithers begins: of a part of a picture, so that parts continue it; pixels.
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size);
 

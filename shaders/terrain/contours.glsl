@@ -20,6 +20,7 @@ vec3 with_contours(vec3 lit, GroundPlace place, float height) {
     if (is_level(height, change)) {
         return lit;
     }
+    change *= contours.z;
     float number = round(height / interval);
     float pixels = abs(height - number * interval) / change;
     float fifth = number / bold_every;

@@ -11,8 +11,10 @@
 
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
+#include "engine/view/labels/label_picture.h"
 #include "tests/app/made_hill.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/render/made_scene.h"
 #include "tests/session/made_session.h"
 #include "tests/session/made_waves.h"
 #include "tests/support/temporary_folder.h"
@@ -37,6 +39,39 @@ protected:
         scene.terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
 };
+
+// Both ways of drawing have the same labels, drawn once, and parts of a picture those of the whole.
+TEST_F(SceneRendererWithRays, LabelsContoursOfEachFrame) {
+    TerrainScene scene = app::scene_of(test::hills(129, 129, 100.0));
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    terrain.contours = 20.0;
+    for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {
+        use(scene, technique);
+        SceneRenderer renderer = make_renderer();
+        const auto drawn = [&] {
+            test::must(renderer.draw(scene.scene));
+            return renderer.read_color();
+        };
+        terrain.labels_contours = false;
+        const Image plain = drawn();
+        terrain.labels_contours = true;
+        const Image labelled = drawn();
+        EXPECT_EQ(drawn(), labelled);
+        const auto labels = view::contour_labels(renderer.selector().selected().list);
+        ASSERT_FALSE(labels.labels.empty());
+        Image expected = plain;
+        for (const view::ContourLabel& label : labels.labels) {
+            view::draw_label(label, labels.digit_height, expected.view(), {0, 0});
+        }
+        EXPECT_EQ(labelled, expected);
+        renderer.choose_for_parts(scene.scene, shown_size);
+        auto& camera = *scene.camera->get<scene::Camera>();
+        const scene::Camera whole = camera;
+        camera = scene::part_camera(whole, shown_size, {{40, 30}, shown_size});
+        EXPECT_EQ(drawn()(0, 0), labelled(40, 30));
+        camera = whole;
+    }
+}
 
 TEST_F(SceneRendererWithRays, DrawsByRaysWhatTheyCanDrawAndSaysSoWhenThatChanges) {
     TerrainScene scene = app::hill_scene();

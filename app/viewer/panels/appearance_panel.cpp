@@ -100,6 +100,10 @@ PanelActions draw_contours(const AppearanceContent& appearance) {
         }
         ImGui::EndCombo();
     }
+    bool has_labels = appearance.labels_contours;
+    if (appearance.contours > 0.0 && ImGui::Checkbox("Heights on bold lines", &has_labels)) {
+        actions.emplace_back(SetContourLabels{has_labels});
+    }
     return actions;
 }
 

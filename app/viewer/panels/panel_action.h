@@ -48,6 +48,9 @@ struct SetGrain {
     double strength = 0.0; ///< [0, scene::max_grain]
 };
 
+struct SetContourLabels {
+    bool shown = true;
+};
 struct SetContours {
     double metres = 0.0; ///< of height from one to the next; 0: none
 };
@@ -132,9 +135,9 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
-                 SetGrain, SetContours, SetRamp, SetImageryShare, SetExaggeration, SetSamples,
-                 PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe, SwapTechniques,
-                 SeekPath, InsertPathKey, MovePathKey, RetimePathKey, RemovePathKey,
+                 SetGrain, SetContours, SetContourLabels, SetRamp, SetImageryShare, SetExaggeration,
+                 SetSamples, PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe,
+                 SwapTechniques, SeekPath, InsertPathKey, MovePathKey, RetimePathKey, RemovePathKey,
                  SetPathDuration, CancelVideo, ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 

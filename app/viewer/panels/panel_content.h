@@ -59,6 +59,7 @@ struct AppearanceContent {
     std::optional<double> imagery_share;   ///< requested; empty: the terrain has no imagery
     double grain = 0.0;                    ///< TerrainNode::grain
     double contours = 0.0;                 ///< TerrainNode::contours
+    bool labels_contours = true;           ///< TerrainNode::labels_contours
     double exaggeration = 1.0;             ///< requested
     std::string fixed_exaggeration;        ///< why it cannot change; empty: it can
     std::optional<int> samples;            ///< absent: chosen for each frame

@@ -316,7 +316,8 @@ PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& 
             options.grain = grain_.prepare(list, seen, view);
             set_normals(view, placed);
         }
-        options.contours = static_cast<float>(scene::shown_contours(*terrains.front().node));
+        options.contours = {static_cast<float>(scene::shown_contours(*terrains.front().node)),
+                            static_cast<float>(view::contour_scale(list.camera, list.size))};
     }
     return options;
 }

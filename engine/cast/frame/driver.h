@@ -72,6 +72,8 @@ public:
 
     /// The last frame.
     [[nodiscard]] const Image& read_color() const { return first_.picture; }
+    /// The same, to draw over it.
+    [[nodiscard]] Image& picture() { return first_.picture; }
 
     /// Takes the light of a terrain that was computed before.
     Result<void> add_light(const view::PreparedLight& prepared);

@@ -25,7 +25,7 @@ struct PainterOptions {
     const GrainPaint* grain = nullptr;    ///< null: none; outlives the painter
     const FacadePaint* facades = nullptr; ///< null: none; outlives the painter
     const SkyPaint* sky = nullptr;        ///< null: no picture; outlives the painter
-    float contours = 0.0F;                ///< BlockPaint::contours
+    ContourPaint contours = {};
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.

@@ -212,6 +212,12 @@ struct MeshShadow {
                             std::uint32_t lanes) = nullptr;
 };
 
+/// Lines of equal height.
+struct ContourPaint {
+    float interval = 0.0F; ///< metres of height from one line to the next; 0: none
+    float scale = 1.0F;    ///< view::contour_scale()
+};
+
 /// What all of a block looks like.
 struct BlockPaint {
     BlockRays::Vectors view;    ///< world directions of the rays, metres per t
@@ -241,7 +247,7 @@ struct BlockPaint {
     const BlockMeshes* meshes = nullptr;      ///< null: none
     const GrainPaint* grain = nullptr;        ///< null: none
     const FacadePaint* facades = nullptr;     ///< null: none
-    float contours = 0.0F; ///< metres of height from one line to the next; 0: none
+    ContourPaint contours = {};
     MeshShadow mesh_shadow = {};
 };
 

@@ -14,13 +14,15 @@ namespace reljef::cast::HWY_NAMESPACE {
 
 // The colour of ground with contours. `height`: true metres; `change`: its change from a pixel to
 // its neighbours, metres. Every fifth line is bold. Crowded lines fade.
-HWY_INLINE Color with_contours(float interval, Floats height, Floats change, const Color& lit) {
+HWY_INLINE Color with_contours(const ContourPaint& paint, Floats height, Floats change,
+                               const Color& lit) {
+    const float interval = paint.interval;
     const Floats zero = hn::Zero(floats);
     const Lanes is_sloped = hn::Gt(change, hn::Mul(hn::Abs(height), all(height_rounding)));
     const Floats number = hn::Round(hn::Div(height, all(interval)));
     const Floats fifth = hn::Div(number, all(bold_every));
     const Lanes is_bold = hn::Lt(hn::Abs(hn::Sub(fifth, hn::Round(fifth))), all(0.5F / bold_every));
-    const Floats some = hn::IfThenElse(is_sloped, change, all(1.0F));
+    const Floats some = hn::IfThenElse(is_sloped, hn::Mul(change, all(paint.scale)), all(1.0F));
     const Floats off = hn::Abs(hn::NegMulAdd(number, all(interval), height));
     const Floats pixels = hn::Div(off, some);
     const auto either = [&](float bold, float thin)

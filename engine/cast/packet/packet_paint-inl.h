@@ -317,7 +317,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
         lit = with_facades(*paint.facades, *job.paint, place, hits, height, lit, without_shadow);
     }
-    if (!Mode::counts && paint.contours > 0.0F) {
+    if (!Mode::counts && paint.contours.interval > 0.0F) {
         lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);
     }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;

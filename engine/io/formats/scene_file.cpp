@@ -102,6 +102,7 @@ void read_terrain_keys(TomlTable& table, const std::filesystem::path& folder,
     table.read("exaggeration", scene.exaggeration, exaggerations);
     table.read("grain", scene.grain, grains);
     table.read("contours", scene.contours, contour_intervals);
+    table.read("contour_labels", scene.contour_labels);
     std::string placement;
     table.read("placement", placement, placements);
     if (!placement.empty()) {

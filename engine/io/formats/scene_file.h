@@ -75,6 +75,7 @@ struct SceneDescription {
     std::optional<std::string> placement;       ///< "plane" or "ellipsoid"; absent: by the data
     std::optional<double> grain; ///< fine structure of near ground, [0, 2]; absent: the program's
     double contours = 0.0;       ///< metres of height from one line to the next; 0: none
+    bool contour_labels = true;
     /// Colours by height: a built-in ramp, or a colour file relative to the scene file.
     std::string ramp;
     double imagery_share = 1.0; ///< of the colours, [0, 1]; the rest are the ramp's

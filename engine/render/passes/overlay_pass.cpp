@@ -69,7 +69,7 @@ Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& te
                                   : glm::dmat3(1.0);
     OverlayBlock block = overlay_block(frame.list, view, metres);
     block.contours = {scene::shown_contours(terrain), terrain.surface->placement().exaggeration(),
-                      0.0, 0.0};
+                      view::contour_scale(frame.list.camera, frame.list.size), 0.0};
     if (view::shows_facades(terrain)) {
         const ResidentFacades& facades = frame.residency.facades().bind(terrain);
         ++frame.state.stats().state_changes;

@@ -69,6 +69,7 @@ struct TerrainNode {
     float grain = 0.0F;
     /// Metres of height from one line to the next, min_contours or more; 0: none.
     double contours = 0.0;
+    bool labels_contours = true; ///< bold lines have their height, see view::contour_labels()
     bool hides_overlay = false; ///< no grain, contours and façades: to compare with the truth
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();

@@ -62,6 +62,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     start.source.index = session::IndexUse::none;
     scene.terrain->get<scene::TerrainNode>()->grain = 0.5F;
     scene.terrain->get<scene::TerrainNode>()->contours = 25.0;
+    scene.terrain->get<scene::TerrainNode>()->labels_contours = false;
     ShownState shown = shown_of(scene);
     shown.technique = scene::Technique{scene::Relief{}};
     shown.exaggeration = 2.5;
@@ -74,7 +75,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--grain 0.5", "--contours 25", "--compare errors --wipe 0.250",
+          "--placement plane", "--grain 0.5", "--contours 25 --contour-labels off", "--compare errors --wipe 0.250",
           "--size 400x300", "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }

@@ -160,6 +160,10 @@ TEST_F(ExaggerationTest, GrainAndContoursChangeInFlight) {
     ASSERT_TRUE(viewer.act(SetContours{20.0}));
     EXPECT_TRUE(viewer.take_redraw());
     EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.contours, 20.0);
+    EXPECT_TRUE(content_of(viewer, scene, {400, 300}).appearance.labels_contours);
+    ASSERT_TRUE(viewer.act(SetContourLabels{false}));
+    EXPECT_TRUE(viewer.take_redraw());
+    EXPECT_FALSE(content_of(viewer, scene, {400, 300}).appearance.labels_contours);
     viewer.set_exaggeration(2.0);
     wait_for_maps(viewer);
     EXPECT_EQ(terrain.grain, 0.75F) << "of the new surface, too";

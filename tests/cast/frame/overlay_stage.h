@@ -22,6 +22,7 @@ struct OverlayStage : Stage {
         : Stage(std::move(heights), spacing) {
         light = &scene.add_light();
         node().material.technique = {scene::Exact{}};
+        node().labels_contours = false; // the driver alone draws none
     }
     scene::Light& sun() { return *light->get<scene::Light>(); }
     scene::TerrainNode& node() { return *terrain->get<scene::TerrainNode>(); }

@@ -55,6 +55,7 @@ placement = "ellipsoid"
 ramp = "colors.txt"
 grain = 0.5
 contours = 20
+contour_labels = false
 imagery_share = 0.4
 [sun]
 azimuth = 200
@@ -95,6 +96,7 @@ look = [0, 0, 0]
                 HasSubstr("sky_turn"));
     EXPECT_EQ(scene->grain, 0.5);
     EXPECT_EQ(scene->contours, 20.0);
+    EXPECT_FALSE(scene->contour_labels);
     EXPECT_EQ(scene->base, "none");
     EXPECT_EQ(parse("[terrain]\ngenerator = \"urban\"\n[air]\nbase = \"solid\"")->base, "solid");
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));

@@ -50,6 +50,10 @@ TEST(GroundPick, MeetsThePlaneWithoutTilesWithCoarseOnesAndWithFineOnes) {
             ASSERT_LT(glm::distance(hit->world, made.place), 2e-3) << tiles.size() << ' ' << i;
             ASSERT_NEAR(hit->sample.z, made.place.z, 2e-3);
             ASSERT_NEAR(hit->t, glm::distance(made.ray.origin, made.place), 2e-3);
+            const GroundTiles ground(stream->maker(), stream->loaded());
+            const auto height = ground.height_at(glm::dvec2(hit->sample));
+            ASSERT_EQ(height.has_value(), !tiles.empty());
+            ASSERT_NEAR(height.value_or(made.place.z), made.place.z, 2e-3);
             const auto expected = node.surface->placement().sample_from_world(hit->world);
             ASSERT_LT(glm::distance(glm::dvec2(*expected), glm::dvec2(hit->sample)), 1e-3);
         }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "engine/view/draw_list.h"
+
+namespace reljef::view {
+
+/// A height on a bold contour. Pixels from the picture's upper left corner.
+struct ContourLabel {
+    std::string text;           ///< metres
+    glm::dvec2 middle{0.0};     ///< of the text
+    glm::dvec2 along{1.0, 0.0}; ///< the reading direction, a unit vector towards the right
+    double opacity = 1.0;       ///< (0, 1]
+
+    friend bool operator==(const ContourLabel&, const ContourLabel&) = default;
+};
+
+struct ContourLabels {
+    double digit_height = 0.0; ///< pixels
+    std::vector<ContourLabel> labels;
+};
+
+/// Labels of the bold contours that a list's picture shows: along straight parts of visible lines,
+/// not too close to each other. The ground is searched in cells that are about equally large on the
+/// picture, so a label stays at its place in the world until its cell is divided. Empty for
+/// terrains without contours or without contour labels. `magnification`: how many times as large
+/// the picture will be shown; its labels are smaller by as much. Precondition: the list's camera
+/// shows no part of a picture.
+ContourLabels contour_labels(const DrawList& list, double magnification = 1.0);
+
+} // namespace reljef::view

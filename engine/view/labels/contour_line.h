@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/view/labels/label_ground.h"
+#include "engine/view/labels/label_view.h"
+
+namespace reljef::view {
+
+/// A short piece of a contour on the picture.
+struct ContourLine {
+    static constexpr int steps = 4; ///< from the middle to each end
+    static constexpr int middle = steps;
+
+    std::array<glm::dvec2, 2 * steps + 1> pixels{};
+    std::array<glm::dvec3, 2 * steps + 1> places{}; ///< world metres
+    /// Pixels by which the place moves on the picture per metre that it climbs.
+    glm::dvec2 climb{0.0};
+};
+
+struct ContourPlace {
+    glm::dvec2 sample{0.0}; ///< near the contour
+    double height = 0.0;    ///< of the contour, true metres
+    double step = 1.0;      ///< samples over which the ground is taken as flat
+    double min_climb = 0.0; ///< length of ContourLine::climb
+};
+
+/// Follows the contour to both sides for `half_length` pixels each. Empty if it leaves the terrain,
+/// climbs less on the picture, or is behind the eye.
+std::optional<ContourLine> follow_contour(const LabelGround& ground, const LabelView& view,
+                                          const ContourPlace& place, double half_length);
+
+} // namespace reljef::view

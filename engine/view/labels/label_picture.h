@@ -1,0 +1,24 @@
+#pragma once
+
+#include <glm/vec2.hpp>
+
+#include "engine/core/color.h"
+#include "engine/view/labels/contour_labels.h"
+
+namespace reljef::view {
+
+/// A rectangle of a picture's pixels.
+struct LabelArea {
+    glm::ivec2 first{0};
+    glm::ivec2 size{0};
+};
+
+/// The pixels that a label may change in a picture of `size` pixels; empty outside. Precondition:
+/// the middle is finite.
+LabelArea label_area(const ContourLabel& label, double digit_height, glm::ivec2 size);
+
+/// Draws a label: dark digits with a pale border. `first`: pixel of the picture at part(0, 0).
+void draw_label(const ContourLabel& label, double digit_height, GridView<Rgba8> part,
+                glm::ivec2 first);
+
+} // namespace reljef::view
