@@ -67,6 +67,10 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
     add_parsed(command, "--occlusion", choice.hides_sky,
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");
+    add_parsed(command, "--eye-dome", choice.eye_dome, number_in("--eye-dome", 0.0, 1.0),
+               "eye-dome lighting: how much darker pixels far behind their surroundings are, 0 "
+               "(none) to 1: valleys, foots of walls, ground behind ridges (0)",
+               "S");
     add_parsed(command, "--contours", choice.contours, number_in("--contours", 0.0, 1e6),
                "metres of height from one contour line to the next, every fifth bold; 0: none (0)",
                "M");

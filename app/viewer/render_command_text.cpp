@@ -122,6 +122,9 @@ void add_surroundings(CommandText& command, const session::TerrainScene& scene,
             command.add("--contour-labels", "off");
         }
     }
+    if (scene.scene.eye_dome() > 0.0) {
+        command.add("--eye-dome", fmt::format("{}", scene.scene.eye_dome()));
+    }
     if (start.scene.hides_sky) {
         command.add("--occlusion", *start.scene.hides_sky ? "on" : "off");
     }

@@ -108,6 +108,7 @@ public:
     Result<void> act(const SetGrain& set);
     Result<void> act(const SetContours& set);
     Result<void> act(const SetContourLabels& set);
+    Result<void> act(const SetEyeDome& set);
     Result<void> act(const SetVisibility& set);
     Result<void> act(const SetRamp& set);
     Result<void> act(const SetImageryShare& set);

@@ -320,6 +320,12 @@ Result<void> Viewer::act(const SetContours& set) {
     return {};
 }
 
+Result<void> Viewer::act(const SetEyeDome& set) {
+    scene_.scene.set_eye_dome(set.strength);
+    redraw_ = true;
+    return {};
+}
+
 Result<void> Viewer::act(const SetContourLabels& set) {
     scene_.terrain->get<scene::TerrainNode>()->labels_contours = set.shown;
     redraw_ = true;

@@ -50,6 +50,7 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
         appearance.imagery_share = viewer.imagery_share();
     }
     appearance.grain = static_cast<double>(terrain_of(scene).grain);
+    appearance.eye_dome = scene.scene.eye_dome();
     appearance.contours = terrain_of(scene).contours;
     appearance.labels_contours = terrain_of(scene).labels_contours;
     appearance.light = viewer.light();

@@ -121,6 +121,7 @@ struct SceneOptions {
     std::optional<BaseKind> base;       ///< absent: the scene file's, else a plane
     std::optional<bool> hides_sky;      ///< absent: the scene file's, else true
     std::optional<bool> contour_labels; ///< likewise
+    std::optional<double> eye_dome;     ///< Scene::eye_dome(); absent: the scene file's, else 0
     /// TerrainNode::grain; absent: the scene file's, else default_grain.
     std::optional<double> grain;
     double default_grain = 0.0;

@@ -8,7 +8,8 @@
 #include "engine/cast/simd_target.h"
 #include "engine/core/check.h"
 #include "engine/core/stopwatch.h"
-#include "engine/view/labels/label_picture.h"
+#include "engine/view/picture/eye_dome.h"
+#include "engine/view/picture/label_picture.h"
 
 namespace reljef::session {
 
@@ -226,14 +227,39 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     const view::FrameView& frame = selector_.selected();
     auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
     if (stats) {
-        const Stopwatch labelling;
-        draw_labels();
-        stats->cpu_ms += labelling.milliseconds();
+        if (auto drawn = draw_over(*stats); !drawn) {
+            return drawn.error();
+        }
         const bool was_drawn = std::exchange(drawn_, selector_.count()) == selector_.count();
         stats->skipped.selections_unchanged = was_drawn ? 1 : 0;
         stats->cpu_ms += was_drawn ? 0.0 : selector_.milliseconds();
     }
     return stats;
+}
+
+Result<void> SceneRenderer::draw_over(view::FrameStats& stats) {
+    const Stopwatch drawing;
+    auto shaded = selector_.selected().list.eye_dome > 0.0 ? draw_eye_dome() : Result<void>();
+    draw_labels();
+    stats.cpu_ms += drawing.milliseconds();
+    return shaded;
+}
+
+Result<void> SceneRenderer::draw_eye_dome() {
+    const view::FrameView& frame = selector_.selected();
+    auto drawn = shows_rays_ ? rays_->draw_hits(frame) : opengl_->draw_hits(frame);
+    if (!drawn) {
+        return drawn.error();
+    }
+    const auto shade = [&](GridView<Rgba8> picture) {
+        view::shade_eye_dome(picture, drawn->hits, frame.list);
+    };
+    if (shows_rays_) {
+        shade(rays_->picture().view());
+    } else {
+        opengl_->paint_over({0, 0}, size_, [&](Image& picture) { shade(picture.view()); });
+    }
+    return {};
 }
 
 void SceneRenderer::draw_labels() {

@@ -20,7 +20,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/session/options.h"
 #include "engine/view/choice/technique_choice.h"
-#include "engine/view/labels/contour_labels.h"
+#include "engine/view/picture/contour_labels.h"
 #include "engine/view/select.h"
 
 namespace reljef::session {
@@ -115,6 +115,8 @@ private:
     Result<void> prepare_opengl();
     void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
+    Result<void> draw_over(view::FrameStats& stats);
+    Result<void> draw_eye_dome();
     void draw_labels();
 
     std::optional<render::DriverOptions> opengl_options_; // of the driver to be made

@@ -89,6 +89,7 @@ struct DrawList {
     std::optional<scene::Light> sun; ///< the first light in the tree
     std::optional<scene::Sky> sky;
     std::optional<scene::SeenSky> sky_picture; ///< empty: the sky is no picture
+    double eye_dome = 0.0; ///< scene::Scene::eye_dome(); 0 if a terrain hides its overlay
     std::vector<TerrainDraw> terrains;
     std::vector<TileDraw> tiles; ///< of `terrains`, as triangles, front to back
     std::vector<MeshDraw> meshes;

@@ -52,6 +52,7 @@ bool SceneView::look(const scene::Scene& scene, glm::ivec2 size) {
     is_new = set_value(size_, size) || is_new;
     is_new = set_value(sun_, scene.sun()) || is_new;
     is_new = set_value(sky_, scene.sky()) || is_new;
+    is_new = set_value(eye_dome_, scene.eye_dome()) || is_new;
     is_new = set_value(node_count_, count_nodes(scene.root())) || is_new;
     return look_at_nodes(scene) || is_new;
 }

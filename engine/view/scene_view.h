@@ -34,6 +34,7 @@ public:
     [[nodiscard]] glm::ivec2 size() const { return size_; }
     [[nodiscard]] const std::optional<scene::Light>& sun() const { return sun_; }
     [[nodiscard]] const std::optional<scene::Sky>& sky() const { return sky_; }
+    [[nodiscard]] double eye_dome() const { return eye_dome_; }
     [[nodiscard]] const std::vector<SeenNode>& nodes() const { return nodes_; }
     [[nodiscard]] int node_count() const { return node_count_; }
     [[nodiscard]] int visible_count() const { return visible_count_; }
@@ -47,6 +48,7 @@ private:
     glm::ivec2 size_{0};
     std::optional<scene::Light> sun_;
     std::optional<scene::Sky> sky_;
+    double eye_dome_ = 0.0;
     std::vector<SeenNode> nodes_; // parents first
     int node_count_ = 0;          // visible or not
     int visible_count_ = 0;

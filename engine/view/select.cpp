@@ -393,6 +393,13 @@ std::optional<scene::SeenSky> picture_of_sky(const SceneView& view) {
     return scene::seen_sky(*view.sky(), view.camera(), view.size(), axes);
 }
 
+bool hides_overlay(const SceneView& view) {
+    return std::ranges::any_of(view.nodes(), [](const SeenNode& seen) {
+        const auto* const terrain = seen.node->get<scene::TerrainNode>();
+        return terrain != nullptr && terrain->hides_overlay;
+    });
+}
+
 } // namespace
 
 FrameView select(const scene::Scene& scene, glm::ivec2 size, const SelectOptions& options) {
@@ -407,6 +414,7 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
     list.sun = view.sun();
     list.sky = view.sky();
     list.sky_picture = picture_of_sky(view);
+    list.eye_dome = hides_overlay(view) ? 0.0 : view.eye_dome();
     if (list.camera.projection == scene::ProjectionKind::orthographic) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }

@@ -11,7 +11,8 @@
 
 #include "engine/session/prepared_maps.h"
 #include "engine/session/streaming.h"
-#include "engine/view/labels/label_picture.h"
+#include "engine/view/picture/eye_dome.h"
+#include "engine/view/picture/label_picture.h"
 #include "tests/app/made_hill.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_scene.h"
@@ -39,6 +40,28 @@ protected:
         scene.terrain->get<scene::TerrainNode>()->material.technique = technique;
     }
 };
+
+TEST_F(SceneRendererWithRays, EyeDomeDarkensWhatLiesBehind) {
+    TerrainScene scene = app::scene_of(test::hills(129, 129, 100.0));
+    for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {
+        use(scene, technique);
+        SceneRenderer renderer = make_renderer();
+        const auto drawn = [&](double strength) {
+            scene.scene.set_eye_dome(strength);
+            test::must(renderer.draw(scene.scene));
+            return renderer.read_color();
+        };
+        const Image plain = drawn(0.0);
+        const Image domed = drawn(0.8);
+        EXPECT_EQ(drawn(0.8), domed);
+        const HitBuffer hits = test::must(renderer.draw_hits(scene.scene));
+        Image expected = plain;
+        view::shade_eye_dome(expected.view(), hits, renderer.selector().selected().list);
+        EXPECT_EQ(domed, expected);
+        EXPECT_NE(domed, plain);
+        EXPECT_EQ(drawn(0.0), plain);
+    }
+}
 
 // Both ways of drawing have the same labels, drawn once, and parts of a picture those of the whole.
 TEST_F(SceneRendererWithRays, LabelsContoursOfEachFrame) {

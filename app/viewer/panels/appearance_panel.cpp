@@ -84,6 +84,15 @@ PanelActions draw_grain(const AppearanceContent& appearance) {
                     : PanelActions();
 }
 
+PanelActions draw_eye_dome(const AppearanceContent& appearance) {
+    double strength = appearance.eye_dome;
+    const bool is_moved = draw_slider("Eye-dome lighting", strength, 0.0, 1.0, "{:.2f}");
+    tip("Darker valleys, and ground behind ridges");
+    constexpr double shown_parts = 100.0; // of 1
+    return is_moved ? PanelActions{SetEyeDome{std::round(strength * shown_parts) / shown_parts}}
+                    : PanelActions();
+}
+
 PanelActions draw_contours(const AppearanceContent& appearance) {
     constexpr std::array intervals{0.0, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0};
     const auto name_of = [](double metres) {
@@ -235,6 +244,7 @@ PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fon
     actions += draw_imagery(appearance);
     actions += draw_contours(appearance);
     actions += draw_grain(appearance);
+    actions += draw_eye_dome(appearance);
     actions += draw_exaggeration(appearance);
     actions += draw_samples(appearance);
     actions += draw_switch("Wireframe  (F)", content.technique.wireframe, Key::f);

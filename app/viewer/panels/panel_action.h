@@ -48,6 +48,11 @@ struct SetGrain {
     double strength = 0.0; ///< [0, scene::max_grain]
 };
 
+/// Eye-dome lighting.
+struct SetEyeDome {
+    double strength = 0.0; ///< [0, 1]
+};
+
 struct SetContourLabels {
     bool shown = true;
 };
@@ -135,10 +140,10 @@ struct CopyCommand {};
 
 using PanelAction =
     std::variant<ChooseTechnique, SelectModel, SelectParameter, SetSun, SetTurbidity, SetVisibility,
-                 SetGrain, SetContours, SetContourLabels, SetRamp, SetImageryShare, SetExaggeration,
-                 SetSamples, PressKey, CopyCommand, SetComparison, SetOtherTechnique, SetWipe,
-                 SwapTechniques, SeekPath, InsertPathKey, MovePathKey, RetimePathKey, RemovePathKey,
-                 SetPathDuration, CancelVideo, ClearPoints>;
+                 SetGrain, SetContours, SetContourLabels, SetEyeDome, SetRamp, SetImageryShare,
+                 SetExaggeration, SetSamples, PressKey, CopyCommand, SetComparison,
+                 SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey, MovePathKey,
+                 RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo, ClearPoints>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

@@ -58,6 +58,7 @@ struct AppearanceContent {
     std::vector<std::string> ramps;        ///< the built-in ones
     std::optional<double> imagery_share;   ///< requested; empty: the terrain has no imagery
     double grain = 0.0;                    ///< TerrainNode::grain
+    double eye_dome = 0.0;                 ///< scene::Scene::eye_dome()
     double contours = 0.0;                 ///< TerrainNode::contours
     bool labels_contours = true;           ///< TerrainNode::labels_contours
     double exaggeration = 1.0;             ///< requested

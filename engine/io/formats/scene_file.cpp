@@ -9,6 +9,7 @@
 #include "engine/core/atomic_file.h"
 #include "engine/io/formats/toml_reader.h"
 #include "engine/material/relief_material.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/placement.h"
 
 namespace reljef::io {
@@ -218,6 +219,7 @@ void read_sun_keys(TomlTable& table, SceneDescription& scene) {
     table.read("azimuth", scene.sun_azimuth, azimuths);
     table.read("altitude", scene.sun_altitude, altitudes);
     table.read("occlusion", scene.hides_sky);
+    table.read("eye_dome", scene.eye_dome, shares);
     std::string text;
     table.read("time", text);
     if (!table.has("time")) {

@@ -102,7 +102,9 @@ struct SceneDescription {
     std::optional<double> turbidity;  ///< [1, 10]; absent: clear air
     std::filesystem::path sky;        ///< a picture of the sky (read_sky); empty: the sun's own sky
     double sky_turn = 0.0;            ///< its middle, degrees clockwise from north, [-360, 360]
-    std::string base;      ///< below the terrain's edge: "plane", "solid" or "none"; empty: plane
+    std::string base; ///< below the terrain's edge: "plane", "solid" or "none"; empty: plane
+    double eye_dome =
+        0.0; ///< how much pixels behind their surroundings lose of their light, [0, 1]
     bool hides_sky = true; ///< whether terrain keeps the sky's light from itself
 
     // [camera]: scene metres; absent: all of the terrain is seen

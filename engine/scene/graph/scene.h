@@ -168,6 +168,11 @@ public:
     void remove_sky() { sky_.reset(); }
     [[nodiscard]] const std::optional<Sky>& sky() const { return sky_; }
 
+    /// Share of their colour that pixels far behind their surroundings lose, [0, 1]; 0: none. See
+    /// view::shade_eye_dome(). It changes pictures only.
+    void set_eye_dome(double strength) { eye_dome_ = strength; }
+    [[nodiscard]] double eye_dome() const { return eye_dome_; }
+
     /// Precondition: `node` holds a Camera and is in the tree as long as it is active.
     void set_active_camera(Node& node);
     /// The active camera in world metres; a default one if there is none.
@@ -193,6 +198,7 @@ public:
 private:
     std::unique_ptr<Node> root_ = std::make_unique<Node>("root");
     std::optional<Sky> sky_;
+    double eye_dome_ = 0.0;
     Node* active_camera_ = nullptr;
     std::vector<EventReceiver> receivers_;
 };

@@ -63,6 +63,7 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     scene.terrain->get<scene::TerrainNode>()->grain = 0.5F;
     scene.terrain->get<scene::TerrainNode>()->contours = 25.0;
     scene.terrain->get<scene::TerrainNode>()->labels_contours = false;
+    scene.scene.set_eye_dome(0.4);
     ShownState shown = shown_of(scene);
     shown.technique = scene::Technique{scene::Relief{}};
     shown.exaggeration = 2.5;
@@ -75,8 +76,8 @@ TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     for (const std::string part :
          {"reljef render 'my hill.tif'", "--imagery 'photo 1.tif'", "--no-index",
           "--technique relief:n=11,k=8", "--exaggeration 2.5", "--samples 8", "--sun 12.5,40",
-          "--placement plane", "--grain 0.5", "--contours 25 --contour-labels off", "--compare errors --wipe 0.250",
-          "--size 400x300", "-o view.png"}) {
+          "--placement plane", "--grain 0.5", "--contours 25 --contour-labels off",
+          "--eye-dome 0.4", "--compare errors --wipe 0.250", "--size 400x300", "-o view.png"}) {
         EXPECT_THAT(*command, HasSubstr(part));
     }
 }

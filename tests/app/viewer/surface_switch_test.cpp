@@ -161,6 +161,9 @@ TEST_F(ExaggerationTest, GrainAndContoursChangeInFlight) {
     EXPECT_TRUE(viewer.take_redraw());
     EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.contours, 20.0);
     EXPECT_TRUE(content_of(viewer, scene, {400, 300}).appearance.labels_contours);
+    ASSERT_TRUE(viewer.act(SetEyeDome{0.3}));
+    EXPECT_TRUE(viewer.take_redraw());
+    EXPECT_EQ(content_of(viewer, scene, {400, 300}).appearance.eye_dome, 0.3);
     ASSERT_TRUE(viewer.act(SetContourLabels{false}));
     EXPECT_TRUE(viewer.take_redraw());
     EXPECT_FALSE(content_of(viewer, scene, {400, 300}).appearance.labels_contours);

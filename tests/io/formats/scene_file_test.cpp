@@ -61,6 +61,7 @@ imagery_share = 0.4
 azimuth = 200
 altitude = 12.5
 occlusion = false
+eye_dome = 0.25
 [air]
 visibility = 50000.0
 turbidity = 3
@@ -97,6 +98,7 @@ look = [0, 0, 0]
     EXPECT_EQ(scene->grain, 0.5);
     EXPECT_EQ(scene->contours, 20.0);
     EXPECT_FALSE(scene->contour_labels);
+    EXPECT_EQ(scene->eye_dome, 0.25);
     EXPECT_EQ(scene->base, "none");
     EXPECT_EQ(parse("[terrain]\ngenerator = \"urban\"\n[air]\nbase = \"solid\"")->base, "solid");
     EXPECT_EQ(scene->eye, glm::dvec3(1.0, 2.5, 3.0));

@@ -1,4 +1,4 @@
-#include "engine/view/labels/label_picture.h"
+#include "engine/view/picture/label_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/view/labels/label_strokes.h"
+#include "engine/view/picture/label_strokes.h"
 
 namespace reljef::view {
 namespace {

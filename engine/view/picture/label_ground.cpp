@@ -1,4 +1,4 @@
-#include "engine/view/labels/label_ground.h"
+#include "engine/view/picture/label_ground.h"
 
 #include <memory>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "engine/view/labels/contour_line.h"
+#include "engine/view/picture/contour_line.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/view/labels/contour_labels.h"
+#include "engine/view/picture/contour_labels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/color.h"
-#include "engine/view/labels/contour_labels.h"
+#include "engine/view/picture/contour_labels.h"
 
 namespace reljef::view {
 

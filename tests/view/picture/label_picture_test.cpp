@@ -1,11 +1,11 @@
-#include "engine/view/labels/label_picture.h"
+#include "engine/view/picture/label_picture.h"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "engine/view/labels/label_strokes.h"
+#include "engine/view/picture/label_strokes.h"
 
 namespace reljef::view {
 namespace {

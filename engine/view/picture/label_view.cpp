@@ -1,4 +1,4 @@
-#include "engine/view/labels/label_view.h"
+#include "engine/view/picture/label_view.h"
 
 #include <cmath>
 #include <limits>

@@ -6,8 +6,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "engine/view/labels/label_ground.h"
-#include "engine/view/labels/label_view.h"
+#include "engine/view/picture/label_ground.h"
+#include "engine/view/picture/label_view.h"
 
 namespace reljef::view {
 

@@ -1,4 +1,4 @@
-#include "engine/view/labels/label_strokes.h"
+#include "engine/view/picture/label_strokes.h"
 
 #include <array>
 #include <cmath>

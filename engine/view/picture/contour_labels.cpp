@@ -1,4 +1,4 @@
-#include "engine/view/labels/contour_labels.h"
+#include "engine/view/picture/contour_labels.h"
 
 #include <algorithm>
 #include <array>
@@ -12,10 +12,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/view/labels/contour_line.h"
-#include "engine/view/labels/label_ground.h"
-#include "engine/view/labels/label_strokes.h"
-#include "engine/view/labels/label_view.h"
+#include "engine/view/picture/contour_line.h"
+#include "engine/view/picture/label_ground.h"
+#include "engine/view/picture/label_strokes.h"
+#include "engine/view/picture/label_view.h"
 
 namespace reljef::view {
 namespace {

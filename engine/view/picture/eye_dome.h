@@ -1,0 +1,18 @@
+#pragma once
+
+#include "engine/core/color.h"
+#include "engine/core/hit.h"
+#include "engine/core/parallel_for.h"
+#include "engine/view/draw_list.h"
+
+namespace reljef::view {
+
+/// Darkens pixels that lie behind their surroundings: valleys, foots of walls, and ground beside a
+/// nearer ridge, by DrawList::eye_dome at most (eye-dome lighting: C. Boucheny, doctoral thesis,
+/// Grenoble 2009). Here a pixel is compared with the line through two opposite neighbours, so
+/// planes keep their colours at any angle. The sky does, too. `hits`: of the picture's pixels.
+/// Precondition: equal sizes.
+void shade_eye_dome(GridView<Rgba8> picture, const HitBuffer& hits, const DrawList& list,
+                    const ParallelOptions& parallel = {});
+
+} // namespace reljef::view
