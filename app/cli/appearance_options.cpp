@@ -68,15 +68,15 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");
     add_parsed(command, "--eye-dome", choice.eye_dome, number_in("--eye-dome", 0.0, 1.0),
-               "eye-dome lighting: how much darker pixels far behind their surroundings are, 0 "
-               "(none) to 1: valleys, foots of walls, ground behind ridges (0)",
+               "eye-dome lighting, 0 (none) to 1: darkens valleys, feet of walls and ground behind "
+               "ridges; hits, errors and --compare are without it (0)",
                "S");
     add_parsed(command, "--contours", choice.contours, number_in("--contours", 0.0, 1e6),
                "metres of height from one contour line to the next, every fifth bold; 0: none (0)",
                "M");
     add_parsed(command, "--contour-labels", choice.contour_labels,
                word_of<bool>("--contour-labels", {{"on", true}, {"off", false}}),
-               "on: bold contour lines have their height, metres (on)", "on|off");
+               "on: writes the height, in metres, on bold contour lines (on)", "on|off");
     add_parsed(command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
                "contrast of fine structure on near ground, which the data do not have: 0 (none) to "
                "2; hits, errors and --compare are without it (view: 1, render: 0)",

@@ -208,10 +208,10 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
 
 void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
                  const SceneOptions& view) {
+    scene.scene.set_eye_dome(view.eye_dome.value_or(description.eye_dome));
     if (scene.is_gallery) {
         return;
     }
-    scene.scene.set_eye_dome(view.eye_dome.value_or(description.eye_dome));
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     terrain.grain =
         static_cast<float>(view.grain.value_or(description.grain.value_or(view.default_grain)));

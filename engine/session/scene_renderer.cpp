@@ -9,7 +9,6 @@
 #include "engine/core/check.h"
 #include "engine/core/stopwatch.h"
 #include "engine/view/picture/eye_dome.h"
-#include "engine/view/picture/label_picture.h"
 
 namespace reljef::session {
 
@@ -237,52 +236,60 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     return stats;
 }
 
+// The depths of a frame are drawn only if something needs them.
 Result<void> SceneRenderer::draw_over(view::FrameStats& stats) {
     const Stopwatch drawing;
-    auto shaded = selector_.selected().list.eye_dome > 0.0 ? draw_eye_dome() : Result<void>();
-    draw_labels();
-    stats.cpu_ms += drawing.milliseconds();
-    return shaded;
-}
-
-Result<void> SceneRenderer::draw_eye_dome() {
     const view::FrameView& frame = selector_.selected();
-    auto drawn = shows_rays_ ? rays_->draw_hits(frame) : opengl_->draw_hits(frame);
-    if (!drawn) {
-        return drawn.error();
+    view::ContourLabels labels = labels_of_frame();
+    const bool is_shaded = frame.list.eye_dome > 0.0;
+    if (is_shaded || (!labels.labels.empty() && !frame.list.meshes.empty())) {
+        const auto drawn = shows_rays_ ? rays_->draw_hits(frame) : opengl_->draw_hits(frame);
+        if (!drawn) {
+            return drawn.error();
+        }
+        std::erase_if(labels.labels, [&](const view::ContourLabel& label) {
+            return view::is_covered(label, labels.digit_height, drawn->hits);
+        });
+        if (is_shaded) {
+            paint_over({{0, 0}, size_}, [&](GridView<Rgba8> picture) {
+                view::shade_eye_dome(picture, drawn->hits, frame.list);
+            });
+        }
     }
-    const auto shade = [&](GridView<Rgba8> picture) {
-        view::shade_eye_dome(picture, drawn->hits, frame.list);
-    };
-    if (shows_rays_) {
-        shade(rays_->picture().view());
-    } else {
-        opengl_->paint_over({0, 0}, size_, [&](Image& picture) { shade(picture.view()); });
-    }
+    draw_labels(labels);
+    stats.cpu_ms += drawing.milliseconds();
     return {};
 }
 
-void SceneRenderer::draw_labels() {
-    const scene::Camera& camera = selector_.selected().list.camera;
-    const bool is_part = camera.whole != glm::ivec2(0);
-    view::ContourLabels found =
-        is_part ? labels_of_whole_
-                : view::contour_labels(selector_.selected().list, magnification_);
-    for (view::ContourLabel& label : found.labels) {
-        label.middle -= glm::dvec2(camera.first);
-        const view::LabelArea area = view::label_area(label, found.digit_height, size_);
-        if (area.size.x == 0 || area.size.y == 0) {
-            continue;
+view::ContourLabels SceneRenderer::labels_of_frame() const {
+    const view::DrawList& list = selector_.selected().list;
+    if (list.camera.whole == glm::ivec2(0)) {
+        return view::contour_labels(list, magnification_);
+    }
+    view::ContourLabels labels = labels_of_whole_;
+    for (view::ContourLabel& label : labels.labels) {
+        label.middle -= glm::dvec2(list.camera.first);
+    }
+    return labels;
+}
+
+void SceneRenderer::draw_labels(const view::ContourLabels& labels) {
+    for (const view::ContourLabel& label : labels.labels) {
+        const view::PictureArea area = view::label_area(label, labels.digit_height, size_);
+        if (area.size.x > 0 && area.size.y > 0) {
+            paint_over(area, [&](GridView<Rgba8> colors) {
+                view::draw_label(label, labels.digit_height, colors, area.first);
+            });
         }
-        const auto draw = [&](GridView<Rgba8> colors) {
-            view::draw_label(label, found.digit_height, colors, area.first);
-        };
-        if (shows_rays_) {
-            draw(rays_->picture().view().window(area.first.x, area.first.y, area.size.x,
-                                                area.size.y));
-        } else {
-            opengl_->paint_over(area.first, area.size, [&](Image& colors) { draw(colors.view()); });
-        }
+    }
+}
+
+void SceneRenderer::paint_over(const view::PictureArea& area,
+                               const std::function<void(GridView<Rgba8>)>& paint) {
+    if (shows_rays_) {
+        paint(rays_->picture().view().window(area.first.x, area.first.y, area.size.x, area.size.y));
+    } else {
+        opengl_->paint_over(area.first, area.size, [&](Image& colors) { paint(colors.view()); });
     }
 }
 

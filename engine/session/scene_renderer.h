@@ -21,6 +21,7 @@
 #include "engine/session/options.h"
 #include "engine/view/choice/technique_choice.h"
 #include "engine/view/picture/contour_labels.h"
+#include "engine/view/picture/label_picture.h"
 #include "engine/view/select.h"
 
 namespace reljef::session {
@@ -116,8 +117,10 @@ private:
     void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
     Result<void> draw_over(view::FrameStats& stats);
-    Result<void> draw_eye_dome();
-    void draw_labels();
+    [[nodiscard]] view::ContourLabels labels_of_frame() const;
+    void draw_labels(const view::ContourLabels& labels);
+    void paint_over(const view::PictureArea& area,
+                    const std::function<void(GridView<Rgba8>)>& paint);
 
     std::optional<render::DriverOptions> opengl_options_; // of the driver to be made
     std::function<Result<void>()> make_context_;

@@ -25,6 +25,11 @@ namespace {
 
 constexpr glm::ivec2 shown_size{160, 120};
 
+// Rises by 5 m to the south and 1 m to the east per sample.
+Grid<float> labelled_slope() {
+    return test::made_heights(129, 129, [](int col, int row) { return col + 5.0 * row; });
+}
+
 class SceneRendererWithRays : public test::GlTest {
 protected:
     static SceneRenderer make_renderer() {
@@ -63,9 +68,31 @@ TEST_F(SceneRendererWithRays, EyeDomeDarkensWhatLiesBehind) {
     }
 }
 
+// A roof over all of the ground.
+TEST_F(SceneRendererWithRays, MeshesHideLabels) {
+    TerrainScene scene = app::scene_of(labelled_slope());
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    terrain.contours = 20.0;
+    scene::Node& roof = scene.scene.add_mesh(scene::plane_mesh(glm::vec2(3000.0F)));
+    roof.set_position({0.0, 0.0, 810.0});
+    for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {
+        use(scene, technique);
+        SceneRenderer renderer = make_renderer();
+        const auto drawn = [&](bool has_labels) {
+            terrain.labels_contours = has_labels;
+            test::must(renderer.draw(scene.scene));
+            return renderer.read_color();
+        };
+        roof.set_visible(true);
+        EXPECT_EQ(drawn(true), drawn(false));
+        roof.set_visible(false);
+        EXPECT_NE(drawn(true), drawn(false));
+    }
+}
+
 // Both ways of drawing have the same labels, drawn once, and parts of a picture those of the whole.
 TEST_F(SceneRendererWithRays, LabelsContoursOfEachFrame) {
-    TerrainScene scene = app::scene_of(test::hills(129, 129, 100.0));
+    TerrainScene scene = app::scene_of(labelled_slope());
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     terrain.contours = 20.0;
     for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {

@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "engine/io/image/picture_writer.h"
+#include "engine/view/picture/eye_dome.h"
 
 namespace reljef::session {
 namespace {
 
 constexpr double max_frame_pixels = 4096.0 * 4096.0;
+
+static_assert(PictureParts::margin > view::max_eye_dome_reach);
 
 constexpr int part_unit = 64; // two blocks of rays, the dither's repeat, and rows of a TIFF's tile
 constexpr int max_part_side = 2048 - 2 * PictureParts::margin;

@@ -26,6 +26,8 @@ namespace {
 constexpr double cell_size = 12.0;   // smallest, on the picture; the largest is twice as large
 constexpr double min_distance = 9.0; // between the middles of labels
 constexpr double max_bend = 0.3;     // of a contour from the straight text
+constexpr double min_length = 3.2;   // of the straight piece of contour under a text
+constexpr double side = 0.6;         // beside it, where the ground rises evenly
 constexpr double text_margin = 0.7;  // to the picture's border
 constexpr double lift = 0.03;        // above the ground of places that must be seen
 // Distance between bold contours where labels are faint, and where they are not.
@@ -33,12 +35,12 @@ constexpr double crowded = 1.1;
 constexpr double apart = 1.8;
 
 constexpr double digit_pixels = 9.6; // at a contour_scale() of 1
-constexpr double min_opacity = 0.1;
+constexpr double min_opacity = 0.45;
 
 constexpr int min_level = 3; // cells that are not seen are divided before
 constexpr int max_cells = 10'000;
 constexpr int steps_of_cell = 24;
-constexpr int max_tries = 12;
+constexpr int max_tries = 24;
 constexpr double min_cell = 1.0 / 64.0; // samples
 
 // A square of samples.
@@ -52,10 +54,10 @@ struct Cell {
     }
 };
 
-enum class CellView { unseen, large, right };
+enum class CellView { unseen, large, fitting };
 
 std::string height_text(double metres) {
-    std::string text = fmt::format("{:.3f}", metres);
+    std::string text = fmt::format("{:.6f}", metres);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') {
         text.pop_back();
@@ -63,12 +65,12 @@ std::string height_text(double metres) {
     return text == "-0" ? "0" : text;
 }
 
-double turn_between(glm::dvec2 a, glm::dvec2 b) {
+double cross_product(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
 double area(const std::array<glm::dvec2, 4>& corners) {
-    return 0.5 * std::abs(turn_between(corners[2] - corners[0], corners[3] - corners[1]));
+    return 0.5 * std::abs(cross_product(corners[2] - corners[0], corners[3] - corners[1]));
 }
 
 // The straight line that a piece of a contour follows; empty if it bends too much.
@@ -90,7 +92,7 @@ std::optional<Baseline> baseline_of(const ContourLine& line, double digit_height
     }
     const glm::dvec2 middle = sum / static_cast<double>(line.pixels.size());
     const bool is_straight = std::ranges::all_of(line.pixels, [&](glm::dvec2 pixel) {
-        return std::abs(turn_between(along, pixel - middle)) <= max_bend * digit_height;
+        return std::abs(cross_product(along, pixel - middle)) <= max_bend * digit_height;
     });
     const bool is_backwards = along.x < 0.0 || (along.x == 0.0 && along.y > 0.0);
     return is_straight ? std::optional(Baseline{middle, is_backwards ? -along : along})
@@ -100,7 +102,7 @@ std::optional<Baseline> baseline_of(const ContourLine& line, double digit_height
 // Pixels across the contour per metre of height; negative on ground that faces away from the eye.
 double spacing_of(const ContourLine& line) {
     const glm::dvec2 chord = line.pixels.back() - line.pixels.front();
-    return turn_between(line.climb, glm::normalize(chord));
+    return cross_product(line.climb, glm::normalize(chord));
 }
 
 // Finds the labels of one terrain.
@@ -115,15 +117,15 @@ public:
         const glm::dvec2 last = ground_.last_sample();
         std::vector<Cell> cells{
             {glm::dvec2(0.0), std::exp2(std::ceil(std::log2(std::max({last.x, last.y, 1.0}))))}};
-        int looked_at = 0;
+        int cells_seen = 0;
         while (!cells.empty()) {
             std::vector<Cell> smaller;
             for (const Cell& cell : cells) {
-                if (++looked_at > max_cells) {
+                if (++cells_seen > max_cells) {
                     return std::move(labels_);
                 }
-                const CellView view = look(cell);
-                if (view == CellView::right) {
+                const CellView view = view_of(cell);
+                if (view == CellView::fitting) {
                     label(cell);
                 } else if (view == CellView::large) {
                     divide(cell, smaller);
@@ -141,7 +143,7 @@ private:
         return ground_.place(inside, ground_.height(inside).value_or(0.0));
     }
 
-    [[nodiscard]] CellView look(const Cell& cell) const {
+    [[nodiscard]] CellView view_of(const Cell& cell) const {
         if (cell.level < min_level) {
             return CellView::large;
         }
@@ -152,7 +154,7 @@ private:
             return CellView::unseen;
         }
         const bool is_large = pixels_across(corners) > 2.0 * cell_size * digit_height_;
-        return is_large && cell.side > min_cell ? CellView::large : CellView::right;
+        return is_large && cell.side > min_cell ? CellView::large : CellView::fitting;
     }
 
     // With room for hills between them.
@@ -189,7 +191,7 @@ private:
         }
     }
 
-    // Where a line through the cell's middle crosses a bold contour.
+    // Where a row or a column through the cell crosses a bold contour.
     struct Crossing {
         glm::dvec2 sample{0.0};
         double number = 0.0; // of the contour
@@ -197,26 +199,31 @@ private:
     };
     [[nodiscard]] std::vector<Crossing> crossings_in(const Cell& cell) const {
         std::vector<Crossing> crossings;
-        for (const bool is_row : {true, false}) {
-            const auto at = [&](double share) {
-                return is_row ? cell.at(share, 0.5) : cell.at(0.5, share);
-            };
-            auto before = ground_.height(at(0.0));
-            for (int i = 1; i <= steps_of_cell; ++i) {
-                const auto height = ground_.height(at(static_cast<double>(i) / steps_of_cell));
-                if (before && height && *before != *height) {
-                    const double number = std::round(0.5 * (*before + *height) / interval_);
-                    const double share = (number * interval_ - *before) / (*height - *before);
-                    if (share >= 0.0 && share < 1.0) {
-                        const double place = (i - 1 + share) / steps_of_cell;
-                        crossings.push_back({at(place), number, std::abs(place - 0.5)});
-                    }
-                }
-                before = height;
-            }
+        for (const double across : {0.5, 0.2, 0.8}) {
+            add_crossings(
+                cell, [&](double along) { return cell.at(along, across); }, crossings);
+            add_crossings(
+                cell, [&](double along) { return cell.at(across, along); }, crossings);
         }
         std::ranges::stable_sort(crossings, {}, &Crossing::from_middle);
         return crossings;
+    }
+
+    template <class At>
+    void add_crossings(const Cell& cell, const At& at, std::vector<Crossing>& crossings) const {
+        auto before = ground_.height(at(0.0));
+        for (int i = 1; i <= steps_of_cell; ++i) {
+            const auto height = ground_.height(at(static_cast<double>(i) / steps_of_cell));
+            if (before && height && *before != *height) {
+                const double number = std::round(0.5 * (*before + *height) / interval_);
+                const double share = (number * interval_ - *before) / (*height - *before);
+                if (share >= 0.0 && share < 1.0) {
+                    const glm::dvec2 sample = at((i - 1 + share) / steps_of_cell);
+                    crossings.push_back({sample, number, glm::distance(sample, cell.at(0.5, 0.5))});
+                }
+            }
+            before = height;
+        }
     }
 
     void label(const Cell& cell) {
@@ -227,7 +234,7 @@ private:
             }
             const ContourPlace place{crossing.sample, crossing.number * interval_,
                                      cell.side / (2.0 * steps_of_cell),
-                                     crowded * digit_height_ / interval_};
+                                     crowded * digit_height_ / interval_, side * digit_height_};
             if (!may_have_room(place)) {
                 continue;
             }
@@ -241,8 +248,9 @@ private:
     [[nodiscard]] std::optional<ContourLabel> label_at(const ContourPlace& place) {
         std::string text = height_text(place.height);
         const double width = digit_height_ * text_strokes(text).width;
-        const auto line = follow_contour(ground_, view_, place, 0.5 * width);
-        const auto baseline = line ? baseline_of(*line, digit_height_, width) : std::nullopt;
+        const double length = std::max(width, min_length * digit_height_);
+        const auto line = follow_contour(ground_, view_, place, 0.5 * length);
+        const auto baseline = line ? baseline_of(*line, digit_height_, length) : std::nullopt;
         if (!baseline || !has_room(*baseline, width)) {
             return std::nullopt;
         }
@@ -252,7 +260,8 @@ private:
         if (opacity < min_opacity || !is_visible(*line)) {
             return std::nullopt;
         }
-        return ContourLabel{std::move(text), baseline->middle, baseline->along, opacity};
+        return ContourLabel{std::move(text), baseline->middle, baseline->along,
+                            opacity,         line->depth,      line->depth_reach};
     }
 
     // Whether a place is on the picture and away from other labels.
@@ -317,6 +326,20 @@ double digit_height(const DrawList& list, double magnification) {
 }
 
 } // namespace
+
+bool is_covered(const ContourLabel& label, double digit_height, const HitBuffer& hits) {
+    const glm::dvec2 half = 0.5 * digit_height * text_strokes(label.text).width * label.along;
+    for (const glm::dvec2 place : {label.middle - half, label.middle, label.middle + half}) {
+        const glm::ivec2 pixel(glm::floor(place));
+        const bool is_inside =
+            pixel.x >= 0 && pixel.y >= 0 && pixel.x < hits.cols() && pixel.y < hits.rows();
+        if (is_inside &&
+            static_cast<double>(hits(pixel.x, pixel.y).depth) < label.depth - label.depth_reach) {
+            return true;
+        }
+    }
+    return false;
+}
 
 ContourLabels contour_labels(const DrawList& list, double magnification) {
     ContourLabels found{digit_height(list, magnification), {}};

@@ -5,16 +5,20 @@
 
 #include <glm/vec2.hpp>
 
+#include "engine/core/hit.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::view {
 
-/// A height on a bold contour. Pixels from the picture's upper left corner.
+/// A height on a bold contour line, which it interrupts. Pixels from the picture's upper left
+/// corner.
 struct ContourLabel {
     std::string text;           ///< metres
     glm::dvec2 middle{0.0};     ///< of the text
     glm::dvec2 along{1.0, 0.0}; ///< the reading direction, a unit vector towards the right
     double opacity = 1.0;       ///< (0, 1]
+    double depth = 0.0;         ///< of the ground along the view axis, metres
+    double depth_reach = 0.0;   ///< by which depths of the ground under the label differ, at most
 
     friend bool operator==(const ContourLabel&, const ContourLabel&) = default;
 };
@@ -31,5 +35,9 @@ struct ContourLabels {
 /// the picture will be shown; its labels are smaller by as much. Precondition: the list's camera
 /// shows no part of a picture.
 ContourLabels contour_labels(const DrawList& list, double magnification = 1.0);
+
+/// Whether something nearer than the ground covers a label's middle or an end: a mesh. Places
+/// outside the hits count as free.
+bool is_covered(const ContourLabel& label, double digit_height, const HitBuffer& hits);
 
 } // namespace reljef::view

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -73,7 +74,11 @@ public:
         return ground_.place(sample, place_.height);
     }
 
-    [[nodiscard]] std::optional<glm::dvec2> climb_at(glm::dvec2 sample) const {
+    struct Climb {
+        glm::dvec2 pixels{0.0}; // per metre of height
+        double depth = 0.0;     // likewise
+    };
+    [[nodiscard]] std::optional<Climb> climb_at(glm::dvec2 sample) const {
         const auto slopes = gradient(sample);
         if (!slopes) {
             return std::nullopt;
@@ -84,11 +89,31 @@ public:
             ground_.place(sample + *slopes * (place_.step / slope), place_.height + rise);
         const auto from = view_.project(place_of(sample));
         const auto to = view_.project(higher);
-        return view_.is_before_eye(to) ? std::optional((to.pixel - from.pixel) / rise)
+        return view_.is_before_eye(to) ? std::optional(Climb{(to.pixel - from.pixel) / rise,
+                                                             (to.depth - from.depth) / rise})
                                        : std::nullopt;
     }
 
+    // Whether the ground rises about as its gradient says to a height above the contour, and from
+    // as much below it: else the line is one of many specks.
+    [[nodiscard]] bool is_even(glm::dvec2 sample, double metres) const {
+        const auto slopes = gradient(sample);
+        if (!slopes) {
+            return false;
+        }
+        const glm::dvec2 offset = *slopes * (metres / glm::dot(*slopes, *slopes));
+        for (const double side : {-1.0, 1.0}) {
+            const auto height = ground_.height(sample + side * offset);
+            const double share = height ? side * (*height - place_.height) / metres : 0.0;
+            if (!(share > min_evenness && share < 1.0 / min_evenness)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
 private:
+    static constexpr double min_evenness = 0.4;
     static constexpr double max_correction = 4.0; // steps
     static constexpr double max_steps = 16.0;     // at once
 
@@ -104,27 +129,38 @@ std::optional<ContourLine> follow_contour(const LabelGround& ground, const Label
     const Follower follower(ground, view, place);
     const auto middle = follower.on_contour(place.sample);
     const auto climb = middle ? follower.climb_at(*middle) : std::nullopt;
-    if (!climb || glm::length(*climb) < place.min_climb) {
+    const double pixels_per_metre = climb ? glm::length(climb->pixels) : 0.0;
+    if (!(pixels_per_metre > 0.0) || pixels_per_metre < place.min_climb) {
         return std::nullopt;
     }
+    const double rise_of_side = place.side / pixels_per_metre;
     ContourLine line;
-    line.climb = *climb;
+    line.climb = climb->pixels;
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = -nearest;
     const auto add = [&](int index, glm::dvec2 sample) {
         const auto i = static_cast<std::size_t>(index);
         line.places[i] = follower.place_of(sample);
-        line.pixels[i] = view.project(line.places[i]).pixel;
+        const auto seen = view.project(line.places[i]);
+        line.pixels[i] = seen.pixel;
+        nearest = std::min(nearest, seen.depth);
+        farthest = std::max(farthest, seen.depth);
+        return follower.is_even(sample, rise_of_side);
     };
-    add(ContourLine::middle, *middle);
+    if (!add(ContourLine::middle, *middle)) {
+        return std::nullopt;
+    }
+    line.depth = nearest;
     for (const int side : {-1, 1}) {
         auto sample = middle;
         for (int i = 1; i <= ContourLine::steps; ++i) {
             sample = follower.along(*sample, side * half_length / ContourLine::steps);
-            if (!sample) {
+            if (!sample || !add(ContourLine::middle + side * i, *sample)) {
                 return std::nullopt;
             }
-            add(ContourLine::middle + side * i, *sample);
         }
     }
+    line.depth_reach = farthest - nearest + std::abs(climb->depth) * rise_of_side;
     return line;
 }
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace reljef::view {
 namespace {
@@ -13,7 +13,6 @@ namespace {
 // From a pixel to one of two opposite neighbours.
 constexpr std::array<glm::ivec2, 4> directions{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
 constexpr std::array<double, 3> rings{1.0, 3.0, 7.0}; // pixels, at a contour_scale() of 1
-constexpr int max_ring = 28;                          // less than the margin of a picture's parts
 // Depth behind the line of the neighbours, in their distances, that darkens by half.
 constexpr float half_depth = 1.0F;
 
@@ -27,7 +26,7 @@ public:
         pixel_ = is_perspective_ ? metres.y : metres.x;
         const double scale = contour_scale(list.camera, list.size);
         std::ranges::transform(rings, rings_.begin(), [scale](double ring) {
-            return std::min(static_cast<int>(std::lround(ring * scale)), max_ring);
+            return std::min(static_cast<int>(std::lround(ring * scale)), max_eye_dome_reach);
         });
     }
 
@@ -38,23 +37,12 @@ public:
             return 1.0F;
         }
         float sum = 0.0F;
-        int count = 0;
         for (const int ring : rings_) {
             for (const glm::ivec2 direction : directions) {
-                const glm::ivec2 step = ring * direction;
-                if (!is_inside(pixel - step) || !is_inside(pixel + step)) {
-                    continue;
-                }
-                const float length = static_cast<float>(ring) *
-                                     (direction.x != 0 && direction.y != 0 ? diagonal : 1.0F);
-                const float behind =
-                    depth_behind(hit.depth, depth_at(pixel - step), depth_at(pixel + step)) /
-                    length;
-                sum += darkness(behind);
-                ++count;
+                sum += darkness_at(pixel, ring * direction);
             }
         }
-        return count > 0 ? 1.0F - strength_ * sum / static_cast<float>(count) : 1.0F;
+        return 1.0F - strength_ * sum / static_cast<float>(rings_.size() * directions.size());
     }
 
 private:
@@ -64,17 +52,26 @@ private:
         return behind > 0.0F ? square / (square + 1.0F) : 0.0F;
     }
 
-    static constexpr float diagonal = 1.41421356F;
-
-    [[nodiscard]] bool is_inside(glm::ivec2 pixel) const {
-        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < hits_.cols() && pixel.y < hits_.rows();
+    // Between the neighbours before and after a step. Near the picture's border the nearest pixel
+    // counts that has both.
+    [[nodiscard]] float darkness_at(glm::ivec2 pixel, glm::ivec2 step) const {
+        const glm::ivec2 reach = glm::abs(step);
+        const glm::ivec2 last = glm::ivec2(hits_.cols(), hits_.rows()) - 1 - reach;
+        if (last.x < reach.x || last.y < reach.y) {
+            return 0.0F;
+        }
+        pixel = glm::clamp(pixel, reach, last);
+        const float behind =
+            depth_behind(depth_at(pixel), depth_at(pixel - step), depth_at(pixel + step));
+        return darkness(behind / glm::length(glm::vec2(step)));
     }
+
     [[nodiscard]] float depth_at(glm::ivec2 pixel) const { return hits_(pixel.x, pixel.y).depth; }
 
     // Widths of a pixel at `depth`; 0 beside the sky, which is behind everything. In perspective
     // the inverse of a plane's depth is linear.
     [[nodiscard]] float depth_behind(float depth, float one, float other) const {
-        if (std::isinf(one) || std::isinf(other)) {
+        if (std::isinf(depth) || std::isinf(one) || std::isinf(other)) {
             return 0.0F;
         }
         if (is_perspective_) {
