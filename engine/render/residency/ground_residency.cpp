@@ -47,7 +47,30 @@ Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameSta
         if (!draw->tile->borrows) {
             continue; // it has a map of its own
         }
-        if (auto done = prepare_ground(list, *draw, stats); !done) {
+        if (auto done = prepare_ground(list, *draw->terrain, list.world_from_local(*draw), stats);
+            !done) {
+            return done;
+        }
+    }
+    return prepare_lit_grounds(list, stats);
+}
+
+// Terrains in memory: loaded tiles have maps of their own.
+Result<void> GroundResidency::prepare_lit_grounds(const view::DrawList& list,
+                                                  view::FrameStats& stats) {
+    std::set<const scene::TerrainNode*> streamed;
+    for (const view::TileDraw& draw : list.tiles) {
+        if (!draw.tile->borrows) {
+            streamed.insert(draw.terrain);
+        }
+    }
+    for (const view::TerrainDraw& draw : list.terrains) {
+        const bool has_tiles =
+            streamed.contains(draw.terrain) || (draw.search && !draw.search->tiles.empty());
+        if (has_tiles || !view::is_reached(list, draw)) {
+            continue;
+        }
+        if (auto done = prepare_ground(list, *draw.terrain, draw.world_from_local, stats); !done) {
             return done;
         }
     }
@@ -59,10 +82,11 @@ Result<void> GroundResidency::prepare_tile(const scene::TerrainDetail& detail,
     return tiles_.prepare(detail.set, ground_side(), detail.technique.id(), stats);
 }
 
-Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+Result<void> GroundResidency::prepare_ground(const view::DrawList& list,
+                                             const scene::TerrainNode& terrain,
+                                             const glm::dmat4& world_from_local,
                                              view::FrameStats& stats) {
-    const scene::TerrainNode& terrain = *draw.terrain;
-    const auto light = view::light_on(list, list.world_from_local(draw));
+    const auto light = view::light_on(list, world_from_local);
     const auto found = grounds_.find(&terrain);
     if (found != grounds_.end() && found->second.owner.lock() == terrain.surface &&
         found->second.light == light) {

@@ -19,7 +19,7 @@ namespace reljef::session {
 /// the scene may change while another thread draws. Not for several threads at once.
 class SceneTruth {
 public:
-    /// Copies the references to the terrains, the light and the sky; computes nothing. Fails when a
+    /// Copies the references to the terrains, the lights and the sky; computes nothing. Fails when a
     /// mesh is visible.
     static Result<SceneTruth> create(const scene::Scene& scene);
 
