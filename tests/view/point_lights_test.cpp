@@ -35,6 +35,7 @@ TEST(SeenPointLights, AreThoseWhoseRangeMeetsTheView) {
     made.add({0.0, -60.0, 3.0}, 10.0F, 9.0F);  // behind the eye
     made.add({0.0, -60.0, 3.0}, 11.0F, 30.0F); // behind it, but its light is seen
     made.add({300.0, 0.0, 3.0});
+    made.add({0.0, 0.0, 3.0}, 12.0F, 0.0F); // gives no light
     const DrawList list = made.list();
     ASSERT_EQ(list.point_lights.size(), 2U);
     EXPECT_EQ(list.point_lights[0].light.intensity, 11.0F);

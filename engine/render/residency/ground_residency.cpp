@@ -1,5 +1,6 @@
 #include "engine/render/residency/ground_residency.h"
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -58,19 +59,19 @@ Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameSta
 // Terrains in memory: loaded tiles have maps of their own.
 Result<void> GroundResidency::prepare_lit_grounds(const view::DrawList& list,
                                                   view::FrameStats& stats) {
-    std::set<const scene::TerrainNode*> streamed;
+    std::map<const scene::TerrainNode*, glm::dmat4> reached;
     for (const view::TileDraw& draw : list.tiles) {
-        if (!draw.tile->borrows) {
-            streamed.insert(draw.terrain);
+        if (draw.tile->borrows && view::is_reached(list, draw)) {
+            reached.emplace(draw.terrain, list.world_from_local(draw));
         }
     }
-    for (const view::TerrainDraw& draw : list.terrains) {
-        const bool has_tiles =
-            streamed.contains(draw.terrain) || (draw.search && !draw.search->tiles.empty());
-        if (has_tiles || !view::is_reached(list, draw)) {
-            continue;
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (draw->search->tiles.empty() && view::is_reached(list, *draw)) {
+            reached.emplace(draw->terrain, draw->world_from_local);
         }
-        if (auto done = prepare_ground(list, *draw.terrain, draw.world_from_local, stats); !done) {
+    }
+    for (const auto& [terrain, world_from_local] : reached) {
+        if (auto done = prepare_ground(list, *terrain, world_from_local, stats); !done) {
             return done;
         }
     }

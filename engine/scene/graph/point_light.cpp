@@ -13,12 +13,12 @@ glm::vec3 radiance_from(const PlacedPointLight& light, glm::dvec3 place, glm::ve
     const double square =
         std::max(glm::dot(way, way), static_cast<double>(nearest_point_light) *
                                          static_cast<double>(nearest_point_light));
-    const double part = square / (range * range);
-    const double window = 1.0 - part * part;
     const double facing = glm::dot(glm::dvec3(normal), way) / std::sqrt(square);
-    if (window <= 0.0 || facing <= 0.0) {
+    if (square >= range * range || facing <= 0.0) {
         return glm::vec3(0.0F);
     }
+    const double part = square / (range * range);
+    const double window = 1.0 - part * part;
     return light.light.color *
            static_cast<float>(light.light.intensity * facing * window * window / square);
 }

@@ -14,8 +14,8 @@ struct PointLight {
     /// Linear radiance of a white surface that faces the light from a metre away; it falls with the
     /// square of the distance. >= 0
     float intensity = 25.0F;
-    /// Metres, > 0. There is no light at this distance, and it fades towards it: it is multiplied
-    /// by (1 − (distance / range)⁴)² (Karis 2013, "Real Shading in Unreal Engine 4").
+    /// Metres; not above 0: it gives no light. The light ends at the range: it is multiplied by
+    /// (1 − (distance / range)⁴)² (Karis 2013, "Real Shading in Unreal Engine 4").
     float range = 50.0F;
 
     friend bool operator==(const PointLight&, const PointLight&) = default;

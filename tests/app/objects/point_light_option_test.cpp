@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -90,6 +91,24 @@ TEST(PointLightsInPictures, ComeFromOptionsAndSceneFiles) {
                    "b.png"),
               from_file);
     EXPECT_NE(draw({dark.string()}, "c.png"), from_file);
+}
+
+TEST(PointLightsInPictures, NotesOnceThatSomeAreLeftOut) {
+    const test::TemporaryFolder folder;
+    const auto notes_of = [&](int lamps) {
+        std::vector<std::string> arguments{
+            "render", test::small_terrain(folder, "natural"), "--context", "cpu", "--size", "32x24",
+            "-o",     (folder.path() / "a.png").string()};
+        for (int i = 0; i < lamps; ++i) {
+            arguments.insert(arguments.end(), {"--point-light", fmt::format("{},0", i)});
+        }
+        const test::ProgramResult drawn = test::reljef(arguments);
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return test::without_progress(drawn.err);
+    };
+    EXPECT_THAT(notes_of(17),
+                HasSubstr("of 17 point lights, each picture shows the 16 brightest at the eye"));
+    EXPECT_THAT(notes_of(16), testing::Not(HasSubstr("point lights")));
 }
 
 } // namespace

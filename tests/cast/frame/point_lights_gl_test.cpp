@@ -48,31 +48,35 @@ constexpr scene::PointLight plane_lamp{
 constexpr double lamp_height = 20.0;
 constexpr std::array plane_techniques{"rays", "exact", "polygons", "relief", "texture"};
 
-// Albedo · I · cos θ / d² · (1 − (d / r)⁴)². A byte of the result is half a level off, one of the
-// albedo, whose root is rounded to 10 bits for rays, up to another, and filters round to 1/256.
+int most_off(Rgba8 a, Rgba8 b) {
+    return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+// Of white ground below a lamp at a place, a way from there: I · cos θ / d² · (1 − (d / r)⁴)².
+float light_at(glm::dvec2 way) {
+    const double square = glm::dot(way, way) + lamp_height * lamp_height;
+    const double part = std::pow(square / (45.0 * 45.0), 2);
+    const double window = std::max(1.0 - part, 0.0);
+    return static_cast<float>(700.0 * lamp_height / std::pow(square, 1.5) * window * window);
+}
+
+// A byte of the result is half a level off, one of the albedo, whose root is rounded to 10 bits for
+// rays, up to another, and filters round to 1/256.
 TEST_F(PointLightsGlTest, LightLevelGroundByTheirLaw) {
     for (const std::string_view technique : plane_techniques) {
         PlaneStage stage;
         stage.scene.add_point_light(plane_lamp, {3.0, -2.0, PlaneStage::height + lamp_height});
         const Image picture = stage.shown(technique);
         const glm::vec3 reflected = stage.albedo() * plane_lamp.color;
-        double largest = 0.0;
+        int largest = 0;
         for (int row = 0; row < picture.rows(); ++row) {
             for (int col = 0; col < picture.cols(); ++col) {
                 const glm::dvec2 way = PlaneStage::place_of(col, row) - glm::dvec2(3.0, -2.0);
-                const double square = glm::dot(way, way) + lamp_height * lamp_height;
-                const double part = std::pow(square / (45.0 * 45.0), 2);
-                const double window = std::max(1.0 - part, 0.0);
-                const double light = 700.0 * lamp_height / std::pow(square, 1.5) * window * window;
-                const Rgba8 expected = rgba8_from_linear(reflected * static_cast<float>(light));
-                const Rgba8 found = picture(col, row);
-                const int off =
-                    std::max({std::abs(found.r - expected.r), std::abs(found.g - expected.g),
-                              std::abs(found.b - expected.b)});
-                largest = std::max(largest, static_cast<double>(off));
+                largest = std::max(largest, most_off(picture(col, row),
+                                                     rgba8_from_linear(reflected * light_at(way))));
             }
         }
-        EXPECT_LE(largest, 2.0) << technique;
+        EXPECT_LE(largest, 2) << technique;
     }
 }
 

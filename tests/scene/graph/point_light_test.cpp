@@ -42,6 +42,11 @@ TEST(PointLight, GivesNothingAtItsRangeAndBehind) {
     EXPECT_EQ(radiance_from(lamp, {0.0, 0.0, 7.0}, up_normal), glm::vec3(0.0F)) << "turned away";
 }
 
+TEST(PointLight, GivesNothingWithoutARange) {
+    const PlacedPointLight none{{.range = 0.0F}, {0.0, 0.0, 6.0}};
+    EXPECT_EQ(radiance_from(none, {0.0, 0.0, 5.999}, up_normal), glm::vec3(0.0F));
+}
+
 TEST(PointLight, IsFiniteAtItsPlace) {
     const float nearest = 36.0F / (nearest_point_light * nearest_point_light);
     EXPECT_EQ(radiance_from(lamp, lamp.place, up_normal), glm::vec3(0.0F)) << "without direction";
