@@ -27,8 +27,8 @@ Result<session::SunChoice> parse_sun(const std::string& text) {
     if (std::abs(azimuth) > 360.0) {
         return Error{fmt::format("--sun: azimuth {} found, -360 to 360 was expected", azimuth)};
     }
-    if (!(altitude > 0.0 && altitude <= 90.0)) {
-        return Error{fmt::format("--sun: altitude {} found, over 0 to 90 was expected", altitude)};
+    if (std::abs(altitude) > 90.0) {
+        return Error{fmt::format("--sun: altitude {} found, -90 to 90 was expected", altitude)};
     }
     return session::SunChoice(glm::dvec2(azimuth, altitude));
 }
@@ -37,8 +37,8 @@ Result<session::SunChoice> parse_sun(const std::string& text) {
 
 void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
-               "direction of the sun, degrees: clockwise from north, above the horizon; or a time "
-               "in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40)",
+               "direction of the sun, degrees: clockwise from north, above the horizon (negative: "
+               "below); or a time in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40)",
                "AZIMUTH,ALTITUDE|TIME");
     add_parsed(command, "--turbidity", choice.turbidity,
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),

@@ -71,7 +71,8 @@ bool can_begin_coarse(const session::TerrainSource& source, const session::Scene
     const terrain::Heightfield& field = source.terrain.heightfield;
     const bool is_plain = scene.generator.empty() && !source.stream && !view.technique &&
                           scene.objects.empty() && scene.footprints.empty() &&
-                          view.objects.empty() && view.footprints.empty();
+                          scene.point_lights.empty() && view.objects.empty() &&
+                          view.footprints.empty() && view.point_lights.empty();
     const bool has_camera = view.eye || view.geodetic || view.pose || scene.eye;
     const geo::GlobalWrap wrap =
         field.georeference ? field.georeference->geodetic.rows().wrap() : geo::GlobalWrap{};

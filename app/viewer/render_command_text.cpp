@@ -9,6 +9,7 @@
 
 #include "app/objects/footprints_option.h"
 #include "app/objects/object_option.h"
+#include "app/objects/point_light_option.h"
 
 namespace reljef::app {
 namespace {
@@ -223,6 +224,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     }
     for (const io::FootprintsDescription& footprints : start.scene.footprints) {
         command.add("--footprints", to_text(footprints));
+    }
+    for (const io::PointLightDescription& light : start.scene.point_lights) {
+        command.add("--point-light", to_text(light));
     }
     add_surroundings(command, scene, start, shown);
     if (scene.materials().front()->wireframe) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct PlacedTile {
     PictureRays rays; ///< in samples of the tile; on the ellipsoid only their range and anchor
     TilePaint paint = {};
     TilePaint sun = {};                             ///< BlockJob::sun, if there are `sun_tiles`
+    std::optional<TilePaint> albedo = {};           ///< BlockJob::albedo
+    TilePaint normals = {};                         ///< BlockJob::normals, if there is an albedo
     std::vector<SunTile> sun_tiles = {};            ///< those that may hide the sun from it
     std::span<const std::int32_t> certain_sun = {}; ///< BlockJob::certain_sun; may be empty
     int certain_stride = 0;

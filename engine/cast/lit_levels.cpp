@@ -67,6 +67,18 @@ private:
     std::array<std::uint32_t, 256> bits_{};
 };
 
+std::uint32_t packed_normal(glm::vec3 normal) {
+    const auto bits = [](float component) {
+        const float inside = std::clamp(component, -1.0F, 1.0F);
+        return static_cast<std::uint32_t>(std::lround(inside * normal_zero) + normal_zero);
+    };
+    return bits(normal.x) | bits(normal.y) << 10U | bits(normal.z) << 20U;
+}
+
+glm::vec3 same(glm::vec3 texel) {
+    return texel;
+}
+
 } // namespace
 
 std::uint32_t packed_roots(glm::vec3 linear) {
@@ -74,30 +86,46 @@ std::uint32_t packed_roots(glm::vec3 linear) {
 }
 
 LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
-    const glm::ivec2 size(lit.cols(), lit.rows());
+    place({lit.cols(), lit.rows()}, samples);
+    add_level(lit, BytePacker(), texels_);
+    if (lit.size() > 1) {
+        add_coarse_levels(half_of(lit, linear_from_rgba8), packed_roots);
+    }
+    repeat_last_level();
+}
+
+LitLevels::LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples) {
+    place({normals.cols(), normals.rows()}, samples);
+    add_level(normals, packed_normal, texels_);
+    if (normals.size() > 1) {
+        add_coarse_levels(half_of(normals, same), packed_normal);
+    }
+    repeat_last_level();
+}
+
+void LitLevels::place(glm::ivec2 size, glm::ivec2 samples) {
     const glm::vec4 coordinate = view::texture_from_sample(samples, size);
     paint_.last = size - 1;
     paint_.texels_per_sample = glm::vec2(coordinate) * glm::vec2(size);
     paint_.first = glm::vec2(coordinate.z, coordinate.w) * glm::vec2(size) - 0.5F;
-    add_level(lit, BytePacker(), texels_);
     paint_.level_count = 1;
-    if (lit.size() > 1) {
-        add_coarse_levels(half_of(lit, linear_from_rgba8));
-    }
+}
+
+void LitLevels::repeat_last_level() {
     const auto last = static_cast<std::size_t>(paint_.level_count) - 1;
     std::fill(paint_.begin.begin() + paint_.level_count, paint_.begin.end(), paint_.begin[last]);
 }
 
-void LitLevels::add_coarse_levels(Grid<glm::vec3> level) {
+template <class Pack> void LitLevels::add_coarse_levels(Grid<glm::vec3> level, const Pack& pack) {
     while (true) {
         paint_.begin.at(static_cast<std::size_t>(paint_.level_count++)) =
             static_cast<std::int32_t>(texels_.size());
-        add_level(level, packed_roots, texels_);
+        add_level(level, pack, texels_);
         if (level.size() == 1 ||
             static_cast<std::size_t>(paint_.level_count) == paint_.begin.size()) {
             return;
         }
-        level = half_of(level, [](glm::vec3 texel) { return texel; });
+        level = half_of(level, same);
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/cast/packet/block_kernel.h"
 #include "engine/core/color.h"
+#include "engine/core/grid.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::cast {
@@ -20,13 +21,18 @@ public:
     /// `samples`: of the terrain, along each axis. Preconditions: neither is empty.
     LitLevels(const Image& lit, glm::ivec2 samples);
 
+    /// Of normals (unit vectors) instead: their lengths are lost.
+    LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples);
+
     /// The levels over a part of the terrain that begins at a sample. Valid as long as these.
     [[nodiscard]] TilePaint paint(glm::vec2 first_sample = glm::vec2(0.0F)) const;
 
     [[nodiscard]] std::size_t bytes() const { return texels_.size() * sizeof(std::uint32_t); }
 
 private:
-    void add_coarse_levels(Grid<glm::vec3> level);
+    void place(glm::ivec2 size, glm::ivec2 samples);
+    template <class Pack> void add_coarse_levels(Grid<glm::vec3> level, const Pack& pack);
+    void repeat_last_level();
 
     std::vector<std::uint32_t> texels_;
     TilePaint paint_; // its texels are set when it is used

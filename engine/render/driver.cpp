@@ -351,6 +351,11 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
         .no_vertices = no_vertices_,
         .skips = options_.skips,
         .state = state};
+    if (!hits && !list.point_lights.empty()) {
+        if (auto set = state.set(point_light_block(list)); !set) {
+            return set;
+        }
+    }
     for (const auto pass : {draw_terrain_tiles, draw_reliefs, draw_bases, draw_meshes, draw_sky}) {
         if (auto drawn = pass(frame); !drawn) {
             return drawn;

@@ -274,7 +274,6 @@ Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
     return {};
 }
 
-// Those of the scene file, then those of the options.
 Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
                              const SceneOptions& view, Log& log, const std::stop_token& stop) {
     if (!source.buildings.empty()) {
@@ -303,10 +302,28 @@ Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
     return {};
 }
 
+Result<void> place_point_lights(TerrainScene& scene, const TerrainSource& source,
+                                const SceneOptions& view, Log& log) {
+    std::vector<io::PointLightDescription> lights = source.description.point_lights;
+    lights.insert(lights.end(), view.point_lights.begin(), view.point_lights.end());
+    auto placed = add_point_lights(scene.scene, *scene.terrain->get<scene::TerrainNode>()->surface,
+                                   lights, height_of(heights_of(source)));
+    if (!placed) {
+        return placed.error();
+    }
+    if (placed->size() > scene::max_shown_point_lights) {
+        log.note(fmt::format("of {} point lights, each picture shows the {} brightest at the eye",
+                             placed->size(), scene::max_shown_point_lights));
+    }
+    scene.point_lights = std::move(*placed);
+    return {};
+}
+
 Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
                           const SceneOptions& view, Log& log, const std::stop_token& stop) {
     auto placed = place_objects(scene, source, view, log, stop);
-    return placed ? place_buildings(scene, source, view, log, stop) : placed;
+    placed = placed ? place_buildings(scene, source, view, log, stop) : placed;
+    return placed ? place_point_lights(scene, source, view, log) : placed;
 }
 
 Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
@@ -368,11 +385,9 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     } else if (auto done = choose_technique(result, view); !done) {
         return done.error();
     }
-
     if (auto done = add_daylight(result, source.description, view, log); !done) {
         return done.error();
     }
-
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {
         return camera.error();

@@ -10,6 +10,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/session/log.h"
 #include "engine/session/objects/placed_buildings.h"
+#include "engine/session/objects/placed_lights.h"
 #include "engine/session/objects/placed_objects.h"
 #include "engine/session/options.h"
 #include "engine/session/terrain_source.h"
@@ -31,6 +32,7 @@ struct TerrainScene {
     scene::Node* light = nullptr;     ///< owned by the scene
     std::vector<scene::Node*> models; ///< the gallery's, owned by the scene
     std::vector<PlacedObject> objects;
+    std::vector<StandingLight> point_lights;
     PlacedBuildings buildings;   ///< on footprints
     scene::Node* city = nullptr; ///< the buildings of `urban` as meshes, owned by the scene
     Box bounds;                  ///< of the terrain, scene metres

@@ -244,22 +244,36 @@ glm::dvec3 MeshCaster::face_at(const MeshHit& hit) const {
     return glm::normalize(instance.world_from_normal * glm::cross(edges.p, edges.q));
 }
 
-glm::vec3 MeshCaster::color_at(const MeshHit& hit, const std::optional<scene::Light>& sun,
-                               bool sees_sun) const {
+glm::vec3 MeshCaster::albedo_at(const MeshHit& hit) const {
+    const scene::Mesh& mesh = *instances_[hit.mesh].node.mesh;
+    const scene::Material& material = instances_[hit.mesh].node.material;
+    return material.detail.set == nullptr
+               ? material.color
+               : texel_color(material.detail.set->color,
+                             glm::dvec2(mixed(mesh.texture_coordinates, mesh, hit)) *
+                                 glm::dvec2(material.detail.repeats));
+}
+
+glm::vec3 MeshCaster::normal_at(const MeshHit& hit) const {
     const Instance& instance = instances_[hit.mesh];
     const scene::Mesh& mesh = *instance.node.mesh;
-    const scene::Material& material = instance.node.material;
-    const glm::vec3 albedo =
-        material.detail.set == nullptr
-            ? material.color
-            : texel_color(material.detail.set->color,
-                          glm::dvec2(mixed(mesh.texture_coordinates, mesh, hit)) *
-                              glm::dvec2(material.detail.repeats));
+    return glm::vec3(
+        glm::normalize(instance.world_from_normal * glm::dvec3(mixed(mesh.normals, mesh, hit))));
+}
+
+glm::vec3 MeshCaster::from_points(const MeshHit& hit, glm::dvec3 place,
+                                  std::span<const scene::PlacedPointLight> lights) const {
+    return lights.empty() ? glm::vec3(0.0F)
+                          : albedo_at(hit) * scene::radiance_from(lights, place, normal_at(hit));
+}
+
+glm::vec3 MeshCaster::color_at(const MeshHit& hit, const std::optional<scene::Light>& sun,
+                               bool sees_sun) const {
+    const glm::vec3 albedo = albedo_at(hit);
     if (!sun) {
         return albedo;
     }
-    const glm::vec3 normal(
-        glm::normalize(instance.world_from_normal * glm::dvec3(mixed(mesh.normals, mesh, hit))));
+    const glm::vec3 normal = normal_at(hit);
     const float facing =
         sees_sun ? std::max(glm::dot(normal, glm::vec3(scene::to_light(*sun))), 0.0F) : 0.0F;
     return albedo * (sun->color * facing + sun->ambient * (0.5F + 0.5F * normal.z));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -49,6 +50,9 @@ public:
     /// (shaders/frame/surface_light.glsl). `sees_sun`: nothing hides the sun.
     [[nodiscard]] glm::vec3 color_at(const MeshHit& hit, const std::optional<scene::Light>& sun,
                                      bool sees_sun = true) const;
+    /// What it reflects of point lights. `place`: of the hit, world metres.
+    [[nodiscard]] glm::vec3 from_points(const MeshHit& hit, glm::dvec3 place,
+                                        std::span<const scene::PlacedPointLight> lights) const;
 
     /// As in a hit buffer: no place on the terrain, and the depth.
     [[nodiscard]] static Hit as_shown(const MeshHit& hit);
@@ -62,6 +66,9 @@ private:
         glm::dmat3 world_from_normal{1.0};
         Box bounds; // world metres
     };
+
+    [[nodiscard]] glm::vec3 albedo_at(const MeshHit& hit) const;
+    [[nodiscard]] glm::vec3 normal_at(const MeshHit& hit) const;
 
     std::vector<Instance> instances_;
     Box bounds_;

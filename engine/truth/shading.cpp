@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/terrain/field/gradient.h"
 #include "engine/truth/eye.h"
 
 namespace reljef::truth {
@@ -93,24 +96,41 @@ SunShadow sun_shadow_of(const scene::Scene& scene) {
 }
 
 Shading::Shading(const scene::Scene& scene, const SceneCaster& caster, SunShadow shadow)
-    : caster_(shadow == SunShadow::ray ? &caster : nullptr), backdrop_{scene.sun(), scene.sky()} {
+    : caster_(shadow == SunShadow::ray ? &caster : nullptr), backdrop_{scene.sun(), scene.sky(),
+                                                                       scene.point_lights()} {
     for (const PlacedTerrain& terrain : caster.terrains()) {
-        maps_.push_back(maps_of(terrain, backdrop_.sun));
+        maps_.push_back(maps_of(terrain));
     }
 }
 
-Shading::Maps Shading::maps_of(const PlacedTerrain& terrain,
-                               const std::optional<scene::Light>& sun) {
+Shading::Maps Shading::maps_of(const PlacedTerrain& terrain) const {
     Maps maps;
+    maps.surface = terrain.surface;
+    maps.world_from_local = terrain.world_from_local;
     const Grid<float>& heights = terrain.surface->heightfield().heights;
     maps.albedo = scene::albedo_map(*terrain.surface);
     maps.texels_per_sample = glm::dvec2(maps.albedo.cols() - 1, maps.albedo.rows() - 1) /
                              glm::dvec2(heights.cols() - 1, heights.rows() - 1);
-    if (sun) {
-        maps.irradiance.emplace(*terrain.surface,
-                                scene::TerrainLight{*sun, glm::dmat3(terrain.world_from_local)});
+    if (backdrop_.sun) {
+        maps.irradiance.emplace(
+            *terrain.surface,
+            scene::TerrainLight{*backdrop_.sun, glm::dmat3(terrain.world_from_local)});
+    }
+    if (!backdrop_.point_lights.empty()) {
+        maps.gradients = terrain::surface_gradients(terrain.surface->heightfield(),
+                                                    terrain.surface->placement());
     }
     return maps;
+}
+
+glm::vec3 Shading::from_points(const Maps& maps, const SceneHit& hit, glm::dvec2 sample) const {
+    if (maps.gradients.empty()) {
+        return glm::vec3(0.0F);
+    }
+    const glm::dvec2 gradient(bilinear(maps.gradients, sample, std::identity()));
+    return backdrop_.from_points(maps.world_from_local,
+                                 maps.surface->placement().world_from_sample(hit.surface.sample),
+                                 glm::dvec3(-gradient, 1.0));
 }
 
 glm::vec3 Shading::at(const SceneHit& hit) const {
@@ -119,7 +139,8 @@ glm::vec3 Shading::at(const SceneHit& hit) const {
     const glm::dvec2 sample = glm::max(glm::dvec2(hit.surface.sample), glm::dvec2(0.0));
     const glm::vec3 albedo =
         bilinear(maps.albedo, sample * maps.texels_per_sample, linear_from_rgba8);
-    return maps.irradiance ? albedo * irradiance(maps, hit, sample) : albedo;
+    const glm::vec3 by_sun = maps.irradiance ? albedo * irradiance(maps, hit, sample) : albedo;
+    return by_sun + albedo * from_points(maps, hit, sample);
 }
 
 glm::vec3 Shading::irradiance(const Maps& maps, const SceneHit& hit, glm::dvec2 sample) const {
@@ -139,12 +160,20 @@ glm::vec3 Shading::at(const MeshHit& hit, const SceneCaster& caster, const Ray& 
                       double distance) const {
     const bool is_lit = caster_ == nullptr || !backdrop_.sun ||
                         sees_sun(caster, hit, ray, scene::to_light(*backdrop_.sun));
-    return backdrop_.through_air(caster.meshes().color_at(hit, backdrop_.sun, is_lit), ray,
-                                 distance);
+    const glm::vec3 color = caster.meshes().color_at(hit, backdrop_.sun, is_lit) +
+                            caster.meshes().from_points(hit, ray.at(hit.t), backdrop_.point_lights);
+    return backdrop_.through_air(color, ray, distance);
 }
 
 glm::vec3 Backdrop::through_air(glm::vec3 color, const Ray& ray, double distance) const {
     return sky ? seen_through_air(*sky, sun, color, ray, distance) : color;
+}
+
+glm::vec3 Backdrop::from_points(const glm::dmat4& world_from_local, glm::dvec3 local,
+                                glm::dvec3 normal) const {
+    const glm::dvec3 turned = glm::inverseTranspose(glm::dmat3(world_from_local)) * normal;
+    return scene::radiance_from(point_lights, glm::dvec3(world_from_local * glm::dvec4(local, 1.0)),
+                                glm::vec3(glm::normalize(turned)));
 }
 
 glm::vec3 Backdrop::behind(const Ray& ray, const scene::SeenSky* picture) const {

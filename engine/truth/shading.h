@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -7,6 +8,7 @@
 
 #include "engine/core/color.h"
 #include "engine/core/geometry.h"
+#include "engine/core/grid.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/streaming/terrain_light.h"
 #include "engine/truth/scene_caster.h"
@@ -22,13 +24,17 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
 glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Light>& sun,
                            glm::vec3 color, const Ray& ray, double distance);
 
-/// The sky and the air of a scene.
+/// The sky, the air and the lights of a scene.
 struct Backdrop {
     std::optional<scene::Light> sun;
     std::optional<scene::Sky> sky;
+    std::vector<scene::PlacedPointLight> point_lights = {};
 
     /// A linear colour through `distance` metres of air along a world ray.
     [[nodiscard]] glm::vec3 through_air(glm::vec3 color, const Ray& ray, double distance) const;
+    /// Linear radiance of point lights at albedo 1. `local`: the place; `normal`: of any length.
+    [[nodiscard]] glm::vec3 from_points(const glm::dmat4& world_from_local, glm::dvec3 local,
+                                        glm::dvec3 normal) const;
     /// Linear; black without a sky. `picture`: that of the sky; null: none.
     [[nodiscard]] glm::vec3 behind(const Ray& ray, const scene::SeenSky* picture) const;
 };
@@ -65,7 +71,8 @@ public:
     Shading(const scene::Scene& scene, const SceneCaster& caster,
             SunShadow shadow = SunShadow::sweep);
 
-    /// Albedo times irradiance (scene/terrain_light.h); without a light the albedo.
+    /// Albedo times irradiance (scene/terrain_light.h), without a sun the albedo; and what it
+    /// reflects of point lights.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit) const;
     /// Of a mesh of the caster.
     [[nodiscard]] glm::vec3 at(const MeshHit& hit, const SceneCaster& caster, const Ray& ray,
@@ -78,11 +85,16 @@ public:
 
 private:
     struct Maps {
+        std::shared_ptr<const scene::TerrainSurface> surface;
+        glm::dmat4 world_from_local{1.0};
         Image albedo;
         glm::dvec2 texels_per_sample;
         std::optional<scene::TerrainIrradiance> irradiance;
+        Grid<glm::vec2> gradients; // for point lights; empty without some
     };
-    static Maps maps_of(const PlacedTerrain& terrain, const std::optional<scene::Light>& sun);
+    [[nodiscard]] Maps maps_of(const PlacedTerrain& terrain) const;
+    [[nodiscard]] glm::vec3 from_points(const Maps& maps, const SceneHit& hit,
+                                        glm::dvec2 sample) const;
     [[nodiscard]] glm::vec3 irradiance(const Maps& maps, const SceneHit& hit,
                                        glm::dvec2 sample) const;
 

@@ -104,7 +104,7 @@ StreamedTruth::StreamedTruth(const scene::Scene& scene, const scene::TerrainNode
                              const glm::dmat4& world_from_local, const Memory& memory)
     : surface_(terrain.stream, memory.tiles), world_from_local_(world_from_local),
       local_from_world_(glm::inverse(world_from_local)),
-      rays_per_batch_(memory.rays), backdrop_{scene.sun(), scene.sky()} {
+      rays_per_batch_(memory.rays), backdrop_{scene.sun(), scene.sky(), scene.point_lights()} {
     if (backdrop_.sun) {
         irradiance_.emplace(*terrain.surface,
                             scene::TerrainLight{*backdrop_.sun, glm::dmat3(world_from_local)});
@@ -264,9 +264,19 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     const glm::dvec2 texels =
         glm::dvec2(part.albedo.cols() - 1, part.albedo.rows() - 1) / glm::dvec2(part.cells);
     const glm::vec3 albedo = bilinear(part.albedo, place * texels, linear_from_rgba8);
-    if (!irradiance_) {
-        return albedo;
-    }
+    const glm::vec3 points =
+        backdrop_.point_lights.empty()
+            ? glm::vec3(0.0F)
+            : backdrop_.from_points(world_from_local_,
+                                    surface_.world_from_sample(hit.surface.sample),
+                                    glm::dvec3(part.normal_at(place)));
+    return albedo * (points + (irradiance_ ? irradiance_at(part, place, hit) : glm::vec3(1.0F)));
+}
+
+// `place`: among the part's vertices.
+glm::vec3 StreamedTruth::irradiance_at(const scene::TerrainTile& part, glm::dvec2 place,
+                                       const TerrainHit& hit) const {
+    const scene::TileBuilder& builder = surface_.stream().maker();
     const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     const glm::dvec2 on_overview =
@@ -275,10 +285,10 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     if (hit.is_sunny) {
         const scene::IrradianceParts parts =
             irradiance_->parts_at(part.normal_at(place), part.up, irradiance_->openness(inside));
-        return albedo * (*hit.is_sunny ? parts.sky + parts.sun : parts.sky);
+        return *hit.is_sunny ? parts.sky + parts.sun : parts.sky;
     }
-    return albedo * irradiance_->at(part.normal_at(place), part.up, irradiance_->visibility(inside),
-                                    irradiance_->openness(inside));
+    return irradiance_->at(part.normal_at(place), part.up, irradiance_->visibility(inside),
+                           irradiance_->openness(inside));
 }
 
 Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
@@ -288,7 +298,8 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
         const Ray ray = eye.ray(batch.places[i]);
         if (const MeshHit* const hit = batch.mesh_hit(i)) {
             const glm::vec3 color =
-                meshes_.color_at(*hit, backdrop_.sun, batch.sun_at(i).value_or(true));
+                meshes_.color_at(*hit, backdrop_.sun, batch.sun_at(i).value_or(true)) +
+                meshes_.from_points(*hit, ray.at(hit->t), backdrop_.point_lights);
             batch.colors[i] = backdrop_.through_air(color, ray, eye.distance(ray, hit->t));
         } else if (!batch.hits[i]) {
             batch.colors[i] = backdrop_.behind(ray, eye.sky());

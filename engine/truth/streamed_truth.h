@@ -81,6 +81,8 @@ private:
     [[nodiscard]] glm::vec3 color_in_tile(const scene::TileContent& content,
                                           const scene::TerrainTile* whole, terrain::TreeTile tile,
                                           const TerrainHit& hit) const;
+    [[nodiscard]] glm::vec3 irradiance_at(const scene::TerrainTile& part, glm::dvec2 place,
+                                          const TerrainHit& hit) const;
     template <class Use>
     Result<void> for_each_batch(const Eye& eye, glm::ivec2 size, const DrawOptions& options,
                                 bool has_colors, const Use& use);

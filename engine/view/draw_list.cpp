@@ -3,9 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace reljef::view {
+namespace {
+
+// Squared metres to the nearest point of a box.
+double squared_distance(glm::dvec3 place, const Box& box) {
+    const glm::dvec3 way = place - glm::clamp(place, box.low, box.high);
+    return glm::dot(way, way);
+}
+
+// Near the eye, all lights count as a metre away.
+double brightness_at(glm::dvec3 eye, const scene::PlacedPointLight& light) {
+    const glm::dvec3 way = light.place - eye;
+    const double luminance = glm::dot(light.light.color, glm::vec3(0.2126F, 0.7152F, 0.0722F));
+    return luminance * light.light.intensity / std::max(glm::dot(way, way), 1.0);
+}
+
+} // namespace
 
 std::vector<const TerrainDraw*> searched_terrains(const DrawList& list) {
     std::vector<const TerrainDraw*> searched;
@@ -43,6 +61,42 @@ std::optional<scene::TerrainLight> light_on(const DrawList& list,
         return std::nullopt;
     }
     return scene::TerrainLight{*list.sun, glm::dmat3(world_from_local)};
+}
+
+std::vector<scene::PlacedPointLight> seen_point_lights(std::vector<scene::PlacedPointLight> lights,
+                                                       const scene::Camera& camera,
+                                                       const Frustum& frustum,
+                                                       FrameStats::Skipped& skipped) {
+    std::erase_if(lights, [&](const scene::PlacedPointLight& light) {
+        const glm::dvec3 range(light.light.range);
+        return !(light.light.range > 0.0F) ||
+               !frustum.may_see({light.place - range, light.place + range});
+    });
+    std::stable_sort(lights.begin(), lights.end(), [&](const auto& one, const auto& other) {
+        return brightness_at(camera.eye, one) > brightness_at(camera.eye, other);
+    });
+    if (lights.size() > scene::max_shown_point_lights) {
+        skipped.point_lights = static_cast<int>(lights.size() - scene::max_shown_point_lights);
+        lights.resize(scene::max_shown_point_lights);
+    }
+    return lights;
+}
+
+bool is_reached(const DrawList& list, const Box& box) {
+    return std::any_of(list.point_lights.begin(), list.point_lights.end(), [&](const auto& light) {
+        const double range = light.light.range;
+        return squared_distance(light.place, box) < range * range;
+    });
+}
+
+bool is_reached(const DrawList& list, const TileDraw& draw) {
+    return !list.point_lights.empty() &&
+           is_reached(list, transformed(list.world_from_local(draw), draw.tile->bounds));
+}
+
+bool is_reached(const DrawList& list, const TerrainDraw& draw) {
+    return !list.point_lights.empty() &&
+           is_reached(list, transformed(draw.world_from_local, draw.terrain->surface->bounds()));
 }
 
 glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain) {

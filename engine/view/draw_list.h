@@ -85,8 +85,9 @@ struct MeshDraw {
 /// What to draw in a frame: pure data. Valid as long as the scene is unchanged.
 struct DrawList {
     scene::Camera camera;
-    glm::ivec2 size{0};              ///< of the picture, pixels
-    std::optional<scene::Light> sun; ///< the first light in the tree
+    glm::ivec2 size{0};                                ///< of the picture, pixels
+    std::optional<scene::Light> sun;                   ///< the first light in the tree
+    std::vector<scene::PlacedPointLight> point_lights; ///< see seen_point_lights()
     std::optional<scene::Sky> sky;
     std::optional<scene::SeenSky> sky_picture; ///< empty: the sky is no picture
     double eye_dome = 0.0; ///< scene::Scene::eye_dome(); 0 if a terrain hides its overlay
@@ -111,6 +112,19 @@ Result<void> check_techniques(const DrawList& list);
 /// The list's sun over a terrain; empty without a sun.
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
                                             const glm::dmat4& world_from_local);
+
+/// The lights whose range meets the frustum, the brightest at the eye first, equal ones in their
+/// order. Beyond scene::max_shown_point_lights they are left out (`skipped`).
+std::vector<scene::PlacedPointLight> seen_point_lights(std::vector<scene::PlacedPointLight> lights,
+                                                       const scene::Camera& camera,
+                                                       const Frustum& frustum,
+                                                       FrameStats::Skipped& skipped);
+
+/// Whether a point light of the list may reach a box, world metres.
+bool is_reached(const DrawList& list, const Box& box);
+/// The same of a tile, and of all of a terrain.
+bool is_reached(const DrawList& list, const TileDraw& draw);
+bool is_reached(const DrawList& list, const TerrainDraw& draw);
 
 /// Widths of a detail tile on the picture between which it fades in, pixels.
 inline constexpr glm::vec2 seen_tile_pixels{8.0F, 32.0F};

@@ -74,6 +74,7 @@ struct FrameStats {
         int cuts_unchanged = 0;                ///< tiles with the triangles of the last frame
         int uploads_unchanged = 0;             ///< tiles and maps that are on the GPU already
         int sky = 0;                           ///< 1: the scene has none
+        int point_lights = 0; ///< beyond the maximum, although they reach into the view
     };
     Skipped skipped;
 

@@ -51,6 +51,7 @@ bool SceneView::look(const scene::Scene& scene, glm::ivec2 size) {
     bool is_new = set_value(camera_, scene.camera());
     is_new = set_value(size_, size) || is_new;
     is_new = set_value(sun_, scene.sun()) || is_new;
+    is_new = set_value(point_lights_, scene.point_lights()) || is_new;
     is_new = set_value(sky_, scene.sky()) || is_new;
     is_new = set_value(eye_dome_, scene.eye_dome()) || is_new;
     is_new = set_value(node_count_, count_nodes(scene.root())) || is_new;

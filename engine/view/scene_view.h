@@ -33,6 +33,9 @@ public:
     [[nodiscard]] const scene::Camera& camera() const { return camera_; }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
     [[nodiscard]] const std::optional<scene::Light>& sun() const { return sun_; }
+    [[nodiscard]] const std::vector<scene::PlacedPointLight>& point_lights() const {
+        return point_lights_;
+    }
     [[nodiscard]] const std::optional<scene::Sky>& sky() const { return sky_; }
     [[nodiscard]] double eye_dome() const { return eye_dome_; }
     [[nodiscard]] const std::vector<SeenNode>& nodes() const { return nodes_; }
@@ -47,6 +50,7 @@ private:
     scene::Camera camera_;
     glm::ivec2 size_{0};
     std::optional<scene::Light> sun_;
+    std::vector<scene::PlacedPointLight> point_lights_;
     std::optional<scene::Sky> sky_;
     double eye_dome_ = 0.0;
     std::vector<SeenNode> nodes_; // parents first

@@ -419,6 +419,8 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
+    list.point_lights =
+        seen_point_lights(view.point_lights(), list.camera, frustum, list.stats.skipped);
     Selector selector(frame, frustum, options);
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);

@@ -8,6 +8,9 @@ layout(binding = normal_map_unit) uniform sampler2D normal_map; // x and y of th
 #endif
 
 uniform mat3 world_from_normal;
+#ifdef POINT_LIGHTS
+#include "material/point_lights.glsl"
+#endif
 
 // Mip level; `right`, `up`: change of the coordinate per pixel. Limited to an anisotropy of 8.
 float level_of(sampler2D map, vec2 right, vec2 up) {
@@ -66,6 +69,15 @@ float facing_of(vec3 upright) {
     return clamp(steepness * dot(upright, to_sun.xyz), 0.0, 1.0);
 }
 
+// Adds the light of points, at the place on the mesh, not in its relief.
+vec3 with_points(vec3 lit, vec3 albedo, vec3 normal) {
+#ifdef POINT_LIGHTS
+    return lit + albedo * light_of_points(relative, normal);
+#else
+    return lit;
+#endif
+}
+
 // `upright`: the mesh's normal. `visibility`: visible share of the sun's disc.
 vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye, float visibility) {
 #ifdef LIT
@@ -74,8 +86,9 @@ vec3 shiny_color(vec3 albedo, vec3 normal, vec3 upright, vec3 to_eye, float visi
     float sky = 0.5 + 0.5 * normal.z;
     float mirrored = max(dot(normal, normalize(to_sun.xyz + to_eye)), 0.0);
     float added = sun > 0.0 ? shine.x * facing * pow(mirrored, shine.y) : 0.0;
-    return albedo * (sun_color.rgb * sun + ambient_color.rgb * sky) + sun_color.rgb * added;
+    vec3 lit = albedo * (sun_color.rgb * sun + ambient_color.rgb * sky) + sun_color.rgb * added;
 #else
-    return albedo;
+    vec3 lit = albedo;
 #endif
+    return with_points(lit, albedo, normal);
 }

@@ -25,8 +25,8 @@ vec3 lit_tile(vec3 albedo, vec2 coordinate, mat3 space, vec2 right, vec2 up, flo
     float facing = facing_of(upright) * visibility;
     float level = max(level_of(height_map, right, up), 0.0);
     float sun = max(dot(upright, to_sun.xyz) + embossed(place, level, space), 0.0) * facing;
-    return albedo * (sun_color.rgb * sun + ambient_color.rgb * (0.5 + 0.5 * upright.z));
+    return with_points(albedo * (sun_color.rgb * sun + ambient_color.rgb * (0.5 + 0.5 * upright.z)), albedo, upright);
 #else
-    return lit_color(albedo, upright, visibility);
+    return with_points(lit_color(albedo, upright, visibility), albedo, upright);
 #endif
 }

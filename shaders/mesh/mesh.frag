@@ -3,6 +3,9 @@
 #include "frame/air.glsl"
 #include "frame/fragment.glsl"
 #include "frame/distance.glsl"
+#ifdef POINT_LIGHTS
+#include "material/point_lights.glsl"
+#endif
 
 in vec3 world_normal;
 #ifdef HIT
@@ -18,7 +21,11 @@ void main() {
     hit = vec4(-1.0, -1.0, 0.0, view_depth);
     hit_low = vec2(0.0);
 #else
-    vec3 lit = lit_color(albedo, normalize(INSIDE(world_normal)), 1.0);
+    vec3 normal = normalize(INSIDE(world_normal));
+    vec3 lit = lit_color(albedo, normal, 1.0);
+#ifdef POINT_LIGHTS
+    lit += albedo * light_of_points(INSIDE(way_from_eye), normal);
+#endif
     color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
 #endif
 }

@@ -7,8 +7,10 @@ uniform mat4 relative_from_local;
 uniform mat3 world_from_normal;
 
 out vec3 world_normal;
-#ifdef MULTISAMPLED
+#if defined(MULTISAMPLED) || defined(POINT_LIGHTS)
 out vec3 way_from_eye; // metres
+#endif
+#ifdef MULTISAMPLED
 out float one;
 #endif
 #ifdef HIT
@@ -18,8 +20,10 @@ out float view_depth; // metres along the view axis
 void main() {
     vec4 relative = relative_from_local * vec4(position, 1.0);
     world_normal = world_from_normal * normal;
-#ifdef MULTISAMPLED
+#if defined(MULTISAMPLED) || defined(POINT_LIGHTS)
     way_from_eye = relative.xyz;
+#endif
+#ifdef MULTISAMPLED
     one = vertex_grid.z;
 #endif
 #ifdef HIT

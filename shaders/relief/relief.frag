@@ -45,6 +45,9 @@ uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
 uniform float texels_per_metre_away; // per pixel
 #include "relief/relief_light.glsl"
+#ifdef POINT_LIGHTS
+#include "terrain/ground_points.glsl"
+#endif
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 
@@ -211,6 +214,16 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
 
 vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
     vec3 lit = lit_at(place, level, relative);
+#ifdef POINT_LIGHTS
+    LitPlace at = lit_place(place, level);
+    vec3 from_points = reflected_from_points(textureLod(lit_albedo, at.coordinate, at.level).rgb,
+                                             textureLod(lit_normals, at.coordinate, at.level).xyz, relative);
+#ifdef OVERLAY
+    light_under_overlay = from_points;
+#else
+    lit += from_points;
+#endif
+#endif
 #ifdef OVERLAY
     lit = overlaid_at(lit, place, relative);
 #endif

@@ -73,5 +73,9 @@ vec3 with_facades(vec3 lit, GroundPlace place, vec2 at, float height) {
     float risen = (height - plaster.w) / max(storeys.y - plaster.w, 1.0);
     float sky = mix(sky_at_foot, 1.0, clamp(risen, 0.0, 1.0));
     float sun = outward.z * clamp((height - near.y) / shadow_border, 0.0, 1.0);
-    return albedo * (facade_sun.rgb * sun + facade_sky.rgb * sky);
+    vec3 light = facade_sun.rgb * sun + facade_sky.rgb * sky;
+#ifdef POINT_LIGHTS
+    light += light_of_points(along_world_axes(place.from_eye), along_world_axes(vec3(outward.xy, 0.0)));
+#endif
+    return albedo * light;
 }

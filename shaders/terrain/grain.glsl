@@ -108,5 +108,8 @@ vec3 with_grain(vec3 lit, GroundPlace place) {
     float to_sun = max(dot(place.normal, grain_sun.xyz), grain_grazing);
     float grainy = to_sun + strength * grain_slope_scale * grain.x;
     float light = (max(grainy, 0.0) + grain_sky_share) / (to_sun + grain_sky_share);
+#ifdef POINT_LIGHTS
+    lit += light_under_overlay;
+#endif
     return lit * light * max(1.0 + strength * grain_brightness_scale * grain.y, 0.0);
 }

@@ -78,6 +78,9 @@ void main() {
     vec3 down = dFdy(FROM_PIXEL_TO_PIXEL(local_from_eye));
 #endif
     relative = world_from_local * from_eye;
+#ifdef POINT_LIGHTS
+    plain += albedo * light_of_points(relative, normalize(world_from_normal * ground.xyz));
+#endif
     float pixel = metres_a_pixel.x + metres_a_pixel.y * length(relative);
     float share = smoothstep(seen_pixels.x, seen_pixels.y, tile_width / pixel);
     float height_share = smoothstep(seen_pixels.z, seen_pixels.w, lift / pixel);

@@ -30,6 +30,14 @@ GroundPlace ground_place(vec3 relative, vec3 perpendicular) {
     float pixel = metres_a_pixel.x + metres_a_pixel.y * distance;
     return GroundPlace(from_eye, normal, up, view, pixel);
 }
+#ifdef POINT_LIGHTS
+vec3 light_under_overlay = vec3(0.0); // of point lights
+
+// The opposite of along_turned_axes().
+vec3 along_world_axes(vec3 turned) {
+    return vec3(grain_turn.x * turned.x - grain_turn.y * turned.y, dot(grain_turn.yx, turned.xy), turned.z);
+}
+#endif
 #include "terrain/grain.glsl"
 #include "terrain/contours.glsl"
 #ifdef FACADES
@@ -41,6 +49,11 @@ vec3 overlaid(vec3 lit, GroundPlace place, vec2 at, float height, bool has_slope
     if (grain_up.w > 0.0) {
         lit = with_grain(lit, place);
     }
+#ifdef POINT_LIGHTS
+    else {
+        lit += light_under_overlay;
+    }
+#endif
 #ifdef FACADES
     lit = with_facades(lit, place, at, height);
 #endif

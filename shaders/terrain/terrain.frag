@@ -20,6 +20,9 @@ uniform vec2 tile_sample;     // col, row of the tile's first sample
 uniform vec4 lit_from_sample; // texture coordinate = sample · xy + zw
 
 layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, linear
+#ifdef POINT_LIGHTS
+#include "terrain/ground_points.glsl"
+#endif
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 #ifndef SLIVER
@@ -62,6 +65,25 @@ void write_hit() {
 #endif
 #endif
 
+#ifdef POINT_LIGHTS
+vec3 looked_up(sampler2D map, vec2 place) {
+    vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
+#ifdef SLIVER
+    return textureGrad(map, coordinate, place_per_pixel[0] * lit_from_sample.xy,
+                       place_per_pixel[1] * lit_from_sample.xy).rgb;
+#elif defined(MULTISAMPLED)
+    return textureGrad(map, coordinate, dFdx(tile_place) * lit_from_sample.xy,
+                       dFdy(tile_place) * lit_from_sample.xy).rgb;
+#else
+    return texture(map, coordinate).rgb;
+#endif
+}
+
+vec3 from_points_at(vec2 place) {
+    return reflected_from_points(looked_up(lit_albedo, place), looked_up(lit_normals, place), INSIDE(way_from_eye));
+}
+#endif
+
 void main() {
 #ifdef SLIVER
     set_from_corners();
@@ -98,6 +120,14 @@ void main() {
                    .rgb;
 #else
     vec3 lit = texture(lit_map, place * lit_from_sample.xy + lit_from_sample.zw).rgb;
+#endif
+#ifdef POINT_LIGHTS
+    vec3 from_points = from_points_at(place);
+#ifdef OVERLAY
+    light_under_overlay = from_points;
+#else
+    lit += from_points;
+#endif
 #endif
 #if defined(OVERLAY) && defined(SLIVER)
     vec3 perpendicular = cross(world_from_local * local_per_pixel[0], world_from_local * local_per_pixel[1]);

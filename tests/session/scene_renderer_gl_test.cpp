@@ -25,9 +25,9 @@ namespace {
 
 constexpr glm::ivec2 shown_size{160, 120};
 
-// Rises by 5 m to the south and 1 m to the east per sample.
+// Rises by 5 m to the north and 1 m to the east per sample.
 Grid<float> labelled_slope() {
-    return test::made_heights(129, 129, [](int col, int row) { return col + 5.0 * row; });
+    return test::made_heights(129, 129, [](int col, int row) { return col + 5.0 * (128 - row); });
 }
 
 class SceneRendererWithRays : public test::GlTest {
@@ -72,7 +72,7 @@ TEST_F(SceneRendererWithRays, EyeDomeDarkensWhatLiesBehind) {
 TEST_F(SceneRendererWithRays, MeshesHideLabels) {
     TerrainScene scene = app::scene_of(labelled_slope());
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    terrain.contours = 20.0;
+    terrain.contours = 40.0;
     scene::Node& roof = scene.scene.add_mesh(scene::plane_mesh(glm::vec2(3000.0F)));
     roof.set_position({0.0, 0.0, 810.0});
     for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {
@@ -94,7 +94,7 @@ TEST_F(SceneRendererWithRays, MeshesHideLabels) {
 TEST_F(SceneRendererWithRays, LabelsContoursOfEachFrame) {
     TerrainScene scene = app::scene_of(labelled_slope());
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    terrain.contours = 20.0;
+    terrain.contours = 40.0;
     for (const auto& technique : {scene::Technique{scene::Exact{}}, {scene::Polygons{}}}) {
         use(scene, technique);
         SceneRenderer renderer = make_renderer();

@@ -56,6 +56,25 @@ TEST(Shading, OfAPlaneIsLambertsLaw) {
                 white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
 }
 
+// A slope of 45 degrees, and a lamp a metre above it along its normal.
+TEST(Shading, OfAPlaneBelowAPointLightIsItsLaw) {
+    for (const bool has_sun : {false, true}) {
+        scene::Scene scene = sloped_scene(1.0);
+        if (has_sun) {
+            scene.add_light(white_sun);
+        }
+        const glm::vec3 without = shade(scene, place_at(4.0, 4.0));
+        const double step = 2.0 * std::sqrt(0.5);
+        const glm::dvec3 ground = test::surface_of(*scene.root().children().front())
+                                      .placement()
+                                      .world_from_sample({4.0, 4.0, 4.0});
+        scene.add_point_light({.color = {1.0F, 0.5F, 0.25F}, .intensity = 3.0F, .range = 1e3F},
+                              ground + glm::dvec3(-step, 0.0, step));
+        const SceneHit hit{0, {0.0, {4.0, 4.0, 4.0}}};
+        expect_near(shade(scene, hit) - without, glm::vec3(0.75F, 0.375F, 0.1875F), 1e-5F);
+    }
+}
+
 // Boxes of a metre; the sun is in the east, at 45 degrees.
 TEST(Shading, MeshesHideTheSunFromGroundAndFromEachOther) {
     scene::Scene scene = sloped_scene(0.0);

@@ -258,18 +258,20 @@ TEST(StreamedTruth, PicturesAreTheSameWithAnyThreadsAndMemory) {
     EXPECT_TRUE(have_same_bits(one->hits, three->hits));
 }
 
-// The normals and colours of tiles are those of the whole terrain, but for their construction.
-TEST(StreamedTruth, ShowsTheColoursOfTheTerrainInMemory) {
+Streamed smooth_on_plane() {
     const auto smooth = [](glm::dvec2 sample) {
         return 120.0 * std::sin(0.021 * sample.x) * std::cos(0.017 * sample.y);
     };
-    const Streamed made =
-        streamed(test::plane_heightfield(test::made_heights(streamed_samples.x, streamed_samples.y,
-                                                            [&](int col, int row) {
-                                                                return smooth({col, row});
-                                                            }),
-                                         {8.0, 11.0}),
-                 1, reader_of(smooth));
+    return streamed(
+        test::plane_heightfield(test::made_heights(streamed_samples.x, streamed_samples.y,
+                                                   [&](int col, int row) {
+                                                       return smooth({col, row});
+                                                   }),
+                                {8.0, 11.0}),
+        1, reader_of(smooth));
+}
+
+void expect_colors_of_memory(const Streamed& made) {
     scene::Camera camera;
     camera.eye = {0.0, -4000.0, 3000.0};
     const auto in_memory = truth::draw(SceneCaster::create(made.scene).value(),
@@ -278,12 +280,31 @@ TEST(StreamedTruth, ShowsTheColoursOfTheTerrainInMemory) {
     const auto found = made.truth().draw(camera, rays_size);
     ASSERT_TRUE(in_memory && found);
     int off = 0;
+    int bright = 0;
     for (std::size_t i = 0; i < found->image.size(); ++i) {
         const glm::vec3 a(linear_from_rgba8(found->image.samples()[i]));
         const glm::vec3 b(linear_from_rgba8(in_memory->image.samples()[i]));
         off += glm::distance(a, b) > 0.02F ? 1 : 0;
+        bright += !found->hits.samples()[i].is_sky() && a.g > 0.05F ? 1 : 0;
     }
     EXPECT_LT(off, static_cast<int>(found->image.size()) / 50);
+    EXPECT_GT(bright, static_cast<int>(found->image.size()) / 20);
+}
+
+// The normals and colours of tiles are those of the whole terrain, but for their construction.
+TEST(StreamedTruth, ShowsTheColoursOfTheTerrainInMemory) {
+    expect_colors_of_memory(smooth_on_plane());
+}
+
+// In the dark.
+TEST(StreamedTruth, ShowsThePointLightsOfTheTerrainInMemory) {
+    Streamed made = smooth_on_plane();
+    auto& sun = *made.light->get<scene::Light>();
+    sun.color = glm::vec3(0.0F);
+    sun.ambient = glm::vec3(0.0F);
+    made.scene.add_point_light({.intensity = 4e5F, .range = 2500.0F}, {100.0, -700.0, 600.0});
+    made.scene.add_mesh(scene::sphere_mesh(200.0F)).set_position({500.0, -900.0, 300.0});
+    expect_colors_of_memory(made);
 }
 
 TEST(StreamedTruth, AnUnreadableTileIsAnErrorAndNoGuess) {

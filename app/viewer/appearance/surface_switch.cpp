@@ -125,6 +125,7 @@ bool SurfaceSwitch::show() {
     session::apply_maps(scene_, made->maps);
     session::stand_on(*node.surface, scene_.objects);
     session::stand_on(*node.surface, scene_.buildings);
+    session::stand_on(*node.surface, scene_.point_lights);
     scene_.bounds = scene_.terrain->world_bounds();
     session::set_daylight(scene_, *scene_.light->get<scene::Light>());
     light_ = made->maps.light;

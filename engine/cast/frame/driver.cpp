@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/cast/block_rays.h"
@@ -302,6 +303,17 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     if (light.sun != nullptr) {
         tile.sun = light.sun->paint();
     }
+    if (!list.point_lights.empty() &&
+        view::is_reached(list, transformed(seen.world_from_local, seen.local))) {
+        Surface& surface = surface_of(seen.node->surface);
+        if (surface.ground == nullptr) {
+            surface.ground = std::make_shared<const LitGround>(
+                lit_ground(*seen.node->surface, max_texture_side()));
+            ++stats.uploads;
+            stats.upload_bytes += surface.ground->bytes();
+        }
+        surface.ground->paint(tile);
+    }
 }
 
 PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& placed) {
@@ -316,6 +328,8 @@ PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& 
             options.grain = grain_.prepare(list, seen, view);
             set_normals(view, placed);
         }
+        options.world_from_normal =
+            glm::mat3(glm::inverseTranspose(glm::dmat3(seen.world_from_local)));
         options.contours = {static_cast<float>(scene::shown_contours(*terrains.front().node)),
                             static_cast<float>(view::contour_scale(list.camera, list.size))};
     }

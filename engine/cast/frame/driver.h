@@ -12,6 +12,7 @@
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/ground_facades.h"
 #include "engine/cast/frame/ground_grain.h"
+#include "engine/cast/frame/ground_points.h"
 #include "engine/cast/frame/mesh_frame.h"
 #include "engine/cast/frame/painter.h"
 #include "engine/cast/frame/ray_support.h"
@@ -99,7 +100,8 @@ private:
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::shared_ptr<const RayTile> tile;
-        Light light; // of the last frame
+        Light light;                             // of the last frame
+        std::shared_ptr<const LitGround> ground; // for point lights; null: not made yet
     };
 
     explicit Driver(const DriverOptions& options);

@@ -130,6 +130,13 @@ MeshPixels MeshFrame::look(std::size_t block, std::span<const glm::dvec2> places
                           rays_.origin.down + hit->t * rays_.direction.down});
         pixels.t[i] = static_cast<float>(hit->t - options_.anchor);
         pixels.nearness[i] = nearness_of(surface.face);
+        if (!list_.point_lights.empty()) {
+            add_color(i,
+                      surface.albedo * scene::radiance_from(list_.point_lights,
+                                                            list_.camera.eye + ray.at(hit->t),
+                                                            surface.normal),
+                      pixels);
+        }
         if (!list_.sun) {
             add_color(i, surface.albedo, pixels);
             continue;

@@ -11,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/cast/frame/base_walls.h"
+#include "engine/cast/frame/ground_points.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/daylight.h"
 
@@ -95,7 +96,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
                  const PainterOptions& options, FirstSamples& first)
     : placed_(placed), skips_(options.skips), meshes_(options.meshes),
       kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)), shared_(backdrop_of(list)),
-      rays_(rays_from_eye(list)), walls_(base_walls(list)),
+      rays_(rays_from_eye(list)), point_lights_(point_light_paints(list)), walls_(base_walls(list)),
       corner_(view::dither_origin(list.camera, list.size)), picture_{-list.camera.first,
                                                                      scene::whole_picture(
                                                                          list.camera, list.size)},
@@ -109,6 +110,8 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     shared_.grain = options.grain;
     shared_.facades = options.facades;
     shared_.sky = options.sky;
+    shared_.point_lights = point_lights_;
+    shared_.world_from_normal = options.world_from_normal;
     shared_.contours = options.contours;
     shared_.mesh_shadow = meshes_ != nullptr ? meshes_->shadow() : MeshShadow{};
     std::transform(places.begin(), places.end(), samples_.places.begin(),

@@ -26,6 +26,7 @@ struct PainterOptions {
     const FacadePaint* facades = nullptr; ///< null: none; outlives the painter
     const SkyPaint* sky = nullptr;        ///< null: no picture; outlives the painter
     ContourPaint contours = {};
+    glm::mat3 world_from_normal{1.0F}; ///< BlockPaint::world_from_normal
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.
@@ -56,7 +57,8 @@ private:
     const MeshFrame* meshes_;
     BlockKernel kernel_;
     BlockPaint shared_;
-    PictureRays rays_;                             // in world metres from the eye
+    PictureRays rays_; // in world metres from the eye
+    std::vector<PointLightPaint> point_lights_;
     std::vector<std::vector<WallTriangle>> walls_; // of the blocks; empty: none
     glm::vec2 corner_;                             // see view::dither_origin()
     PixelBlock picture_;                           // a part may reach beyond its picture

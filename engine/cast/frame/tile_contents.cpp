@@ -97,10 +97,11 @@ TileContents::find_missing(const view::DrawList& list,
         const bool has_paint =
             !options.paints || (content.levels && content.light == light &&
                                 content.sun.has_value() == (options.in_parts && light));
-        if (content.pieces.front() && has_paint) {
+        const bool needs_ground = options.paints && !content.ground && view::is_reached(list, draw);
+        if (content.pieces.front() && has_paint && !needs_ground) {
             ++stats.skipped.uploads_unchanged;
         } else {
-            missing.push_back({draw.tile.get(), &content});
+            missing.push_back({draw.tile.get(), &content, needs_ground});
         }
     }
     return missing;
@@ -135,6 +136,7 @@ void TileContents::make_pieces(const scene::TileBuilder& builder, const Missing&
 std::size_t TileContents::bytes_of(const Content& content) {
     std::size_t bytes = content.levels ? content.levels->bytes() : 0;
     bytes += content.sun ? content.sun->bytes() : 0;
+    bytes += content.ground ? content.ground->bytes() : 0;
     for (const std::optional<RayTile>& piece : content.pieces) {
         bytes += piece ? piece->bytes() : 0;
     }
@@ -160,6 +162,9 @@ void TileContents::make(const view::DrawList& list, const Options& options,
         if (options.paints) {
             make_levels(builder, irradiance, options.in_parts, one);
             one.content->light = light;
+        }
+        if (one.needs_ground) {
+            one.content->ground = lit_ground(*one.tile);
         }
     };
     ParallelOptions parallel;
@@ -318,6 +323,17 @@ float TileContents::lowest_of(const view::DrawList& list) const {
     return lowest;
 }
 
+void TileContents::paint(const Content& content, glm::vec2 vertex, bool is_reached,
+                         PlacedTile& tile) {
+    tile.paint = content.levels->paint(vertex);
+    if (content.ground && is_reached) {
+        content.ground->paint(tile, vertex);
+    }
+    if (content.sun) {
+        tile.sun = content.sun->paint(vertex);
+    }
+}
+
 PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& rays,
                                 const Options& options, view::FrameStats& stats) {
     forget_unused();
@@ -340,11 +356,8 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             PlacedTile& tile = placed.tiles.emplace_back(
                 placer.placed(draw, piece, *content.pieces[number_of(piece)]));
             if (options.paints) {
-                tile.paint = content.levels->paint(glm::vec2(piece.vertex));
+                paint(content, glm::vec2(piece.vertex), view::is_reached(list, draw), tile);
                 tile.paint.longest_texels = placer.longest(tile.paint, piece);
-                if (content.sun) {
-                    tile.sun = content.sun->paint(glm::vec2(piece.vertex));
-                }
             }
         }
         return pieces;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/ground_points.h"
 #include "engine/cast/frame/sun_tiles.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/ray_tile.h"
@@ -50,6 +51,7 @@ private:
         std::array<std::optional<RayTile>, 4> pieces; // by the sides that their vertex is at
         std::optional<LitLevels> levels;
         std::optional<LitLevels> sun;                   // if these are only the sky's
+        std::optional<LitGround> ground;                // if point lights reach it
         std::array<std::optional<RayTile>, 4> quarters; // TileContents::beside()
         std::optional<scene::TerrainLight> light;       // of the levels
         std::uint64_t drawn = 0;                        // the last frame
@@ -64,6 +66,7 @@ private:
     struct Missing {
         const scene::TerrainTile* tile = nullptr;
         Content* content = nullptr;
+        bool needs_ground = false; // for point lights
     };
 
     void forget_unused();
@@ -79,6 +82,8 @@ private:
     void make(const view::DrawList& list, const Options& options, view::FrameStats& stats);
     static void make_pieces(const scene::TileBuilder& builder, const Missing& missing);
     static std::size_t bytes_of(const Content& content);
+    /// `is_reached`: by point lights.
+    static void paint(const Content& content, glm::vec2 vertex, bool is_reached, PlacedTile& tile);
     const scene::TerrainIrradiance& irradiance_of(const scene::TerrainNode& terrain,
                                                   const scene::TerrainLight& light);
 

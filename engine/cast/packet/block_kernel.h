@@ -70,8 +70,12 @@ struct BlockHits {
 
 inline constexpr std::size_t max_paint_levels = 20;
 
+/// In a texel of a map of normals: three times 10 bits, each normal_zero · (1 + component).
+inline constexpr int normal_zero = 511;
+
 /// What a tile looks like: the levels of a map of colours. Texels are three times 10 bits, the
-/// square roots of linear light. One of level l covers 2^l × 2^l of level 0.
+/// square roots of linear light; or of a map of normals. One of level l covers 2^l × 2^l of level
+/// 0.
 struct TilePaint {
     const std::uint32_t* texels = nullptr; ///< row after row; the last column and row lie twice
     std::array<std::int32_t, max_paint_levels> begin{}; ///< of a level, and of all behind the last
@@ -120,6 +124,14 @@ struct FacadePaint {
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 
+/// A scene::PointLight.
+struct PointLightPaint {
+    glm::vec3 from_eye{0.0F};       ///< world metres
+    glm::vec3 color{0.0F};          ///< linear radiance at albedo 1 and a metre
+    float per_squared_range = 1.0F; ///< 1 / metres²
+    float nearest_square = 0.0F;    ///< metres²: nearer, light grows no further
+};
+
 /// The stacked faces of a level of material::SkyPicture.
 struct SkyPaint {
     const std::uint32_t* texels = nullptr; ///< packed_roots(), row after row
@@ -159,6 +171,8 @@ struct BlockJob {
     const TilePaint* paint = nullptr; ///< not needed for hits
     /// What the sun adds to it where none of its tiles hides it; null: `paint` has its light.
     const TilePaint* sun = nullptr;
+    const TilePaint* albedo = nullptr;       ///< null: no point light reaches the tile
+    const TilePaint* normals = nullptr;      ///< local ones, as large as the albedo
     std::span<const SunTile> sun_tiles = {}; ///< of hits on a tile, that one first
     /// What is certain of the sun in each cell: 2 bits, 16 cells of a row in a word.
     /// Null: nothing.
@@ -245,8 +259,10 @@ struct BlockPaint {
     glm::vec3 to_sun{0.0F};
     std::span<const WallTriangle> walls = {}; ///< in front of all ground
     const BlockMeshes* meshes = nullptr;      ///< null: none
-    const GrainPaint* grain = nullptr;        ///< null: none
-    const FacadePaint* facades = nullptr;     ///< null: none
+    std::span<const PointLightPaint> point_lights = {};
+    glm::mat3 world_from_normal{1.0F};    ///< of BlockJob::normals
+    const GrainPaint* grain = nullptr;    ///< null: none
+    const FacadePaint* facades = nullptr; ///< null: none
     ContourPaint contours = {};
     MeshShadow mesh_shadow = {};
 };

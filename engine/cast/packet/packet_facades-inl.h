@@ -6,7 +6,7 @@
 #define RELJEF_PACKET_FACADES_INL_H
 #endif
 
-#include "engine/cast/packet/packet_grain-inl.h"
+#include "engine/cast/packet/packet_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
@@ -212,12 +212,22 @@ HWY_INLINE WallLight light_on_walls(const WallHits& on, Floats height,
             hn::MulAdd(risen, all(1.0F - sky_at_foot), all(sky_at_foot))};
 }
 
+// The light of points on upright walls.
+HWY_INLINE Color points_on_walls(const BlockPaint& paint, const GroundPlace& place,
+                                 const WallNear& wall) {
+    const glm::vec2 back(paint.facades->turn.x, -paint.facades->turn.y);
+    return light_of_points(
+        paint, place.from_eye,
+        turned(back, {wall(outward_x_value), wall(outward_y_value), hn::Zero(floats)}));
+}
+
 // The colour of ground with façades. `height`: true metres.
 template <class BesideMeshes>
-HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
+HWY_INLINE Color with_facades(const BlockJob& job, const BlockPaint& block,
                               const GroundPlace& place, const PacketHits& hits, Floats height,
                               const Color& lit, const BesideMeshes& beside_meshes) {
-    const WallHits on = wall_hits(paint, tile, hits, height);
+    const FacadePaint& paint = *block.facades;
+    const WallHits on = wall_hits(paint, *job.paint, hits, height);
     if (hn::AllFalse(floats, on.found)) {
         return lit;
     }
@@ -231,9 +241,15 @@ HWY_INLINE Color with_facades(const FacadePaint& paint, const TilePaint& tile,
         const Floats all_light = hn::MulAdd(light.sun, all(sun), hn::Mul(light.sky, all(sky)));
         return hn::IfThenElse(on.found, hn::Mul(of_wall, all_light), ground);
     };
-    return {channel(albedo.r, paint.sun.r, paint.sky.r, lit.r),
-            channel(albedo.g, paint.sun.g, paint.sky.g, lit.g),
-            channel(albedo.b, paint.sun.b, paint.sky.b, lit.b)};
+    const Color shown{channel(albedo.r, paint.sun.r, paint.sky.r, lit.r),
+                      channel(albedo.g, paint.sun.g, paint.sky.g, lit.g),
+                      channel(albedo.b, paint.sun.b, paint.sky.b, lit.b)};
+    if (job.albedo == nullptr) {
+        return shown;
+    }
+    const Color more = added(shown, product(albedo, points_on_walls(block, place, wall)));
+    return {hn::IfThenElse(on.found, more.r, shown.r), hn::IfThenElse(on.found, more.g, shown.g),
+            hn::IfThenElse(on.found, more.b, shown.b)};
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

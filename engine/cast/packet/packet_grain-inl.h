@@ -304,11 +304,13 @@ HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 
     return hn::IfThenZeroElse(is_water, hn::Mul(all(grain.strength), rough));
 }
 
-// The colour of ground with its grain: slopes change the share of the sun's light, and the
+// By which grain changes the light of ground: slopes change the share of the sun's light, and the
 // brightness changes all light. Ground that the sun hardly reaches is as grainy as if it did: else
 // the steps of normals from cell to cell would show.
-HWY_INLINE Color with_grain(const BlockPaint& paint, const TilePaint& tile,
-                            const GroundPlace& place, const PacketHits& hits, const Color& lit) {
+// `lit`: by the sun and the sky.
+HWY_INLINE Floats light_of_grain(const BlockPaint& paint, const TilePaint& tile,
+                                 const GroundPlace& place, const PacketHits& hits,
+                                 const Color& lit) {
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
     const std::array<Floats, 3> normal = grain_normal(tile, hits);
@@ -321,7 +323,7 @@ HWY_INLINE Color with_grain(const BlockPaint& paint, const TilePaint& tile,
                                  hn::Add(to_sun, all(grain_sky_share)));
     const Floats brightness =
         hn::MulAdd(look.brightness, hn::Mul(strength, all(grain_brightness_scale)), all(1.0F));
-    return scaled(lit, hn::Mul(light, hn::Max(brightness, zero)));
+    return hn::Mul(light, hn::Max(brightness, zero));
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

@@ -169,12 +169,20 @@ HWY_INLINE std::array<Floats, 3> channels_of(Ints texel) {
     return {channel(texel), channel(hn::ShiftRight<10>(texel)), channel(hn::ShiftRight<20>(texel))};
 }
 
+// What texels hold.
+struct SquareRoots {
+    static HWY_INLINE Floats value(Floats channel) { return hn::Mul(channel, channel); }
+};
+struct Linear {
+    static HWY_INLINE Floats value(Floats channel) { return channel; }
+};
+
 // Adds a texel, times its weight.
-HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
-    const auto [r, g, b] = channels_of(texel); // square roots
-    sum.r = hn::MulAdd(hn::Mul(r, r), weight, sum.r);
-    sum.g = hn::MulAdd(hn::Mul(g, g), weight, sum.g);
-    sum.b = hn::MulAdd(hn::Mul(b, b), weight, sum.b);
+template <class Encoding> HWY_INLINE void add_texel(Ints texel, Floats weight, Color& sum) {
+    const auto [r, g, b] = channels_of(texel);
+    sum.r = hn::MulAdd(Encoding::value(r), weight, sum.r);
+    sum.g = hn::MulAdd(Encoding::value(g), weight, sum.g);
+    sum.b = hn::MulAdd(Encoding::value(b), weight, sum.b);
 }
 
 // Places on the map, texels of level 0 from its corner.
@@ -184,6 +192,7 @@ struct MapPlaces {
 };
 
 // Adds the bilinear colours of each lane's level, times their weights.
+template <class Encoding>
 HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints level,
                           Floats weight, Color& sum) {
     const Floats texels = size_of(hn::Neg(level)); // a texel of level 0
@@ -208,14 +217,15 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
     const Floats left = hn::Sub(weight, right);
     const Floats right_below = hn::Mul(right, part_v);
     const Floats left_below = hn::Mul(left, part_v);
-    add_texel(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
-    add_texel(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
-    add_texel(hn::GatherIndex(ints, first, below), left_below, sum);
-    add_texel(hn::GatherIndex(ints, first + 1, below), right_below, sum);
+    add_texel<Encoding>(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
+    add_texel<Encoding>(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
+    add_texel<Encoding>(hn::GatherIndex(ints, first, below), left_below, sum);
+    add_texel<Encoding>(hn::GatherIndex(ints, first + 1, below), right_below, sum);
 }
 
-// The colours of the map: bilinear in the two levels nearest to each lane's.
-HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
+// The values of the map: bilinear in the two levels nearest to each lane's.
+template <class Encoding>
+HWY_INLINE Color map_sum(const TilePaint& paint, const PacketHits& hits, Floats level) {
     const auto place = [&](Ints cell, Floats part, int axis) HWY_ATTR {
         const Floats sample = hn::Add(hn::ConvertTo(floats, cell), part);
         return hn::MulAdd(sample, all(paint.texels_per_sample[axis]),
@@ -226,12 +236,16 @@ HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Float
     const Ints fine = hn::ConvertTo(ints, seen);
     const Floats coarse_part = hn::Sub(seen, hn::ConvertTo(floats, fine));
     Color sum = all(glm::vec3(0.0F));
-    add_level(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);
+    add_level<Encoding>(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);
     if (!hn::AllTrue(floats, hn::Eq(coarse_part, hn::Zero(floats)))) {
         const Ints coarse = hn::Min(hn::Add(fine, all(1)), all(paint.level_count - 1));
-        add_level(paint, places, coarse, coarse_part, sum);
+        add_level<Encoding>(paint, places, coarse, coarse_part, sum);
     }
-    return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
+    return sum;
+}
+
+HWY_INLINE Color map_color(const TilePaint& paint, const PacketHits& hits, Floats level) {
+    return scaled(map_sum<SquareRoots>(paint, hits, level), all(1.0F / (1023.0F * 1023.0F)));
 }
 
 // The texels of map_color() that a hit's colour depends on.

@@ -13,6 +13,7 @@
 #include "engine/cast/packet/packet_facades-inl.h"
 #include "engine/cast/packet/packet_grain-inl.h"
 #include "engine/cast/packet/packet_light-inl.h"
+#include "engine/cast/packet/packet_points-inl.h"
 #include "engine/cast/packet/packet_sky-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
 
@@ -307,15 +308,21 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
             Mode::counts || paint.mesh_shadow.hidden == nullptr || hn::AllFalse(floats, sunny);
         return is_open ? sunny : beside_meshes(paint, pixels, view, hits.t, sunny);
     };
-    Color lit = lit_color<Mode>(job, hits, level_of(job, rays, hits, metres), without_shadow, work);
+    const Floats level = level_of(job, rays, hits, metres);
+    Color lit = lit_color<Mode>(job, hits, level, without_shadow, work);
+    const Color by_sun = lit;
+    if (!Mode::counts && job.albedo != nullptr) {
+        const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
+        lit = added(lit, reflected_from_points(job, paint, place.from_eye, hits, level));
+    }
     if (!Mode::counts && paint.grain != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = with_grain(paint, *job.paint, place, hits, lit);
+        lit = scaled(lit, light_of_grain(paint, *job.paint, place, hits, by_sun));
     }
     const Floats height = hn::Add(hits.height, all(job.rays.base_height));
     if (!Mode::counts && paint.facades != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = with_facades(*paint.facades, *job.paint, place, hits, height, lit, without_shadow);
+        lit = with_facades(job, paint, place, hits, height, lit, without_shadow);
     }
     if (!Mode::counts && paint.contours.interval > 0.0F) {
         lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -26,7 +28,7 @@ constexpr NumberRange sizes{16.0, 4096.0, false};
 constexpr NumberRange seeds{0.0, 4294967295.0, false};
 constexpr NumberRange exaggerations{0.0, terrain::max_exaggeration, true};
 constexpr NumberRange azimuths{-360.0, 360.0, false};
-constexpr NumberRange altitudes{0.0, 90.0, true};
+constexpr NumberRange altitudes{-90.0, 90.0, false};
 constexpr NumberRange tile_widths{material::min_tile_width, material::max_tile_width, false};
 constexpr NumberRange tile_scales{0.0, material::max_tile_scale, true};
 constexpr std::array<std::string_view, 3> generators{"natural", "urban", "gallery"};
@@ -39,6 +41,8 @@ constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr NumberRange object_heights{-max_object_height, max_object_height, false};
 constexpr NumberRange object_scales{0.0, max_object_scale, true};
+constexpr NumberRange intensities{0.0, max_intensity, true};
+constexpr NumberRange ranges{0.0, max_range, true};
 constexpr std::array<std::string_view, 2> roofs{"flat", "hipped"};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
 constexpr std::array<std::string_view, 2> placements{"plane", "ellipsoid"};
@@ -198,6 +202,26 @@ void read_object_keys(TomlTable& table, const std::filesystem::path& folder,
     scene.objects.push_back(std::move(object));
 }
 
+void read_point_light_keys(TomlTable& table, SceneDescription& scene) {
+    PointLightDescription light;
+    if (!table.has("at")) {
+        table.fail("at", "is missing, a latitude and a longitude or x and y were expected");
+    }
+    table.read("at", light.at);
+    table.read("height", light.height, object_heights);
+    table.read("intensity", light.intensity, intensities);
+    table.read("range", light.range, ranges);
+    std::string color;
+    table.read("color", color);
+    const auto parsed = color_from_hex(color);
+    if (!color.empty() && !parsed) {
+        table.fail("color",
+                   fmt::format("is \"{}\", a color such as \"#ffcc88\" was expected", color));
+    }
+    light.color = parsed.value_or(light.color);
+    scene.point_lights.push_back(light);
+}
+
 void read_footprint_keys(TomlTable& table, const std::filesystem::path& folder,
                          SceneDescription& scene) {
     FootprintsDescription footprints;
@@ -257,12 +281,39 @@ Result<void> read_arrays(TomlTable& root, const std::filesystem::path& folder,
                          SceneDescription& scene) {
     auto good = read_each(root, "object", max_objects,
                           [&](TomlTable& table) { read_object_keys(table, folder, scene); });
+    good = good ? read_each(root, "point_light", max_point_lights,
+                            [&](TomlTable& table) { read_point_light_keys(table, scene); })
+                : good;
     return good ? read_each(root, "footprints", max_footprint_files,
                             [&](TomlTable& table) { read_footprint_keys(table, folder, scene); })
                 : good;
 }
 
 } // namespace
+
+std::optional<Rgba8> color_from_hex(std::string_view text) {
+    std::uint32_t bits = 0;
+    constexpr std::size_t digits = 6;
+    const bool has_length = text.size() == digits + 1 && text.front() == '#';
+    if (!has_length) {
+        return std::nullopt;
+    }
+    const auto [end, code] = std::from_chars(text.data() + 1, text.data() + text.size(), bits, 16);
+    if (code != std::errc{} || end != text.data() + text.size()) {
+        return std::nullopt;
+    }
+    return Rgba8{static_cast<std::uint8_t>(bits >> 16U), static_cast<std::uint8_t>(bits >> 8U),
+                 static_cast<std::uint8_t>(bits), 255};
+}
+
+std::string to_hex(Rgba8 color) {
+    return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
+}
+
+double range_of(const PointLightDescription& light) {
+    constexpr double faint = 0.01;
+    return light.range.value_or(std::min(std::sqrt(light.intensity / faint), max_range));
+}
 
 Result<SceneDescription> parse_scene(std::string_view text, const std::string& name,
                                      const std::filesystem::path& folder) {

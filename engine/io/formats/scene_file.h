@@ -14,6 +14,7 @@
 
 #include "engine/building/city_form.h"
 #include "engine/building/roof.h"
+#include "engine/core/color.h"
 #include "engine/core/result.h"
 #include "engine/geo/sun_position.h"
 #include "engine/io/tile_set.h"
@@ -42,6 +43,26 @@ struct ObjectDescription {
 inline constexpr double max_object_height = 1e5; ///< metres, also below the ground
 inline constexpr double max_object_scale = 1e4;
 inline constexpr std::size_t max_objects = 10'000;
+
+/// [[point_light]]: a lamp above the ground (scene::PointLight).
+struct PointLightDescription {
+    std::optional<glm::dvec2> at; ///< as ObjectDescription::at; set by every reader
+    double height = 5.0;          ///< above the ground, metres
+    double intensity = 25.0;      ///< scene::PointLight::intensity, over 0
+    std::optional<double> range;  ///< metres, over 0; absent: see range_of()
+    Rgba8 color{255, 255, 255, 255};
+};
+inline constexpr double max_intensity = 1e12;
+inline constexpr double max_range = 1e6; ///< metres
+inline constexpr std::size_t max_point_lights = 1000;
+
+/// "#rrggbb", opaque; empty if it is none.
+std::optional<Rgba8> color_from_hex(std::string_view text);
+/// In small letters, without the alpha.
+std::string to_hex(Rgba8 color);
+
+/// Metres; by default to where the light would be 1 % of white.
+double range_of(const PointLightDescription& light);
 
 /// [[footprints]]: buildings on outlines. Either `height` or `surface` is given.
 struct FootprintsDescription {
@@ -91,11 +112,12 @@ struct SceneDescription {
     std::optional<DetailDescription> detail;
     std::vector<ObjectDescription> objects;
     std::vector<FootprintsDescription> footprints;
+    std::vector<PointLightDescription> point_lights;
 
     // [sun]: degrees, or a time
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude
     double sun_azimuth = 300.0; ///< of the light source, clockwise from north, [-360, 360]
-    double sun_altitude = 40.0; ///< above the horizon, (0, 90]
+    double sun_altitude = 40.0; ///< above the horizon, [-90, 90]
 
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility; ///< 0: no haze

@@ -14,4 +14,21 @@ std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples,
     return features;
 }
 
+namespace {
+
+std::uint32_t features_if(const FrameContext& frame, bool is_reached) {
+    return is_reached && !frame.hits && !frame.counts() ? std::uint32_t{feature_point_lights} : 0U;
+}
+
+} // namespace
+
+std::uint32_t point_light_features(const FrameContext& frame, const view::TileDraw& draw) {
+    const bool is_warped = draw.terrain->material.technique.id() == scene::TechniqueId::prewarp;
+    return features_if(frame, !is_warped && view::is_reached(frame.list, draw));
+}
+
+std::uint32_t point_light_features(const FrameContext& frame, const view::TerrainDraw& draw) {
+    return features_if(frame, view::is_reached(frame.list, draw));
+}
+
 } // namespace reljef::render

@@ -31,6 +31,11 @@ struct FrameContext {
 /// the picture.
 std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples, bool skips);
 
+/// feature_point_lights if point lights reach what is drawn; 0 for hits, and where prewarp shows
+/// other places than its triangles.
+std::uint32_t point_light_features(const FrameContext& frame, const view::TileDraw& draw);
+std::uint32_t point_light_features(const FrameContext& frame, const view::TerrainDraw& draw);
+
 // The passes. They fail as ShaderLibrary::program and without memory.
 
 Result<void> draw_terrain_tiles(const FrameContext& frame);

@@ -33,8 +33,9 @@ bool shows_tile(const scene::Material& material, const FrameContext& frame) {
     return material.detail.set != nullptr && !(frame.hits && scene::is_picture(material.detail));
 }
 
-ShaderVariant mesh_variant(const scene::Material& material, const FrameContext& frame) {
-    std::uint32_t features = frame.features;
+ShaderVariant mesh_variant(const scene::Material& material, const FrameContext& frame,
+                           std::uint32_t more_features) {
+    std::uint32_t features = frame.features | more_features;
     if (!shows_tile(material, frame)) {
         return {ShaderKind::mesh, features};
     }
@@ -91,12 +92,13 @@ void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull)
     ++stats.state_changes;
 }
 
-Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw) {
+Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw,
+                       std::uint32_t more_features) {
     const scene::Material& material = draw.mesh->material;
     const scene::Camera& camera = frame.list.camera;
     const MeshResidency& residency = frame.residency.meshes();
     DrawState& state = frame.state;
-    auto program = state.use(mesh_variant(material, frame));
+    auto program = state.use(mesh_variant(material, frame, more_features));
     if (!program) {
         return program.error();
     }
@@ -130,7 +132,7 @@ Result<void> draw_bases(const FrameContext& frame) {
     gl::set_depth_test(gl::DepthTest::always);
     Result<void> done;
     for (const view::MeshDraw& base : frame.list.bases) {
-        done = done ? draw_mesh(frame, base) : done;
+        done = done ? draw_mesh(frame, base, 0) : done;
     }
     gl::set_depth_test(gl::DepthTest::greater);
     frame.state.stats().state_changes += 2;
@@ -138,11 +140,13 @@ Result<void> draw_bases(const FrameContext& frame) {
 }
 
 Result<void> draw_meshes(const FrameContext& frame) {
+    const std::uint32_t points =
+        frame.hits || frame.list.point_lights.empty() ? 0U : std::uint32_t{feature_point_lights};
     for (const view::MeshDraw& draw : frame.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {
             continue;
         }
-        if (auto drawn = draw_mesh(frame, draw); !drawn) {
+        if (auto drawn = draw_mesh(frame, draw, points); !drawn) {
             return drawn;
         }
     }

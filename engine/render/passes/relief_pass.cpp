@@ -230,6 +230,25 @@ void bind_light(gl::Program& program, const FrameContext& frame, const view::Ter
     program.set(uniforms.lit_from_sample, maps.lit_from_sample);
 }
 
+// For the light of points.
+void bind_lit_ground(gl::Program& program, const FrameContext& frame,
+                     const view::TerrainDraw& draw) {
+    if (point_light_features(frame, draw) == 0) {
+        return;
+    }
+    if (is_streamed(draw)) {
+        const ResidentReliefTiles& tiles = frame.residency.relief_tiles().tiles(draw);
+        tiles.albedo->bind(bindings::lit_albedo_unit);
+        tiles.normals->bind(bindings::lit_normals_unit);
+    } else {
+        const ResidentGround& ground = frame.residency.ground().ground(*draw.terrain);
+        ground.albedo.bind(bindings::lit_albedo_unit);
+        ground.surface.bind(bindings::lit_normals_unit);
+    }
+    program.set(uniforms.world_from_normal, world_from_normal(draw.world_from_local));
+    ++frame.state.stats().state_changes;
+}
+
 void set_space(gl::Program& program, const scene::Camera& camera, const ReliefSpace& space,
                const glm::dmat4& world_from_local) {
     const glm::dmat3 local_from_world(glm::inverse(world_from_local));
@@ -280,6 +299,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     const ReliefSpace& space = drawn.space;
     if (!frame.hits) {
         bind_light(program, frame, draw);
+        bind_lit_ground(program, frame, draw);
         ++frame.state.stats().state_changes;
     }
     set_heights(program, frame, draw);
@@ -319,7 +339,8 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     const std::uint32_t unused = uses_beams(frame, technique) ? 0U : feature_beams;
     auto program = state.use(
         {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
-                                 surface_features(draw) | overlay_features(frame, *draw.terrain)});
+                                 surface_features(draw) | overlay_features(frame, *draw.terrain) |
+                                 point_light_features(frame, draw)});
     if (!program) {
         return program.error();
     }

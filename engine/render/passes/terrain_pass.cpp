@@ -37,6 +37,14 @@ void bind_ground(gl::Program& program, const ResidentGround& ground) {
 
 enum class Part { wide, mild_slivers, narrow_slivers }; // view::Slivers
 
+// For the light of points.
+void bind_lit_ground(gl::Program& program, const ResidentGround& ground,
+                     const glm::dmat4& world_from_local) {
+    ground.albedo.bind(bindings::lit_albedo_unit);
+    ground.surface.bind(bindings::lit_normals_unit);
+    program.set(uniforms.world_from_normal, world_from_normal(world_from_local));
+}
+
 // Sets shared state once for successive tiles of a terrain.
 class TerrainPass {
 public:
@@ -59,7 +67,7 @@ public:
                 return set;
             }
             if (draw.tile->borrows) {
-                bind_shared_maps(*draw.terrain);
+                bind_shared_maps(*draw.terrain, world_from_local);
             }
         }
         if (!draw.tile->borrows) {
@@ -82,7 +90,8 @@ private:
     }
 
     [[nodiscard]] bool is_set_for(const view::TileDraw& draw, view::DetailLevel detail) const {
-        return terrain_ == draw.terrain && detail_ == detail && overlay_ == overlay_of(draw);
+        return terrain_ == draw.terrain && detail_ == detail && overlay_ == overlay_of(draw) &&
+               points_ == points_of(draw);
     }
 
     // Far tiles show no grain.
@@ -90,10 +99,15 @@ private:
         return overlay_features(frame_, *draw.terrain, draw.distance);
     }
 
+    [[nodiscard]] std::uint32_t points_of(const view::TileDraw& draw) const {
+        return point_light_features(frame_, draw);
+    }
+
     Result<void> set_for(const view::TileDraw& draw, view::DetailLevel detail,
                          const glm::dmat4& world_from_local) {
         const scene::TerrainNode& terrain = *draw.terrain;
         overlay_ = overlay_of(draw);
+        points_ = points_of(draw);
         auto program = state_.use(variant_for(terrain, detail));
         if (!program) {
             return program.error();
@@ -114,7 +128,7 @@ private:
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
-        const std::uint32_t features = frame_.features |
+        const std::uint32_t features = frame_.features | points_ |
                                        (part_ != Part::wide ? feature_sliver : 0U) |
                                        (part_ == Part::narrow_slivers ? feature_corner_depth : 0U);
         if (detail != view::DetailLevel::none) {
@@ -125,7 +139,7 @@ private:
     }
 
     // Of a terrain in memory.
-    void bind_shared_maps(const scene::TerrainNode& terrain) {
+    void bind_shared_maps(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (frame_.hits) {
             return;
         }
@@ -134,6 +148,8 @@ private:
         program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, frame_.residency.ground().ground(terrain));
+        } else if (points_ != 0) {
+            bind_lit_ground(*program_, frame_.residency.ground().ground(terrain), world_from_local);
         }
         ++state_.stats().state_changes;
     }
@@ -147,6 +163,8 @@ private:
         program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, *maps.ground);
+        } else if (points_ != 0) {
+            bind_lit_ground(*program_, *maps.ground, frame_.list.world_from_local(draw));
         }
         ++state_.stats().state_changes;
     }
@@ -237,6 +255,7 @@ private:
     const scene::TerrainNode* terrain_ = nullptr; // of the program's state
     view::DetailLevel detail_ = view::DetailLevel::none;
     std::uint32_t overlay_ = 0;
+    std::uint32_t points_ = 0;
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "engine/render/residency/ground_residency.h"
 
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -47,7 +48,30 @@ Result<void> GroundResidency::prepare(const view::DrawList& list, view::FrameSta
         if (!draw->tile->borrows) {
             continue; // it has a map of its own
         }
-        if (auto done = prepare_ground(list, *draw, stats); !done) {
+        if (auto done = prepare_ground(list, *draw->terrain, list.world_from_local(*draw), stats);
+            !done) {
+            return done;
+        }
+    }
+    return prepare_lit_grounds(list, stats);
+}
+
+// Terrains in memory: loaded tiles have maps of their own.
+Result<void> GroundResidency::prepare_lit_grounds(const view::DrawList& list,
+                                                  view::FrameStats& stats) {
+    std::map<const scene::TerrainNode*, glm::dmat4> reached;
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.tile->borrows && view::is_reached(list, draw)) {
+            reached.emplace(draw.terrain, list.world_from_local(draw));
+        }
+    }
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (draw->search->tiles.empty() && view::is_reached(list, *draw)) {
+            reached.emplace(draw->terrain, draw->world_from_local);
+        }
+    }
+    for (const auto& [terrain, world_from_local] : reached) {
+        if (auto done = prepare_ground(list, *terrain, world_from_local, stats); !done) {
             return done;
         }
     }
@@ -59,10 +83,11 @@ Result<void> GroundResidency::prepare_tile(const scene::TerrainDetail& detail,
     return tiles_.prepare(detail.set, ground_side(), detail.technique.id(), stats);
 }
 
-Result<void> GroundResidency::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+Result<void> GroundResidency::prepare_ground(const view::DrawList& list,
+                                             const scene::TerrainNode& terrain,
+                                             const glm::dmat4& world_from_local,
                                              view::FrameStats& stats) {
-    const scene::TerrainNode& terrain = *draw.terrain;
-    const auto light = view::light_on(list, list.world_from_local(draw));
+    const auto light = view::light_on(list, world_from_local);
     const auto found = grounds_.find(&terrain);
     if (found != grounds_.end() && found->second.owner.lock() == terrain.surface &&
         found->second.light == light) {

@@ -25,13 +25,14 @@ Result<ResidentGround> resident_ground(const view::GroundMap& map, glm::vec4 gro
                                        view::FrameStats& stats);
 
 /// The surface detail of terrains in GPU memory: its tiles, and the maps of the ground, again when
-/// the sun moves.
+/// the sun moves. The maps are also there for terrains that point lights reach.
 class GroundResidency {
 public:
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
 
     /// Precondition: prepared; the list shows detail on the terrain.
     [[nodiscard]] const TileResidency& tiles() const { return tiles_; }
+    /// Precondition: the same, or point lights reach the terrain, which is in memory.
     [[nodiscard]] const ResidentGround& ground(const scene::TerrainNode& terrain) const;
 
 private:
@@ -41,8 +42,9 @@ private:
         ResidentGround resident;
     };
     Result<void> prepare_tile(const scene::TerrainDetail& detail, view::FrameStats& stats);
-    Result<void> prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
-                                view::FrameStats& stats);
+    Result<void> prepare_ground(const view::DrawList& list, const scene::TerrainNode& terrain,
+                                const glm::dmat4& world_from_local, view::FrameStats& stats);
+    Result<void> prepare_lit_grounds(const view::DrawList& list, view::FrameStats& stats);
 
     TileResidency tiles_;
     std::map<const scene::TerrainNode*, Ground> grounds_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -38,6 +39,68 @@ Grid<float> halved(const Grid<float>& fine) {
     }
     return coarse;
 }
+
+using Tiles = std::span<const std::shared_ptr<const scene::TerrainTile>>;
+
+// Along a side. A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
+constexpr int max_pages = 1024;
+
+// The level of the finest tiles, or a coarser one whose pages are few enough.
+int finest_level(const terrain::TileTree& tree, Tiles tiles) {
+    int level = tree.root().level;
+    for (const auto& tile : tiles) {
+        level = std::min(level, tile->id.level);
+    }
+    const auto longest = [&](int at) {
+        const glm::ivec2 pages = terrain::level_tiles(tree, at);
+        return std::max(pages.x, pages.y);
+    };
+    while (longest(level) > max_pages) {
+        ++level;
+    }
+    return level;
+}
+
+terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
+    terrain::MinMax range = overview.pyramid().total();
+    for (const auto& tile : tiles) {
+        range.low = std::min(range.low, static_cast<float>(tile->range.low));
+        range.high = std::max(range.high, static_cast<float>(tile->range.high));
+    }
+    return range;
+}
+
+// Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close
+// it at a pole count like all others.
+struct SamplePlaces {
+    SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
+        : exaggeration(builder.overview().placement().exaggeration()) {
+        const glm::dvec2 first = glm::min(glm::dvec2(1.0), 0.25 * last_sample);
+        const glm::dvec2 second = last_sample - first;
+        const glm::dvec2 first_on_overview = builder.on_overview(first);
+        overview_a_sample = (builder.on_overview(second) - first_on_overview) / (second - first);
+        overview_origin = first_on_overview - first * overview_a_sample;
+        const auto local = [&](glm::dvec2 sample) {
+            return glm::dvec2(builder.overview().placement().world_from_sample(
+                {builder.on_overview(sample), 0.0}));
+        };
+        metres_a_sample = (local(second) - local(first)) / (second - first);
+        origin = local(first) - first * metres_a_sample;
+    }
+
+    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const {
+        return overview_origin + sample * overview_a_sample;
+    }
+    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const {
+        return (sample - overview_origin) / overview_a_sample;
+    }
+
+    double exaggeration;
+    glm::dvec2 metres_a_sample{1.0};
+    glm::dvec2 origin{0.0};
+    glm::dvec2 overview_a_sample{1.0};
+    glm::dvec2 overview_origin{0.0};
+};
 
 } // namespace
 
@@ -103,6 +166,45 @@ void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>
     space.box.high.z = 1.0 + view::relief_margin;
     space.local_box.add(local(space.box.low));
     space.local_box.add(local(space.box.high));
+}
+
+StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm::dvec3 eye,
+                             const std::optional<view::RayCourse>& course) {
+    const terrain::TileTree& tree = builder.tree();
+    const int samples_in_tree = 1 << builder.level_of_samples(); // of the tree, per sample
+    StreamedSpace made;
+    made.level = finest_level(tree, tiles);
+    made.last_cell = terrain::level_cells(tree, made.level) - 1;
+    made.samples_a_cell = static_cast<double>(1 << made.level) / samples_in_tree;
+    const glm::dvec2 last_sample =
+        glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
+    const SamplePlaces places(builder, last_sample);
+    const glm::dvec2 eye_sample = course
+                                      ? places.from_overview(glm::dvec2(course->eye))
+                                      : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
+    made.origin = glm::ivec2(glm::clamp(glm::floor(eye_sample / made.samples_a_cell),
+                                        glm::dvec2(0.0), glm::dvec2(made.last_cell)));
+    made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
+
+    ReliefSpace& space = made.space;
+    const terrain::MinMax range = range_of(builder.overview(), tiles);
+    space.lowest = range.low;
+    space.range = range.high > range.low ? static_cast<double>(range.high) - range.low : 1.0;
+    space.box.low = glm::dvec3(-glm::dvec2(made.origin), 0.0);
+    space.box.high = glm::dvec3(last_sample / made.samples_a_cell - glm::dvec2(made.origin), 1.0);
+    if (course) {
+        space.samples_per_unit =
+            glm::dvec3(made.samples_a_cell * places.overview_a_sample, space.range);
+        space.sample_of_origin = glm::dvec3(places.on_overview(made.origin_sample), space.lowest);
+        place_curved_space(space, builder.overview().placement());
+        return made;
+    }
+    place_space(space, [&](glm::dvec3 place) {
+        const glm::dvec2 sample = made.origin_sample + glm::dvec2(place) * made.samples_a_cell;
+        return glm::dvec3(places.origin + sample * places.metres_a_sample,
+                          (space.lowest + space.range * place.z) * places.exaggeration);
+    });
+    return made;
 }
 
 Grid<glm::vec2> cone_texels(const material::ConeMaps& cones) {

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -11,6 +14,8 @@
 #include "engine/core/grid.h"
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/terrain_node.h"
+#include "engine/scene/streaming/tile_builder.h"
+#include "engine/view/ray_course.h"
 
 namespace reljef::render {
 
@@ -39,6 +44,21 @@ ReliefSpace moved_to(const ReliefSpace& space, glm::dvec2 origin);
 
 /// The same on the ellipsoid, from the samples of the space.
 void place_curved_space(ReliefSpace& space, const terrain::Placement& placement);
+
+/// The search space over the tiles of a stream: x and y count the cells of the finest tiles, from
+/// an origin near the eye, where floats are precise.
+struct StreamedSpace {
+    ReliefSpace space;
+    int level = 0;                 ///< of the finest tiles
+    glm::ivec2 origin{0};          ///< cell at (0, 0)
+    glm::ivec2 last_cell{0};       ///< of the terrain
+    glm::dvec2 origin_sample{0.0}; ///< of the terrain
+    double samples_a_cell = 1.0;
+};
+/// `eye`: local metres. `course`: of the view rays on the ellipsoid; empty over a plane.
+StreamedSpace streamed_space(const scene::TileBuilder& builder,
+                             std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
+                             glm::dvec3 eye, const std::optional<view::RayCourse>& course);
 
 /// A mip chain of maximum heights, in [0,1] of the range: level n covers 2^n × 2^n cells. The sides
 /// of level 0 are powers of two; texels beyond the cells are 0.

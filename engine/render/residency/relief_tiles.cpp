@@ -11,6 +11,7 @@
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/triangles/resident_mesh.h"
 #include "engine/terrain/tree/tile_error.h"
 
 namespace reljef::render {
@@ -25,66 +26,6 @@ static_assert(gl::max_layers >= view::max_relief_tiles);
 
 // Frames that the tiles of a stream stay unused.
 constexpr std::uint64_t kept_frames_of_stream = 8;
-
-// Along a side. A page takes 8 bytes, and a third more for the coarser levels: 11 MB.
-constexpr int max_pages = 1024;
-
-// The level of the finest tiles, or a coarser one whose pages are few enough.
-int finest_level(const terrain::TileTree& tree, Tiles tiles) {
-    int level = tree.root().level;
-    for (const auto& tile : tiles) {
-        level = std::min(level, tile->id.level);
-    }
-    const auto longest = [&](int at) {
-        const glm::ivec2 pages = terrain::level_tiles(tree, at);
-        return std::max(pages.x, pages.y);
-    };
-    while (longest(level) > max_pages) {
-        ++level;
-    }
-    return level;
-}
-
-terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
-    terrain::MinMax range = overview.pyramid().total();
-    for (const auto& tile : tiles) {
-        range.low = std::min(range.low, static_cast<float>(tile->range.low));
-        range.high = std::max(range.high, static_cast<float>(tile->range.high));
-    }
-    return range;
-}
-
-// Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close
-// it at a pole count like all others.
-struct SamplePlaces {
-    SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
-        : exaggeration(builder.overview().placement().exaggeration()) {
-        const glm::dvec2 first = glm::min(glm::dvec2(1.0), 0.25 * last_sample);
-        const glm::dvec2 second = last_sample - first;
-        const glm::dvec2 first_on_overview = builder.on_overview(first);
-        overview_a_sample = (builder.on_overview(second) - first_on_overview) / (second - first);
-        overview_origin = first_on_overview - first * overview_a_sample;
-        const auto local = [&](glm::dvec2 sample) {
-            return glm::dvec2(builder.overview().placement().world_from_sample(
-                {builder.on_overview(sample), 0.0}));
-        };
-        metres_a_sample = (local(second) - local(first)) / (second - first);
-        origin = local(first) - first * metres_a_sample;
-    }
-
-    [[nodiscard]] glm::dvec2 on_overview(glm::dvec2 sample) const {
-        return overview_origin + sample * overview_a_sample;
-    }
-    [[nodiscard]] glm::dvec2 from_overview(glm::dvec2 sample) const {
-        return (sample - overview_origin) / overview_a_sample;
-    }
-
-    double exaggeration;
-    glm::dvec2 metres_a_sample{1.0};
-    glm::dvec2 origin{0.0};
-    glm::dvec2 overview_a_sample{1.0};
-    glm::dvec2 overview_origin{0.0};
-};
 
 // Repeats the last column and row up to the full size.
 template <class T> Grid<T> extended(const Grid<T>& grid, int side) {
@@ -181,9 +122,10 @@ Result<void> create_missing(std::optional<gl::TextureArray>& array,
     return {};
 }
 
-Result<void> upload_lit(gl::TextureArray& array, int layer, const Image& lit,
-                        view::FrameStats& stats) {
-    auto texture = upload_mipmapped(extended(lit, array.size().x), gl::Format::rgba8_srgb, stats);
+template <class Texel>
+Result<void> upload_layer(gl::TextureArray& array, int layer, const Grid<Texel>& texels,
+                          gl::Format format, view::FrameStats& stats) {
+    auto texture = upload_mipmapped(extended(texels, array.size().x), format, stats);
     if (!texture) {
         return texture.error();
     }
@@ -191,46 +133,12 @@ Result<void> upload_lit(gl::TextureArray& array, int layer, const Image& lit,
     return {};
 }
 
-} // namespace
-
-StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm::dvec3 eye,
-                             const std::optional<view::RayCourse>& course) {
-    const terrain::TileTree& tree = builder.tree();
-    const int samples_in_tree = 1 << builder.level_of_samples(); // of the tree, per sample
-    StreamedSpace made;
-    made.level = finest_level(tree, tiles);
-    made.last_cell = terrain::level_cells(tree, made.level) - 1;
-    made.samples_a_cell = static_cast<double>(1 << made.level) / samples_in_tree;
-    const glm::dvec2 last_sample =
-        glm::dvec2(tree.cols() - 1, tree.rows() - 1) / static_cast<double>(samples_in_tree);
-    const SamplePlaces places(builder, last_sample);
-    const glm::dvec2 eye_sample = course
-                                      ? places.from_overview(glm::dvec2(course->eye))
-                                      : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
-    made.origin = glm::ivec2(glm::clamp(glm::floor(eye_sample / made.samples_a_cell),
-                                        glm::dvec2(0.0), glm::dvec2(made.last_cell)));
-    made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
-
-    ReliefSpace& space = made.space;
-    const terrain::MinMax range = range_of(builder.overview(), tiles);
-    space.lowest = range.low;
-    space.range = range.high > range.low ? static_cast<double>(range.high) - range.low : 1.0;
-    space.box.low = glm::dvec3(-glm::dvec2(made.origin), 0.0);
-    space.box.high = glm::dvec3(last_sample / made.samples_a_cell - glm::dvec2(made.origin), 1.0);
-    if (course) {
-        space.samples_per_unit =
-            glm::dvec3(made.samples_a_cell * places.overview_a_sample, space.range);
-        space.sample_of_origin = glm::dvec3(places.on_overview(made.origin_sample), space.lowest);
-        place_curved_space(space, builder.overview().placement());
-        return made;
-    }
-    place_space(space, [&](glm::dvec3 place) {
-        const glm::dvec2 sample = made.origin_sample + glm::dvec2(place) * made.samples_a_cell;
-        return glm::dvec3(places.origin + sample * places.metres_a_sample,
-                          (space.lowest + space.range * place.z) * places.exaggeration);
-    });
-    return made;
+Result<void> upload_lit(gl::TextureArray& array, int layer, const Image& lit,
+                        view::FrameStats& stats) {
+    return upload_layer(array, layer, lit, gl::Format::rgba8_srgb, stats);
 }
+
+} // namespace
 
 Result<void> ReliefTiles::prepare(const view::DrawList& list, bool with_light, TileMaps& lights,
                                   view::FrameStats& stats) {
@@ -270,6 +178,9 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Terrai
         done = prepare_light(stream, tiles, source->maker(), lit,
                              light ? &lights.irradiance_of(source, *light) : nullptr, stats);
     }
+    if (done && with_light && view::is_reached(list, draw)) {
+        done = prepare_ground(stream, tiles, source->maker(), stats);
+    }
     return done;
 }
 
@@ -281,7 +192,7 @@ std::vector<ReliefTiles::Drawn> ReliefTiles::placed(Stream& stream,
         if (tile->id.level >= stream.resident.space.level) {
             Slot& slot = stream.slots[tile->id];
             const bool is_new = slot.owner.lock() != tile;
-            slot = is_new ? Slot{tile, slot.layer, frame_, false, false, false, {}} : slot;
+            slot = is_new ? Slot{.owner = tile, .layer = slot.layer, .drawn = frame_} : slot;
             slot.drawn = frame_;
             drawn.push_back({tile, &slot});
         }
@@ -289,11 +200,11 @@ std::vector<ReliefTiles::Drawn> ReliefTiles::placed(Stream& stream,
     const auto needed = static_cast<int>(drawn.size());
     if (needed > stream.layers) {
         stream.layers = std::min(std::max(needed + needed / 4, min_layers), gl::max_layers);
-        stream.resident = {stream.resident.space, {}, {}, {}, {}, {}, {}};
+        stream.resident = {.space = stream.resident.space};
         std::erase_if(stream.slots,
                       [&](const auto& entry) { return entry.second.drawn != frame_; });
         for (auto& [tile, slot] : stream.slots) {
-            slot = {slot.owner, no_layer, frame_, false, false, false, {}};
+            slot = Slot{.owner = slot.owner, .layer = no_layer, .drawn = frame_};
         }
     }
     place_new(stream);
@@ -419,8 +330,11 @@ Result<void> ReliefTiles::prepare_light_arrays(Stream& stream, const std::vector
         (resident.lit->size().x != side || resident.sun.has_value() != lit.in_parts)) {
         resident.lit.reset();
         resident.sun.reset();
+        resident.albedo.reset();
+        resident.normals.reset();
         for (auto& [tile, slot] : stream.slots) {
             slot.lit.reset();
+            slot.has_ground = false;
         }
     }
     const gl::TextureOptions options{.size = glm::ivec2(side),
@@ -453,6 +367,33 @@ Result<void> ReliefTiles::prepare_light(Stream& stream, const std::vector<Drawn>
             done = upload(*tile, slot->layer);
             slot->lit = done ? std::optional(lit) : std::nullopt;
         }
+    }
+    return done;
+}
+
+// Precondition: the light is prepared.
+Result<void> ReliefTiles::prepare_ground(Stream& stream, const std::vector<Drawn>& tiles,
+                                         const scene::TileBuilder& builder,
+                                         view::FrameStats& stats) {
+    ResidentReliefTiles& resident = stream.resident;
+    const int side = resident.lit->size().x;
+    gl::TextureOptions options{.size = glm::ivec2(side),
+                               .format = gl::Format::rgba8_srgb,
+                               .levels = gl::full_chain,
+                               .filter = gl::Filter::trilinear};
+    auto done = create_missing(resident.albedo, options, stream.layers);
+    options.format = gl::Format::rgba16_snorm;
+    done = done ? create_missing(resident.normals, options, stream.layers) : done;
+    for (const auto& [tile, slot] : tiles) {
+        if (!done || slot->has_ground) {
+            continue;
+        }
+        const view::GroundMap map = ground_of_tile(builder, *tile, nullptr);
+        done = upload_lit(*resident.albedo, slot->layer, map.albedo, stats);
+        done = done ? upload_layer(*resident.normals, slot->layer, snorm16(map.surface),
+                                   options.format, stats)
+                    : done;
+        slot->has_ground = done.has_value();
     }
     return done;
 }

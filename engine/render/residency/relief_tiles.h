@@ -15,30 +15,17 @@
 
 namespace reljef::render {
 
-/// The search space over the tiles of a stream: x and y count the cells of the finest tiles, from
-/// an origin near the eye, where floats are precise.
-struct StreamedSpace {
-    ReliefSpace space;
-    int level = 0;                 ///< of the finest tiles
-    glm::ivec2 origin{0};          ///< cell at (0, 0)
-    glm::ivec2 last_cell{0};       ///< of the terrain
-    glm::dvec2 origin_sample{0.0}; ///< of the terrain
-    double samples_a_cell = 1.0;
-};
-/// `eye`: local metres. `course`: of the view rays on the ellipsoid; empty over a plane.
-StreamedSpace streamed_space(const scene::TileBuilder& builder,
-                             std::span<const std::shared_ptr<const scene::TerrainTile>> tiles,
-                             glm::dvec3 eye, const std::optional<view::RayCourse>& course);
-
 /// A stream's tiles for rays. Each tile has the same layer in all arrays; see stream_tiles.glsl.
 struct ResidentReliefTiles {
     StreamedSpace space;
-    std::optional<gl::Texture2D> pages;
-    std::optional<gl::TextureArray> heights;
-    std::optional<gl::TextureArray> max_mipmaps; ///< for exact and beams
-    std::optional<gl::TextureArray> cones;       ///< for cone
-    std::optional<gl::TextureArray> lit;         ///< of the sky only if there is `sun`
-    std::optional<gl::TextureArray> sun;         ///< if rays cast the shadows
+    std::optional<gl::Texture2D> pages = {};
+    std::optional<gl::TextureArray> heights = {};
+    std::optional<gl::TextureArray> max_mipmaps = {}; ///< for exact and beams
+    std::optional<gl::TextureArray> cones = {};       ///< for cone
+    std::optional<gl::TextureArray> lit = {};         ///< of the sky only if there is `sun`
+    std::optional<gl::TextureArray> sun = {};         ///< if rays cast the shadows
+    std::optional<gl::TextureArray> albedo = {};      ///< for point lights
+    std::optional<gl::TextureArray> normals = {};     ///< for point lights
 };
 
 /// The tiles of streams that rays search, in GPU memory. A tile stays until its layer is needed, or
@@ -70,7 +57,8 @@ private:
         bool has_heights = false;
         bool has_max = false;
         bool has_cones = false;
-        std::optional<Lit> lit;
+        bool has_ground = false;
+        std::optional<Lit> lit = {};
     };
     struct Stream {
         std::weak_ptr<scene::TileStream> owner;
@@ -103,6 +91,8 @@ private:
                                       const scene::TileBuilder& builder, const Lit& lit,
                                       const scene::TerrainIrradiance* irradiance,
                                       view::FrameStats& stats);
+    static Result<void> prepare_ground(Stream& stream, const std::vector<Drawn>& tiles,
+                                       const scene::TileBuilder& builder, view::FrameStats& stats);
     static Result<void> prepare_pages(Stream& stream, const std::vector<Drawn>& tiles,
                                       view::FrameStats& stats);
 

@@ -15,7 +15,8 @@ glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::Terrain
     return {glm::vec2((texels - 1.0) / (samples * texels)), glm::vec2(0.5 / texels)};
 }
 
-// A tile's ground map with the albedo's size and the overview's shadows.
+} // namespace
+
 view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
                                const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
@@ -34,8 +35,6 @@ view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::Ter
     }
     return map;
 }
-
-} // namespace
 
 TileMaps::Entry& TileMaps::entry_of(const view::TileDraw& draw) {
     Entry& entry = entries_[key_of(draw)];
@@ -58,7 +57,7 @@ Result<void> TileMaps::prepare(const view::DrawList& list, view::FrameStats& sta
         if (auto done = prepare_light(list, draw, entry, stats); !done) {
             return done;
         }
-        if (auto done = prepare_ground(draw, entry, stats); !done) {
+        if (auto done = prepare_ground(list, draw, entry, stats); !done) {
             return done;
         }
     }
@@ -89,10 +88,10 @@ Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::Til
     return {};
 }
 
-Result<void> TileMaps::prepare_ground(const view::TileDraw& draw, Entry& entry,
-                                      view::FrameStats& stats) {
-    if (draw.detail == view::DetailLevel::none) {
-        entry.maps.ground.reset(); // no budget counts it: keep it only near the eye
+Result<void> TileMaps::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+                                      Entry& entry, view::FrameStats& stats) {
+    if (draw.detail == view::DetailLevel::none && !view::is_reached(list, draw)) {
+        entry.maps.ground.reset(); // no budget counts it: keep it only where it is seen
         return {};
     }
     if (entry.maps.ground) {

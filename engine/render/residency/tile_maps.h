@@ -19,8 +19,13 @@ namespace reljef::render {
 struct ResidentTileMaps {
     std::optional<gl::Texture2D> lit;
     glm::vec4 lit_from_sample{0.0F};
-    std::optional<ResidentGround> ground; ///< for visible surface detail
+    std::optional<ResidentGround> ground; ///< for visible surface detail and point lights
 };
+
+/// A tile's ground map with the albedo's size and the overview's shadows. `irradiance`: null: no
+/// shadows.
+view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
+                               const scene::TerrainIrradiance* irradiance);
 
 /// The maps of loaded tiles in GPU memory. Made on first use, and again when the sun moves. Dropped
 /// when the stream drops the tile or after some frames unused.
@@ -58,7 +63,8 @@ private:
     Entry& entry_of(const view::TileDraw& draw);
     Result<void> prepare_light(const view::DrawList& list, const view::TileDraw& draw, Entry& entry,
                                view::FrameStats& stats);
-    Result<void> prepare_ground(const view::TileDraw& draw, Entry& entry, view::FrameStats& stats);
+    Result<void> prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
+                                Entry& entry, view::FrameStats& stats);
     std::uint64_t frame_ = 0;
     std::map<Key, Entry> entries_;
     std::map<const scene::TileStream*, SharedLight> lights_;

@@ -1,5 +1,7 @@
 #include "engine/render/shaders/frame_block.h"
 
+#include <type_traits>
+
 #include "engine/render/shaders/view_values.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/error_view.h"
@@ -48,6 +50,21 @@ FrameBlock frame_block(const view::DrawList& list) {
         block.sky_glow = glm::vec4(sky.glow, air.eye_density);
         block.air = glm::vec4(air.extinction, air.per_height);
         block.sky_plane = glm::vec4(sky.plane.value_or(glm::vec3(0.0F)), air.eye_above);
+    }
+    return block;
+}
+
+PointLightBlock point_light_block(const view::DrawList& list) {
+    static_assert(std::extent_v<decltype(PointLightBlock::point_light_places)> ==
+                  scene::max_shown_point_lights);
+    constexpr float nearest = scene::nearest_point_light;
+    PointLightBlock block{};
+    block.point_light_count = {list.point_lights.size(), nearest * nearest, 0.0F, 0.0F};
+    for (std::size_t i = 0; i < list.point_lights.size(); ++i) {
+        const auto& [light, place] = list.point_lights[i];
+        block.point_light_places[i] =
+            glm::vec4(glm::vec3(place - list.camera.eye), 1.0F / (light.range * light.range));
+        block.point_light_colors[i] = glm::vec4(light.color * light.intensity, 0.0F);
     }
     return block;
 }

@@ -30,10 +30,13 @@ static_assert(sizeof(FrameBlock) == 64 + 16 * 16);
 inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_block_binding,
                                                 sizeof(FrameBlock)};
 
-inline constexpr std::array block_layouts{FrameBlock::layout,  TechniqueBlock::layout,
-                                          ReliefBlock::layout, DetailBlock::layout,
-                                          CourseBlock::layout, OverlayBlock::layout};
+inline constexpr std::array block_layouts{
+    FrameBlock::layout,  TechniqueBlock::layout, ReliefBlock::layout,    DetailBlock::layout,
+    CourseBlock::layout, OverlayBlock::layout,   PointLightBlock::layout};
 
 FrameBlock frame_block(const view::DrawList& list);
+
+/// Of the list's point lights.
+PointLightBlock point_light_block(const view::DrawList& list);
 
 } // namespace reljef::render

@@ -18,14 +18,14 @@ constexpr std::array<std::string_view, 11> file_names{
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeature.
-constexpr std::array<std::string_view, 31> feature_names{
+constexpr std::array<std::string_view, 32> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
     "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY",
-    "FACADES"};
-static_assert(std::bit_width(std::uint32_t{feature_facades}) == feature_names.size());
+    "FACADES",     "POINT_LIGHTS"};
+static_assert(std::bit_width(std::uint32_t{feature_point_lights}) == feature_names.size());
 
 std::string header_of(std::uint32_t features) {
     std::string header = "#version 450 core\n";
@@ -204,12 +204,17 @@ std::uint32_t overlay_of(std::uint32_t features) {
     return has_none ? 0U : features & (feature_overlay | feature_facades);
 }
 
+std::uint32_t points_of(std::uint32_t features) {
+    return (features & feature_hit) != 0 ? 0U : features & feature_point_lights;
+}
+
 // Features of a kind of shader except light, fog and hit.
 std::uint32_t own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
     const std::uint32_t wrap = variant.features & feature_wrap;
     const std::uint32_t lighting = is_lit ? lighting_of(variant.features) : 0U;
+    const std::uint32_t points = points_of(variant.features);
     constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
     const bool on_mesh = variant.kind == ShaderKind::relief_mesh;
     const std::uint32_t foreign = (on_mesh ? 0U : feature_layers) |
@@ -219,24 +224,27 @@ std::uint32_t own_features(ShaderVariant variant) {
     case ShaderKind::terrain:
         return (variant.features & feature_warped) != 0
                    ? feature_warped
-                   : sliver_of(variant.features) | overlay_of(variant.features);
+                   : sliver_of(variant.features) | overlay_of(variant.features) | points;
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
-               overlay_of(variant.features) |
+               overlay_of(variant.features) | points |
                (variant.features & (feature_streamed | feature_curved));
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
     case ShaderKind::relief_mesh:
-        return search | options_of(variant.features, search) | wrap;
+        return search | options_of(variant.features, search) | wrap | points;
     case ShaderKind::textured_mesh:
-        return (variant.features & feature_warped) | (is_hit ? wrap : lighting);
+        return (variant.features & feature_warped) | (is_hit ? wrap : lighting) | points;
     case ShaderKind::textured_terrain:
-        return lighting | sliver_of(variant.features);
+        return lighting | sliver_of(variant.features) | points;
     case ShaderKind::relief_hull:
-        return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap;
+        return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap |
+               points;
     case ShaderKind::relief_terrain:
         return search | (options_of(variant.features, search) & shadows) |
-               sliver_of(variant.features);
+               sliver_of(variant.features) | points;
+    case ShaderKind::mesh:
+        return points;
     default:
         return 0U;
     }
@@ -267,7 +275,8 @@ bool counts_work(ShaderVariant variant) {
 
 ShaderVariant counting_variant(ShaderVariant variant) {
     constexpr std::uint32_t looks = feature_counting | feature_fog | feature_write_depth |
-                                    feature_multisampled | feature_overlay | feature_facades;
+                                    feature_multisampled | feature_overlay | feature_facades |
+                                    feature_point_lights;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;

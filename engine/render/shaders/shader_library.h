@@ -69,6 +69,7 @@ enum ShaderFeature : std::uint32_t {
     feature_corner_depth = 1U << 28U, ///< of slivers: depth from their corners, too
     feature_overlay = 1U << 29U,      ///< of a terrain: grain and contours
     feature_facades = 1U << 30U,      ///< of an overlay
+    feature_point_lights = 1U << 31U, ///< of terrains and meshes: scene::PointLight
 };
 
 struct ShaderVariant {

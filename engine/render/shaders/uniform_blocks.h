@@ -86,6 +86,18 @@ static_assert(sizeof(OverlayBlock) == 13 * 16);
 inline constexpr BlockLayout OverlayBlock::layout{"OverlayBlock", bindings::overlay_block_binding,
                                                   sizeof(OverlayBlock)};
 
+struct PointLightBlock {
+    using vec4 = glm::vec4;
+    static const BlockLayout layout;
+#include "shaders/material/point_lights.inc"
+};
+static_assert(offsetof(PointLightBlock, point_light_count) == 0);
+static_assert(offsetof(PointLightBlock, point_light_places) == 16);
+static_assert(offsetof(PointLightBlock, point_light_colors) == 17 * 16);
+static_assert(sizeof(PointLightBlock) == 33 * 16);
+inline constexpr BlockLayout PointLightBlock::layout{
+    "PointLightBlock", bindings::point_light_block_binding, sizeof(PointLightBlock)};
+
 struct CourseBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;

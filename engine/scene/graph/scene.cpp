@@ -227,6 +227,12 @@ Node& Scene::add_light(const Light& light) {
     return root_->add("light", light);
 }
 
+Node& Scene::add_point_light(const PointLight& light, glm::dvec3 place) {
+    Node& node = root_->add("point light", light);
+    node.set_position(place);
+    return node;
+}
+
 Node& Scene::add_camera(const Camera& camera) {
     Node& node = root_->add("camera", camera);
     if (active_camera_ == nullptr) {
@@ -260,6 +266,16 @@ std::optional<Light> Scene::sun() const {
         }
     });
     return first;
+}
+
+std::vector<PlacedPointLight> Scene::point_lights() const {
+    std::vector<PlacedPointLight> lights;
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
+        if (const auto* light = node.get<PointLight>()) {
+            lights.push_back({*light, glm::dvec3(world_from_local[3])});
+        }
+    });
+    return lights;
 }
 
 std::optional<double> Scene::height_at(double x, double y) const {

@@ -15,6 +15,7 @@
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/facing.h"
 #include "engine/scene/graph/mesh.h"
+#include "engine/scene/graph/point_light.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/scene/streaming/light.h"
 
@@ -99,7 +100,7 @@ using NodeVisitor = std::function<void(const Node& node, const glm::dmat4& world
 /// A node of the scene graph: a transform, optional content, and children. Owned by its parent.
 class Node {
 public:
-    using Content = std::variant<std::monostate, TerrainNode, MeshNode, Light, Camera>;
+    using Content = std::variant<std::monostate, TerrainNode, MeshNode, Light, PointLight, Camera>;
 
     explicit Node(std::string name, Content content = {});
     Node(const Node&) = delete;
@@ -161,6 +162,8 @@ public:
     Result<Node*> add_terrain(terrain::Terrain terrain, const TerrainOptions& options = {});
     Node& add_mesh(Mesh mesh, const Material& material = {});
     Node& add_light(const Light& light = {});
+    /// At `place`, world metres. The node may move.
+    Node& add_point_light(const PointLight& light = {}, glm::dvec3 place = glm::dvec3(0.0));
     /// The first camera becomes the active one.
     Node& add_camera(const Camera& camera = {});
 
@@ -180,6 +183,8 @@ public:
 
     /// The first visible light, in the world.
     [[nodiscard]] std::optional<Light> sun() const;
+    /// All visible ones, in the order of the tree.
+    [[nodiscard]] std::vector<PlacedPointLight> point_lights() const;
 
     /// z of the highest visible terrain at world (x, y).
     [[nodiscard]] std::optional<double> height_at(double x, double y) const;

@@ -70,7 +70,7 @@ struct TerrainNode {
     /// Metres of height from one line to the next, min_contours or more; 0: none.
     double contours = 0.0;
     bool labels_contours = true; ///< bold lines have their height, see view::contour_labels()
-    bool hides_overlay = false; ///< no grain, contours and façades: to compare with the truth
+    bool hides_overlay = false;  ///< no grain, contours and façades: to compare with the truth
     /// Triangles with an error bound, for its tiles together; more are drawn with larger errors.
     std::size_t max_triangles = std::numeric_limits<std::size_t>::max();
     /// Samples of a terrain in memory that may all be vertices; see triangle_bound().

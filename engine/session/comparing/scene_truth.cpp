@@ -78,6 +78,9 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
     if (truth.sun_) {
         truth.scene_.add_light(*truth.sun_);
     }
+    for (const scene::PlacedPointLight& light : scene.point_lights()) {
+        truth.scene_.add_point_light(light.light, light.place);
+    }
     if (scene.sky()) {
         truth.scene_.set_sky(*scene.sky());
     }
@@ -86,8 +89,8 @@ Result<SceneTruth> SceneTruth::create(const scene::Scene& scene) {
 
 bool SceneTruth::is_of(const scene::Scene& scene) const {
     return sun_ == scene.sun() && shadow_ == truth::sun_shadow_of(scene) &&
-           scene_.sky() == scene.sky() && terrains_of(scene_) == terrains_of(scene) &&
-           meshes_of(scene_) == meshes_of(scene);
+           scene_.point_lights() == scene.point_lights() && scene_.sky() == scene.sky() &&
+           terrains_of(scene_) == terrains_of(scene) && meshes_of(scene_) == meshes_of(scene);
 }
 
 Result<void> SceneTruth::prepare() {

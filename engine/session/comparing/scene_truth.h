@@ -19,8 +19,8 @@ namespace reljef::session {
 /// the scene may change while another thread draws. Not for several threads at once.
 class SceneTruth {
 public:
-    /// Copies the references to the terrains, the light and the sky; computes nothing. Fails when a
-    /// mesh is visible.
+    /// Copies the references to the terrains, the lights and the sky; computes nothing. Fails when
+    /// a mesh is visible.
     static Result<SceneTruth> create(const scene::Scene& scene);
 
     /// Whether the scene still shows the same terrains in the same light.

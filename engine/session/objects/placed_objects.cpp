@@ -1,6 +1,5 @@
 #include "engine/session/objects/placed_objects.h"
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "engine/io/mesh/mesh_file.h"
 #include "engine/scene/graph/picture_detail.h"
+#include "engine/session/objects/ground_place.h"
 #include "engine/session/objects/upright_axes.h"
 
 namespace reljef::session {
@@ -20,32 +20,9 @@ struct SharedMesh {
     double lowest = 0.0; // metres
 };
 
-Error misplaced(const io::ObjectDescription& object, const std::string& found,
-                const std::string& expected) {
-    return Error{fmt::format("{}: at {},{} {} found, {} was expected", object.file.string(),
-                             object.at->x, object.at->y, found, expected)};
-}
-
-// The place among the samples, without a height.
-Result<glm::dvec2> sample_of(const scene::TerrainSurface& surface,
-                             const io::ObjectDescription& object) {
-    const terrain::Heightfield& field = surface.heightfield();
-    const terrain::Placement& placement = surface.placement();
-    std::optional<glm::dvec3> world(glm::dvec3(*object.at, 0.0));
-    if (field.georeference) {
-        if (std::abs(object.at->x) > 90.0 || std::abs(object.at->y) > 360.0) {
-            return misplaced(object, "no place on Earth", "a latitude and a longitude in degrees");
-        }
-        world = placement.world_from_geodetic({object.at->x, object.at->y, 0.0});
-    }
-    const auto sample = world ? placement.sample_from_world(*world) : std::nullopt;
-    const glm::dvec2 last(field.heights.cols() - 1, field.heights.rows() - 1);
-    const bool is_inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
-                           sample->y <= last.y;
-    if (!is_inside) {
-        return misplaced(object, "a place outside the terrain", "one on " + surface.terrain().name);
-    }
-    return glm::dvec2(*sample);
+GroundPlace place_of(const PlacedObject& object) {
+    return {object.description.file.string(), object.description.at.value_or(glm::dvec2(0.0)),
+            object.ground_height};
 }
 
 // Reads each file once, and makes each picture once.
@@ -115,21 +92,13 @@ private:
 Result<glm::dmat4> scene_from_object(const scene::TerrainSurface& surface,
                                      const PlacedObject& object) {
     const io::ObjectDescription& described = object.description;
-    const auto sample = sample_of(surface, described);
-    if (!sample) {
-        return sample.error();
+    const auto ground = ground_at(surface, place_of(object));
+    if (!ground) {
+        return ground.error();
     }
-    const terrain::Heightfield& field = surface.heightfield();
-    if (!object.ground_height && terrain::uses_void(field, *sample)) {
-        return misplaced(described, "a void", "ground with a height");
-    }
-    const terrain::Placement& placement = surface.placement();
-    const double height =
-        object.ground_height.value_or(terrain::bilinear_height(field.heights.view(), *sample));
-    const glm::dvec3 ground = placement.world_from_sample({*sample, height});
-    const glm::dmat3 axes = upright_axes(placement, ground, described.heading);
+    const glm::dmat3 axes = upright_axes(surface.placement(), *ground, described.heading);
     const glm::dvec3 origin =
-        ground + axes[2] * (described.height - described.scale * object.lowest);
+        *ground + axes[2] * (described.height - described.scale * object.lowest);
     glm::dmat4 placed(described.scale * axes);
     placed[3] = glm::dvec4(origin, 1.0);
     return placed;
@@ -149,7 +118,7 @@ Result<PlacedObjects> add_objects(scene::Scene& scene, const scene::TerrainSurfa
         if (height) {
             object.ground_height = height(*description.at);
             if (!object.ground_height) {
-                return misplaced(description, "no height", "a place on the terrain with one");
+                return misplaced(place_of(object), "no height", "a place on the terrain with one");
             }
         }
         if (auto place = scene_from_object(surface, object); !place) {

@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{{"render", "natural", "--frames", "0", "-o", "a.png"}, "0"},
         Misuse{{"render", "natural", "--projection", "fisheye", "-o", "a.png"}, "fisheye"},
         Misuse{{"render", "natural", "--placement", "moon", "-o", "a.png"}, "moon"},
-        Misuse{{"render", "natural", "--sun", "300,0", "-o", "a.png"}, "altitude 0"},
+        Misuse{{"render", "natural", "--sun", "300,91", "-o", "a.png"}, "altitude 91"},
         Misuse{{"render", "natural", "--sun", "1e9,30", "-o", "a.png"}, "azimuth"},
         Misuse{{"render", "natural", "--sun", "2026-13-01T12:00", "-o", "a.png"}, "2026-13-01"},
         Misuse{{"render", "natural", "--sun", "2026-06-21T12:00", "-o", "a.png"},

@@ -94,6 +94,23 @@ TEST(RenderCommand, NamesEachBase) {
     }
 }
 
+TEST(RenderCommand, NamesThePointLights) {
+    session::TerrainScene scene = hill_scene();
+    StartOptions start = start_of("natural");
+    start.scene.point_lights = {
+        {.at = glm::dvec2(1.5, -2.0),
+         .height = 6.0,
+         .intensity = 60.0,
+         .range = 80.0,
+         .color = {255, 204, 136, 255}},
+        {.at = glm::dvec2(3.0, 4.0), .height = 5.0, .intensity = 25.0, .range = {}, .color = {}}};
+    const auto command = render_command(start, scene, shown_of(scene));
+    ASSERT_TRUE(command) << command.error().message;
+    EXPECT_THAT(*command, HasSubstr("--point-light '1.5,-2:height=6,intensity=60,range=80,"
+                                    "color=#ffcc88' --point-light "
+                                    "'3,4:height=5,intensity=25,color=#000000'"));
+}
+
 TEST(RenderCommand, NamesThePictureOfTheSky) {
     session::TerrainScene scene = hill_scene();
     StartOptions start = start_of("natural");

@@ -137,6 +137,25 @@ TEST_F(FacadesGlTest, FollowTheSun) {
     EXPECT_EQ(behind, stage.drawn()) << "a driver that saw another sun before";
 }
 
+// By the law of point lights, with the normal of the wall: it is even, its cells are not.
+TEST_F(FacadesGlTest, PointLightsLightThem) {
+    HouseStage stage;
+    stage.sun().color = glm::vec3(0.0F);
+    stage.sun().ambient = glm::vec3(0.0F);
+    stage.look_from_azimuth(200.0);
+    const Image dark = stage.drawn();
+    EXPECT_EQ(dark(overlay_picture.x / 2, overlay_picture.y / 2), (Rgba8{0, 0, 0, 255}));
+    const double azimuth = glm::radians(200.0);
+    stage.scene.add_point_light({.color = {1.0F, 0.8F, 0.6F}, .intensity = 60.0F, .range = 60.0F},
+                                {14.0 * std::sin(azimuth), 14.0 * std::cos(azimuth), 6.0});
+    const Image rays = stage.drawn();
+    EXPECT_GT(changed_pixels(rays, dark), 20'000);
+    for (const auto& [technique, share] : {std::pair{"exact", 0.002}, {"polygons", 0.05}}) {
+        EXPECT_LE(test::share_of_others(rays, stage.drawn_by_opengl(technique), 6), share)
+            << technique;
+    }
+}
+
 TEST_F(FacadesGlTest, ObjectsShadeThem) {
     HouseStage stage;
     stage.sun().azimuth = 200.0;

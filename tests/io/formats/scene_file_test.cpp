@@ -222,7 +222,7 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {"[terrain]\nheights = \"\"", "heights is ''"},
         {"[terrain]\nheights = 3", "heights is 3"},
         {"[terrain]\nheights = \"a.tif\"\nheight_scale = 0", "height_scale is 0"},
-        {urban + "[sun]\naltitude = 0", "[sun] altitude is 0, a number above 0 and at most 90"},
+        {urban + "[sun]\naltitude = -91", "[sun] altitude is -91, a number from -90 to 90"},
         {urban + "[sun]\naltitude = 90.5", "altitude is 90.5"},
         {urban + "[sun]\nazimuth = 400", "azimuth is 400, a number from -360 to 360"},
         {urban + "[sun]\ntime = \"noon\"", "[sun] time is 'noon'"},
@@ -349,6 +349,41 @@ TEST(SceneFile, AnAreaHasAllItsFourSides) {
         ASSERT_FALSE(broken);
         EXPECT_NE(broken.error().message.find(sentence), std::string::npos)
             << broken.error().message;
+    }
+}
+
+TEST(SceneFile, PointLightsHaveAPlaceAndALight) {
+    const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[[point_light]]\n";
+    const auto scene = parse_scene(terrain + "at = [46.5, -7]\n[[point_light]]\nat = [1, 2]\n"
+                                             "height = 3\nintensity = 400\nrange = 90\n"
+                                             "color = \"#ffcc88\"\n",
+                                   "scene.toml", "/folder");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->point_lights.size(), 2U);
+    const PointLightDescription& plain = scene->point_lights[0];
+    EXPECT_EQ(plain.at, glm::dvec2(46.5, -7.0));
+    EXPECT_EQ(plain.height, 5.0);
+    EXPECT_EQ(range_of(plain), 50.0);
+    EXPECT_EQ(plain.color, (Rgba8{255, 255, 255, 255}));
+    const PointLightDescription& all = scene->point_lights[1];
+    EXPECT_EQ(all.height, 3.0);
+    EXPECT_EQ(all.intensity, 400.0);
+    EXPECT_EQ(range_of(all), 90.0);
+    EXPECT_EQ(all.color, (Rgba8{255, 204, 136, 255}));
+    for (const auto& [wrong, sentence] :
+         {std::pair("height = 3", "at is missing"), std::pair("at = [1, 2, 3]", "at is [1, 2, 3]"),
+          std::pair("at = [1, 2]\nintensity = 0", "intensity is 0, a number above 0"),
+          std::pair("at = [1, 2]\nintensity = 1e13", "intensity is 10000000000000"),
+          std::pair("at = [1, 2]\nrange = -1", "range is -1"),
+          std::pair("at = [1, 2]\nheight = inf", "height is inf"),
+          std::pair("at = [1, 2]\ncolor = \"red\"",
+                    "color is \"red\", a color such as \"#ffcc88\" was expected"),
+          std::pair("at = [1, 2]\ncolor = 3", "color is 3, a text in quotes was expected"),
+          std::pair("at = [1, 2]\nsize = 2", "size is unknown")}) {
+        const auto refused = parse_scene(terrain + wrong, "scene.toml", "/folder");
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_THAT(refused.error().message, HasSubstr("[[point_light]]"));
+        EXPECT_THAT(refused.error().message, HasSubstr(sentence));
     }
 }
 

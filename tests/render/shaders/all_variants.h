@@ -21,28 +21,30 @@ inline std::uint32_t possible_features(ShaderKind kind) {
     switch (kind) {
     case ShaderKind::terrain:
         return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
-               feature_corner_depth | feature_overlay | feature_facades;
+               feature_corner_depth | feature_overlay | feature_facades | feature_point_lights;
     case ShaderKind::mesh:
-        return any | feature_multisampled;
+        return any | feature_multisampled | feature_point_lights;
     case ShaderKind::relief:
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
-               feature_curved | feature_counting | feature_overlay | feature_facades;
+               feature_curved | feature_counting | feature_overlay | feature_facades |
+               feature_point_lights;
     case ShaderKind::beams:
         return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:
-        return any | relief | feature_layers | feature_wrap | feature_multisampled;
+        return any | relief | feature_layers | feature_wrap | feature_multisampled |
+               feature_point_lights;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
-               feature_warped | feature_multisampled;
+               feature_warped | feature_multisampled | feature_point_lights;
     case ShaderKind::textured_terrain:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled |
-               feature_sliver | feature_corner_depth;
+               feature_sliver | feature_corner_depth | feature_point_lights;
     case ShaderKind::relief_hull:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
-               feature_multisampled;
+               feature_multisampled | feature_point_lights;
     case ShaderKind::relief_terrain:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled |
-               feature_sliver | feature_corner_depth;
+               feature_sliver | feature_corner_depth | feature_point_lights;
     default:
         return any;
     }

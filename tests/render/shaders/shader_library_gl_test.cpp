@@ -29,8 +29,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 31;
-static_assert(1U << (feature_count - 1) == feature_facades, "the last feature");
+constexpr std::size_t feature_count = 32;
+static_assert(1U << (feature_count - 1) == feature_point_lights, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
@@ -266,7 +266,8 @@ TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
         {"ReliefBlock", member_offsets("frame/relief_block.inc")},
         {"DetailBlock", member_offsets("frame/detail_block.inc")},
         {"CourseBlock", member_offsets("frame/course_block.inc")},
-        {"OverlayBlock", member_offsets("frame/overlay_block.inc")}};
+        {"OverlayBlock", member_offsets("frame/overlay_block.inc")},
+        {"PointLightBlock", member_offsets("material/point_lights.inc")}};
     std::set<std::string_view> seen;
     for (const CompiledVariant& variant : compiled_variants()) {
         std::map<std::string, int> expected;

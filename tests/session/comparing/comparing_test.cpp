@@ -174,6 +174,22 @@ TEST_F(SceneTruthTest, HasTheShadowsOfRaysWhereTheTechniqueCastsHardOnes) {
     EXPECT_NE(swept->image, expected->image);
 }
 
+TEST_F(SceneTruthTest, HasPointLightsAndEndsWhereTheyMove) {
+    const auto dark = truth.draw(camera, size);
+    const glm::dvec3 place(glm::dvec2(scene.bounds.center()), scene.bounds.high.z + 20.0);
+    scene::Node& lamp = scene.scene.add_point_light({.intensity = 900.0F, .range = 200.0F}, place);
+    EXPECT_FALSE(truth.is_of(scene.scene));
+    SceneTruth lit = SceneTruth::create(scene.scene).value();
+    EXPECT_TRUE(lit.is_of(scene.scene));
+    const auto drawn = lit.draw(camera, size);
+    const auto expected = truth::draw(scene.scene, size);
+    ASSERT_TRUE(dark && drawn && expected);
+    EXPECT_EQ(drawn->image, expected->image);
+    EXPECT_NE(drawn->image, dark->image);
+    lamp.set_position(place + glm::dvec3(1.0, 0.0, 0.0));
+    EXPECT_FALSE(lit.is_of(scene.scene));
+}
+
 TEST_F(SceneTruthTest, HasObjectsAndEndsWhereTheyMove) {
     scene::Node& box = scene.scene.add_mesh(scene::box_mesh(glm::vec3(1.0F)));
     EXPECT_FALSE(truth.is_of(scene.scene));

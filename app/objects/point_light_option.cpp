@@ -1,0 +1,133 @@
+#include "app/objects/point_light_option.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/parsed_option.h"
+#include "app/objects/assignments.h"
+#include "engine/core/geometry.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr const char* light_form = "LAT,LON[:height=M][,intensity=I][,range=M][,color=#RRGGBB]";
+
+Result<void> set_light_place(io::PointLightDescription& light, const std::string& text) {
+    const auto place =
+        cli::parse_numbers<2>("--point-light", text, "LAT,LON in degrees, or X,Y in scene metres");
+    if (!place) {
+        return place.error();
+    }
+    const auto [x, y] = *place;
+    if (std::max(std::abs(x), std::abs(y)) > max_world_coordinate) {
+        return Error{fmt::format("--point-light: '{}' found, at most {} was expected", text,
+                                 max_world_coordinate)};
+    }
+    light.at = glm::dvec2(x, y);
+    return {};
+}
+
+template <class Target> Result<void> set_light_number(Target& number, Result<double> value) {
+    if (!value) {
+        return value.error();
+    }
+    number = *value;
+    return {};
+}
+
+Result<void> set_light_key(io::PointLightDescription& light, const Assignment& assignment) {
+    const auto& [key, value] = assignment;
+    if (key == "height") {
+        return set_light_number(light.height,
+                                cli::number_in("--point-light: height", -io::max_object_height,
+                                               io::max_object_height)(value));
+    }
+    if (key == "intensity") {
+        return set_light_number(light.intensity, cli::number_in("--point-light: intensity", 0.0,
+                                                                io::max_intensity, true)(value));
+    }
+    if (key == "range") {
+        return set_light_number(
+            light.range, cli::number_in("--point-light: range", 0.0, io::max_range, true)(value));
+    }
+    if (key == "color") {
+        const auto color = io::color_from_hex(value);
+        if (!color) {
+            return Error{fmt::format("--point-light: color '{}' found, a color such as #ffcc88 was "
+                                     "expected",
+                                     value)};
+        }
+        light.color = *color;
+        return {};
+    }
+    return Error{fmt::format(
+        "--point-light: '{}' found, height, intensity, range or color was expected", key)};
+}
+
+} // namespace
+
+Result<io::PointLightDescription> parse_point_light(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    io::PointLightDescription light;
+    if (auto set = set_light_place(light, text.substr(0, colon)); !set) {
+        return set.error();
+    }
+    if (colon == std::string::npos) {
+        return light;
+    }
+    const auto assignments = assignments_of(text.substr(colon + 1), "--point-light");
+    if (!assignments) {
+        return assignments.error();
+    }
+    for (const Assignment& assignment : *assignments) {
+        if (auto set = set_light_key(light, assignment); !set) {
+            return set.error();
+        }
+    }
+    return light;
+}
+
+std::string to_text(const io::PointLightDescription& light) {
+    const glm::dvec2 at = light.at.value_or(glm::dvec2(0.0));
+    std::string text =
+        fmt::format("{},{}:height={},intensity={}", at.x, at.y, light.height, light.intensity);
+    if (light.range) {
+        text += fmt::format(",range={}", *light.range);
+    }
+    return text + ",color=" + io::to_hex(light.color);
+}
+
+void add_point_light_option(CLI::App& command, std::vector<io::PointLightDescription>& lights) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--point-light",
+            [&lights](const std::vector<std::string>& texts) {
+                if (texts.size() > io::max_point_lights) {
+                    throw CLI::ValidationError(
+                        fmt::format("--point-light: found {} times, at most {} were expected",
+                                    texts.size(), io::max_point_lights));
+                }
+                lights.clear();
+                for (const std::string& text : texts) {
+                    auto light = parse_point_light(text);
+                    if (!light) {
+                        throw CLI::ValidationError(light.error().message);
+                    }
+                    lights.push_back(*light);
+                }
+            },
+            "lamp above the ground, without shadows; may be repeated. Latitude and longitude, or x "
+            "and y in scene metres on terrain that is not georeferenced; height: above the ground, "
+            "metres (5); intensity: light of white ground that faces the lamp from a metre away, 1 "
+            "is white, and it falls with the square of the distance (25); range: where it ends, "
+            "metres (10 times the root of the intensity); color: sRGB (#ffffff). The 16 lamps that "
+            "are brightest at the eye are drawn. Example: --sun 0,-10 --point-light "
+            "45.7,6.8:intensity=4e4,range=2000,color=#ffcc88")
+        ->allow_extra_args(false)
+        ->type_name(light_form);
+}
+
+} // namespace reljef::app
