@@ -212,9 +212,9 @@ HWY_INLINE WallLight light_on_walls(const WallHits& on, Floats height,
             hn::MulAdd(risen, all(1.0F - sky_at_foot), all(sky_at_foot))};
 }
 
-// The light of points on upright walls.
-HWY_INLINE Color points_on_walls(const BlockPaint& paint, const GroundPlace& place,
-                                 const WallNear& wall) {
+// The light of points on upright walls; not inline, so that walls without lamps do not pay for it.
+HWY_NOINLINE Color points_on_walls(const BlockPaint& paint, const GroundPlace& place,
+                                   const WallNear& wall) {
     const glm::vec2 back(paint.facades->turn.x, -paint.facades->turn.y);
     return light_of_points(
         paint, place.from_eye,

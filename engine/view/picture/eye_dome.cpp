@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,34 +20,49 @@ constexpr float half_depth = 1.0F;
 class EyeDome {
 public:
     EyeDome(const HitBuffer& hits, const DrawList& list)
-        : hits_(hits),
+        : nearness_(hits.cols(), hits.rows()),
           is_perspective_(list.camera.projection == scene::ProjectionKind::perspective),
           strength_(static_cast<float>(list.eye_dome)) {
         const glm::vec2 metres = metres_a_pixel(list.camera, list.size);
         pixel_ = is_perspective_ ? metres.y : metres.x;
-        const double scale = contour_scale(list.camera, list.size);
-        std::ranges::transform(rings, rings_.begin(), [scale](double ring) {
-            return std::min(static_cast<int>(std::lround(ring * scale)), max_eye_dome_reach);
+        std::ranges::transform(hits.samples(), nearness_.samples().begin(), [this](const Hit& hit) {
+            return hit.is_sky() ? std::numeric_limits<float>::quiet_NaN()
+                                : (is_perspective_ ? 1.0F / hit.depth : -hit.depth);
         });
+        const double scale = contour_scale(list.camera, list.size);
+        std::size_t count = 0;
+        for (const double ring : rings) {
+            const int reach =
+                std::min(static_cast<int>(std::lround(ring * scale)), max_eye_dome_reach);
+            for (const glm::ivec2 direction : directions) {
+                const glm::ivec2 step = reach * direction;
+                steps_[count++] = {step, glm::abs(step), 1.0F / glm::length(glm::vec2(step))};
+            }
+        }
     }
 
     // What remains of a pixel's colour.
     [[nodiscard]] float share_at(glm::ivec2 pixel) const {
-        const Hit& hit = hits_(pixel.x, pixel.y);
-        if (hit.is_sky()) {
+        if (std::isnan(nearness_(pixel.x, pixel.y))) {
             return 1.0F;
         }
         float sum = 0.0F;
-        for (const int ring : rings_) {
-            for (const glm::ivec2 direction : directions) {
-                sum += darkness_at(pixel, ring * direction);
-            }
+        for (const Step& step : steps_) {
+            sum += darkness_at(pixel, step);
         }
-        return 1.0F - strength_ * sum / static_cast<float>(rings_.size() * directions.size());
+        return 1.0F - strength_ * sum / static_cast<float>(steps_.size());
     }
 
 private:
-    // Creases between cells of the terrain are faint.
+    // To one of two opposite neighbours, pixels.
+    struct Step {
+        glm::ivec2 way{0};
+        glm::ivec2 reach{0};
+        float per_length = 1.0F;
+    };
+
+    // Creases between cells of the terrain are faint. Beside the sky, which is behind everything,
+    // `behind` is not a number.
     static float darkness(float behind) {
         const float square = behind * behind / (half_depth * half_depth);
         return behind > 0.0F ? square / (square + 1.0F) : 0.0F;
@@ -54,37 +70,25 @@ private:
 
     // Between the neighbours before and after a step. Near the picture's border the nearest pixel
     // counts that has both.
-    [[nodiscard]] float darkness_at(glm::ivec2 pixel, glm::ivec2 step) const {
-        const glm::ivec2 reach = glm::abs(step);
-        const glm::ivec2 last = glm::ivec2(hits_.cols(), hits_.rows()) - 1 - reach;
-        if (last.x < reach.x || last.y < reach.y) {
+    [[nodiscard]] float darkness_at(glm::ivec2 pixel, const Step& step) const {
+        const glm::ivec2 last = glm::ivec2(nearness_.cols(), nearness_.rows()) - 1 - step.reach;
+        if (last.x < step.reach.x || last.y < step.reach.y) {
             return 0.0F;
         }
-        pixel = glm::clamp(pixel, reach, last);
-        const float behind =
-            depth_behind(depth_at(pixel), depth_at(pixel - step), depth_at(pixel + step));
-        return darkness(behind / glm::length(glm::vec2(step)));
+        pixel = glm::clamp(pixel, step.reach, last);
+        const float near = nearness_(pixel.x, pixel.y);
+        const float before = nearness_(pixel.x - step.way.x, pixel.y - step.way.y);
+        const float after = nearness_(pixel.x + step.way.x, pixel.y + step.way.y);
+        const float metres_per_pixel = is_perspective_ ? near * pixel_ : pixel_;
+        return darkness((0.5F * (before + after) - near) / metres_per_pixel * step.per_length);
     }
 
-    [[nodiscard]] float depth_at(glm::ivec2 pixel) const { return hits_(pixel.x, pixel.y).depth; }
-
-    // Widths of a pixel at `depth`; 0 beside the sky, which is behind everything. In perspective
-    // the inverse of a plane's depth is linear.
-    [[nodiscard]] float depth_behind(float depth, float one, float other) const {
-        if (std::isinf(depth) || std::isinf(one) || std::isinf(other)) {
-            return 0.0F;
-        }
-        if (is_perspective_) {
-            return (0.5F * (1.0F / one + 1.0F / other) - 1.0F / depth) * depth / pixel_;
-        }
-        return (depth - 0.5F * (one + other)) / pixel_;
-    }
-
-    const HitBuffer& hits_;
+    // Inverse depth in perspective, else negative depth: linear on a plane. NaN: sky.
+    Grid<float> nearness_;
     bool is_perspective_;
     float strength_;
     float pixel_ = 1.0F; // metres of its width, at a depth of 1 m in perspective
-    std::array<int, rings.size()> rings_{};
+    std::array<Step, rings.size() * directions.size()> steps_{};
 };
 
 std::uint8_t darkened(std::uint8_t channel, float share) {
