@@ -1,9 +1,13 @@
 #include "app/objects/assignments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
+
+#include "app/cli/parsed_option.h"
+#include "engine/core/geometry.h"
 
 namespace reljef::app {
 
@@ -27,6 +31,20 @@ Result<std::vector<Assignment>> assignments_of(const std::string& text, const st
         begin = comma + 1;
     }
     return found;
+}
+
+Result<glm::dvec2> parse_place(const std::string& text, const std::string& option) {
+    const auto place =
+        cli::parse_numbers<2>(option, text, "LAT,LON in degrees, or X,Y in scene metres");
+    if (!place) {
+        return place.error();
+    }
+    const auto [x, y] = *place;
+    if (std::max(std::abs(x), std::abs(y)) > max_world_coordinate) {
+        return Error{fmt::format("{}: '{}' found, at most {} was expected", option, text,
+                                 max_world_coordinate)};
+    }
+    return glm::dvec2(x, y);
 }
 
 } // namespace reljef::app

@@ -1,7 +1,5 @@
 #include "app/objects/object_option.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <CLI/CLI.hpp>
@@ -10,40 +8,21 @@
 #include "app/cli/parsed_option.h"
 #include "app/objects/assignments.h"
 #include "app/objects/footprints_option.h"
-#include "engine/core/geometry.h"
 
 namespace reljef::app {
 namespace {
 
 constexpr const char* form = "FILE:at=LAT,LON[,height=M][,heading=DEG][,scale=S]";
 
-Result<void> set_place(io::ObjectDescription& object, const std::string& value) {
-    const auto place =
-        cli::parse_numbers<2>("--object: at", value, "LAT,LON in degrees, or X,Y in scene metres");
-    if (!place) {
-        return place.error();
-    }
-    const auto [x, y] = *place;
-    if (std::max(std::abs(x), std::abs(y)) > max_world_coordinate) {
-        return Error{fmt::format("--object: at '{}' found, at most {} was expected", value,
-                                 max_world_coordinate)};
-    }
-    object.at = glm::dvec2(x, y);
-    return {};
-}
-
-Result<void> set_number(double& number, Result<double> value) {
-    if (!value) {
-        return value.error();
-    }
-    number = *value;
-    return {};
-}
-
 Result<void> set_key(io::ObjectDescription& object, const Assignment& assignment) {
     const std::string& value = assignment.value;
     if (assignment.key == "at") {
-        return set_place(object, value);
+        const auto place = parse_place(value, "--object: at");
+        if (!place) {
+            return place.error();
+        }
+        object.at = *place;
+        return {};
     }
     if (assignment.key == "height") {
         return set_number(object.height, cli::number_in("--object: height", -io::max_object_height,

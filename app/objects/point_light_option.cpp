@@ -1,57 +1,30 @@
 #include "app/objects/point_light_option.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "app/cli/parsed_option.h"
 #include "app/objects/assignments.h"
-#include "engine/core/geometry.h"
 
 namespace reljef::app {
 namespace {
 
 constexpr const char* light_form = "LAT,LON[:height=M][,intensity=I][,range=M][,color=#RRGGBB]";
 
-Result<void> set_light_place(io::PointLightDescription& light, const std::string& text) {
-    const auto place =
-        cli::parse_numbers<2>("--point-light", text, "LAT,LON in degrees, or X,Y in scene metres");
-    if (!place) {
-        return place.error();
-    }
-    const auto [x, y] = *place;
-    if (std::max(std::abs(x), std::abs(y)) > max_world_coordinate) {
-        return Error{fmt::format("--point-light: '{}' found, at most {} was expected", text,
-                                 max_world_coordinate)};
-    }
-    light.at = glm::dvec2(x, y);
-    return {};
-}
-
-template <class Target> Result<void> set_light_number(Target& number, Result<double> value) {
-    if (!value) {
-        return value.error();
-    }
-    number = *value;
-    return {};
-}
-
 Result<void> set_light_key(io::PointLightDescription& light, const Assignment& assignment) {
     const auto& [key, value] = assignment;
     if (key == "height") {
-        return set_light_number(light.height,
-                                cli::number_in("--point-light: height", -io::max_object_height,
-                                               io::max_object_height)(value));
+        return set_number(light.height,
+                          cli::number_in("--point-light: height", -io::max_object_height,
+                                         io::max_object_height)(value));
     }
     if (key == "intensity") {
-        return set_light_number(light.intensity, cli::number_in("--point-light: intensity", 0.0,
-                                                                io::max_intensity, true)(value));
+        return set_number(light.intensity, cli::number_in("--point-light: intensity", 0.0,
+                                                          io::max_intensity, true)(value));
     }
     if (key == "range") {
-        return set_light_number(
-            light.range, cli::number_in("--point-light: range", 0.0, io::max_range, true)(value));
+        return set_number(light.range,
+                          cli::number_in("--point-light: range", 0.0, io::max_range, true)(value));
     }
     if (key == "color") {
         const auto color = io::color_from_hex(value);
@@ -71,10 +44,12 @@ Result<void> set_light_key(io::PointLightDescription& light, const Assignment& a
 
 Result<io::PointLightDescription> parse_point_light(const std::string& text) {
     const std::size_t colon = text.find(':');
-    io::PointLightDescription light;
-    if (auto set = set_light_place(light, text.substr(0, colon)); !set) {
-        return set.error();
+    const auto place = parse_place(text.substr(0, colon), "--point-light");
+    if (!place) {
+        return place.error();
     }
+    io::PointLightDescription light;
+    light.at = *place;
     if (colon == std::string::npos) {
         return light;
     }
@@ -123,8 +98,10 @@ void add_point_light_option(CLI::App& command, std::vector<io::PointLightDescrip
             "and y in scene metres on terrain that is not georeferenced; height: above the ground, "
             "metres (5); intensity: light of white ground that faces the lamp from a metre away, 1 "
             "is white, and it falls with the square of the distance (25); range: where it ends, "
-            "metres (10 times the root of the intensity); color: sRGB (#ffffff). The 16 lamps that "
-            "are brightest at the eye are drawn. Example: --sun 0,-10 --point-light "
+            "metres (10 times the root of the intensity); color: sRGB (#ffffff). Of the lamps "
+            "whose "
+            "range meets the view, the 16 brightest at the eye are drawn; --truth draws all. "
+            "Example: --sun 0,-10 --point-light "
             "45.7,6.8:intensity=4e4,range=2000,color=#ffcc88")
         ->allow_extra_args(false)
         ->type_name(light_form);

@@ -275,7 +275,7 @@ view::ContourLabels SceneRenderer::labels_of_frame() const {
 
 void SceneRenderer::draw_labels(const view::ContourLabels& labels) {
     for (const view::ContourLabel& label : labels.labels) {
-        const view::PictureArea area = view::label_area(label, labels.digit_height, size_);
+        const scene::PicturePart area = view::label_area(label, labels.digit_height, size_);
         if (area.size.x > 0 && area.size.y > 0) {
             paint_over(area, [&](GridView<Rgba8> colors) {
                 view::draw_label(label, labels.digit_height, colors, area.first);
@@ -284,7 +284,7 @@ void SceneRenderer::draw_labels(const view::ContourLabels& labels) {
     }
 }
 
-void SceneRenderer::paint_over(const view::PictureArea& area,
+void SceneRenderer::paint_over(const scene::PicturePart& area,
                                const std::function<void(GridView<Rgba8>)>& paint) {
     if (shows_rays_) {
         paint(rays_->picture().view().window(area.first.x, area.first.y, area.size.x, area.size.y));

@@ -119,7 +119,7 @@ private:
     Result<void> draw_over(view::FrameStats& stats);
     [[nodiscard]] view::ContourLabels labels_of_frame() const;
     void draw_labels(const view::ContourLabels& labels);
-    void paint_over(const view::PictureArea& area,
+    void paint_over(const scene::PicturePart& area,
                     const std::function<void(GridView<Rgba8>)>& paint);
 
     std::optional<render::DriverOptions> opengl_options_; // of the driver to be made

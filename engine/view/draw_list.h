@@ -113,8 +113,9 @@ Result<void> check_techniques(const DrawList& list);
 std::optional<scene::TerrainLight> light_on(const DrawList& list,
                                             const glm::dmat4& world_from_local);
 
-/// The lights whose range meets the frustum, the brightest at the eye first, equal ones in their
-/// order. Beyond scene::max_shown_point_lights they are left out (`skipped`).
+/// The lights whose range meets the frustum (of all of the picture, so that its parts agree), the
+/// brightest at the eye first, equal ones in their order. Beyond scene::max_shown_point_lights they
+/// are left out (`skipped`).
 std::vector<scene::PlacedPointLight> seen_point_lights(std::vector<scene::PlacedPointLight> lights,
                                                        const scene::Camera& camera,
                                                        const Frustum& frustum,

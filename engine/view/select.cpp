@@ -419,8 +419,10 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
         list.camera = scene::with_fitted_depth(list.camera, view.bounds());
     }
     const Frustum frustum(scene::clip_from_world(list.camera, list.size));
+    const Frustum of_whole(scene::clip_from_world(scene::camera_of_whole(list.camera, list.size),
+                                                  scene::whole_picture(list.camera, list.size)));
     list.point_lights =
-        seen_point_lights(view.point_lights(), list.camera, frustum, list.stats.skipped);
+        seen_point_lights(view.point_lights(), list.camera, of_whole, list.stats.skipped);
     Selector selector(frame, frustum, options);
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);

@@ -33,7 +33,7 @@ GroundPlace ground_place(vec3 relative, vec3 perpendicular) {
 #ifdef POINT_LIGHTS
 vec3 light_under_overlay = vec3(0.0); // of point lights
 
-// The opposite of along_turned_axes().
+// The inverse of along_turned_axes().
 vec3 along_world_axes(vec3 turned) {
     return vec3(grain_turn.x * turned.x - grain_turn.y * turned.y, dot(grain_turn.yx, turned.xy), turned.z);
 }

@@ -43,6 +43,27 @@ TEST(SeenPointLights, AreThoseWhoseRangeMeetsTheView) {
     EXPECT_EQ(list.stats.skipped.point_lights, 0);
 }
 
+// Otherwise light would end at the border of two parts.
+TEST(SeenPointLights, OfAPartOfAPictureAreThoseOfTheWhole) {
+    LampScene made;
+    for (int i = 0; i < 30; ++i) {
+        made.add({2.0 * (i - 15), 10.0, 1.0}, 10.0F + static_cast<float>(i), 3.0F);
+    }
+    const DrawList whole = made.list();
+    ASSERT_EQ(whole.point_lights.size(), scene::max_shown_point_lights);
+    constexpr glm::ivec2 part{64, 64};
+    for (const int first : {0, 128, 256}) {
+        const scene::Camera camera =
+            scene::part_camera(made.scene.camera(), lamp_picture, {{first, 64}, part});
+        scene::Scene scene;
+        for (const scene::PlacedPointLight& light : made.scene.point_lights()) {
+            scene.add_point_light(light.light, light.place);
+        }
+        scene.add_camera(camera);
+        EXPECT_EQ(select(scene, part).list.point_lights, whole.point_lights) << first;
+    }
+}
+
 TEST(SeenPointLights, AreAtMostTheBrightestAtTheEyeInAFixedOrder) {
     LampScene made;
     made.add({0.0, 0.0, 3.0}, 1.0F);

@@ -59,7 +59,7 @@ PointLightBlock point_light_block(const view::DrawList& list) {
                   scene::max_shown_point_lights);
     constexpr float nearest = scene::nearest_point_light;
     PointLightBlock block{};
-    block.point_light_count = {list.point_lights.size(), nearest * nearest, 0.0F, 0.0F};
+    block.point_light_numbers = {list.point_lights.size(), nearest * nearest, 0.0F, 0.0F};
     for (std::size_t i = 0; i < list.point_lights.size(); ++i) {
         const auto& [light, place] = list.point_lights[i];
         block.point_light_places[i] =

@@ -91,7 +91,7 @@ struct PointLightBlock {
     static const BlockLayout layout;
 #include "shaders/material/point_lights.inc"
 };
-static_assert(offsetof(PointLightBlock, point_light_count) == 0);
+static_assert(offsetof(PointLightBlock, point_light_numbers) == 0);
 static_assert(offsetof(PointLightBlock, point_light_places) == 16);
 static_assert(offsetof(PointLightBlock, point_light_colors) == 17 * 16);
 static_assert(sizeof(PointLightBlock) == 33 * 16);

@@ -70,7 +70,7 @@ Rgba8 blended(Rgba8 color, glm::dvec3 over, double opacity) {
 
 } // namespace
 
-PictureArea label_area(const ContourLabel& label, double digit_height, glm::ivec2 size) {
+scene::PicturePart label_area(const ContourLabel& label, double digit_height, glm::ivec2 size) {
     const glm::dvec2 half = reach(text_strokes(label.text), digit_height);
     const glm::dvec2 along = glm::abs(label.along);
     const glm::dvec2 box(along.x * half.x + along.y * half.y, along.y * half.x + along.x * half.y);

@@ -7,15 +7,9 @@
 
 namespace reljef::view {
 
-/// A rectangle of a picture's pixels.
-struct PictureArea {
-    glm::ivec2 first{0};
-    glm::ivec2 size{0};
-};
-
 /// The pixels that a label may change in a picture of `size` pixels; empty outside. Precondition:
 /// the middle is finite.
-PictureArea label_area(const ContourLabel& label, double digit_height, glm::ivec2 size);
+scene::PicturePart label_area(const ContourLabel& label, double digit_height, glm::ivec2 size);
 
 /// Draws a label: dark digits with a pale border. `first`: pixel of the picture at part(0, 0).
 void draw_label(const ContourLabel& label, double digit_height, GridView<Rgba8> part,

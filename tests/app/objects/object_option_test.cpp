@@ -40,7 +40,7 @@ TEST(ObjectOption, NamesWhatIsWrong) {
         {"a.obj:at=1", "at: '1' found"},
         {"a.obj:at=1,2,3", "at: '1,2,3' found"},
         {"a.obj:at=nan,2", "at: 'nan,2' found"},
-        {"a.obj:at=1e30,2", "at '1e30,2' found"},
+        {"a.obj:at=1e30,2", "at: '1e30,2' found"},
         {"a.obj:at=1,2,at=3,4", "at found twice"},
         {"a.obj:at=1,2,size=4", "'size' found"},
         {"a.obj:at=1,2,scale=0", "scale: '0' found"},

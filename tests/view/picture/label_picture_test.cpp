@@ -56,7 +56,7 @@ TEST(LabelPicture, StaysInItsArea) {
         const ContourLabel label{
             "1250", {place(random), place(random)}, {std::cos(turn), std::sin(turn)}};
         constexpr double digits = 12.0;
-        const PictureArea area = label_area(label, digits, size);
+        const scene::PicturePart area = label_area(label, digits, size);
         Image whole(size.x, size.y, meadow);
         draw_label(label, digits, whole.view(), {0, 0});
         Image parts(size.x, size.y, meadow);
