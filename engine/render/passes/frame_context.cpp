@@ -4,8 +4,8 @@
 
 namespace reljef::render {
 
-std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples, bool skips) {
-    std::uint32_t features = hits ? feature_hit : 0U;
+ShaderFeatures scene_features(const view::DrawList& list, bool hits, int samples, bool skips) {
+    ShaderFeatures features = hits ? feature_hit : 0U;
     features |= list.sun || !skips ? feature_lit : 0U;
     // A map has no viewing distance, hence no air.
     const bool air = is_perspective(list.camera) && list.sky && list.sky->visibility > 0.0;
@@ -16,18 +16,18 @@ std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples,
 
 namespace {
 
-std::uint32_t features_if(const FrameContext& frame, bool is_reached) {
-    return is_reached && !frame.hits && !frame.counts() ? std::uint32_t{feature_point_lights} : 0U;
+ShaderFeatures features_if(const FrameContext& frame, bool is_reached) {
+    return is_reached && !frame.hits && !frame.counts() ? feature_point_lights : 0U;
 }
 
 } // namespace
 
-std::uint32_t point_light_features(const FrameContext& frame, const view::TileDraw& draw) {
+ShaderFeatures point_light_features(const FrameContext& frame, const view::TileDraw& draw) {
     const bool is_warped = draw.terrain->material.technique.id() == scene::TechniqueId::prewarp;
     return features_if(frame, !is_warped && view::is_reached(frame.list, draw));
 }
 
-std::uint32_t point_light_features(const FrameContext& frame, const view::TerrainDraw& draw) {
+ShaderFeatures point_light_features(const FrameContext& frame, const view::TerrainDraw& draw) {
     return features_if(frame, view::is_reached(frame.list, draw));
 }
 

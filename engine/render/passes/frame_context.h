@@ -16,7 +16,7 @@ struct FrameContext {
     const view::DrawList& list;
     const Residency& residency; ///< prepared for the list
     bool hits;                  ///< draws hits instead of colours
-    std::uint32_t features;     ///< see scene_features()
+    ShaderFeatures features;    ///< see scene_features()
     const gl::Framebuffer& picture;
     const gl::Framebuffer& beams; ///< used by techniques with beams (beams.h)
     const gl::VertexArray& no_vertices;
@@ -29,12 +29,12 @@ struct FrameContext {
 
 /// The features that all programs of the list share, see Skips::features. `samples`: per pixel of
 /// the picture.
-std::uint32_t scene_features(const view::DrawList& list, bool hits, int samples, bool skips);
+ShaderFeatures scene_features(const view::DrawList& list, bool hits, int samples, bool skips);
 
 /// feature_point_lights if point lights reach what is drawn; 0 for hits, and where prewarp shows
 /// other places than its triangles.
-std::uint32_t point_light_features(const FrameContext& frame, const view::TileDraw& draw);
-std::uint32_t point_light_features(const FrameContext& frame, const view::TerrainDraw& draw);
+ShaderFeatures point_light_features(const FrameContext& frame, const view::TileDraw& draw);
+ShaderFeatures point_light_features(const FrameContext& frame, const view::TerrainDraw& draw);
 
 // The passes. They fail as ShaderLibrary::program and without memory.
 

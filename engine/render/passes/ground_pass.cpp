@@ -27,13 +27,13 @@ glm::vec3 divisible(glm::vec3 mean_color) {
 } // namespace
 
 ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLevel level,
-                             std::uint32_t features) {
+                             ShaderFeatures features) {
     if (level == view::DetailLevel::relief) {
         return {ShaderKind::relief_terrain, features | technique_features(detail.technique)};
     }
-    const std::uint32_t look = scene::searches_surface(detail.technique.id())
-                                   ? feature_normal_map
-                                   : technique_features(detail.technique);
+    const ShaderFeatures look = scene::searches_surface(detail.technique.id())
+                                    ? feature_normal_map
+                                    : technique_features(detail.technique);
     return {ShaderKind::textured_terrain, features | look};
 }
 

@@ -12,7 +12,7 @@ namespace reljef::render {
 /// The variant for a terrain with surface detail. `features`: see scene_features(). Precondition:
 /// the level is not none.
 ShaderVariant ground_variant(const scene::TerrainDetail& detail, view::DetailLevel level,
-                             std::uint32_t features);
+                             ShaderFeatures features);
 
 /// Sets the inputs of these programs except the terrain's maps and transform. Fails without GL
 /// memory.

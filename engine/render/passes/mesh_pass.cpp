@@ -34,8 +34,8 @@ bool shows_tile(const scene::Material& material, const FrameContext& frame) {
 }
 
 ShaderVariant mesh_variant(const scene::Material& material, const FrameContext& frame,
-                           std::uint32_t more_features) {
-    std::uint32_t features = frame.features | more_features;
+                           ShaderFeatures more_features) {
+    ShaderFeatures features = frame.features | more_features;
     if (!shows_tile(material, frame)) {
         return {ShaderKind::mesh, features};
     }
@@ -93,7 +93,7 @@ void draw_hull(DrawState& state, gl::Program& program, const ResidentHull& hull)
 }
 
 Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw,
-                       std::uint32_t more_features) {
+                       ShaderFeatures more_features) {
     const scene::Material& material = draw.mesh->material;
     const scene::Camera& camera = frame.list.camera;
     const MeshResidency& residency = frame.residency.meshes();
@@ -140,8 +140,8 @@ Result<void> draw_bases(const FrameContext& frame) {
 }
 
 Result<void> draw_meshes(const FrameContext& frame) {
-    const std::uint32_t points =
-        frame.hits || frame.list.point_lights.empty() ? 0U : std::uint32_t{feature_point_lights};
+    const ShaderFeatures points =
+        frame.hits || frame.list.point_lights.empty() ? 0U : feature_point_lights;
     for (const view::MeshDraw& draw : frame.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {
             continue;

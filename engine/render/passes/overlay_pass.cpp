@@ -41,8 +41,8 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
 
 } // namespace
 
-std::uint32_t overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
-                               double distance) {
+ShaderFeatures overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
+                                double distance) {
     if (frame.hits || frame.counts() || terrain.material.wireframe) {
         return 0;
     }
@@ -51,7 +51,7 @@ std::uint32_t overlay_features(const FrameContext& frame, const scene::TerrainNo
     }
     const bool has_overlay =
         view::shows_grain(frame.list, terrain, distance) || scene::shown_contours(terrain) > 0.0;
-    return has_overlay ? std::uint32_t{feature_overlay} : 0U;
+    return has_overlay ? feature_overlay : 0U;
 }
 
 Result<void> set_overlay(const FrameContext& frame, const scene::TerrainNode& terrain,

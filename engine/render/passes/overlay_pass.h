@@ -12,8 +12,8 @@ namespace reljef::render {
 
 /// The features of a terrain that shows grain, façades or contours on ground that is at least
 /// `distance` metres away; else 0.
-std::uint32_t overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
-                               double distance = 0.0);
+ShaderFeatures overlay_features(const FrameContext& frame, const scene::TerrainNode& terrain,
+                                double distance = 0.0);
 
 /// Sets the grain, façades and contours of a terrain, if it has some. Fails without memory.
 /// `space`: of a relief; null: none.

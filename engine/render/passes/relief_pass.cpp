@@ -20,7 +20,7 @@ bool is_streamed(const view::TerrainDraw& draw) {
     return !draw.search->tiles.empty();
 }
 
-std::uint32_t surface_features(const view::TerrainDraw& draw) {
+ShaderFeatures surface_features(const view::TerrainDraw& draw) {
     return (is_streamed(draw) ? feature_streamed : 0U) |
            (draw.search->course ? feature_curved : 0U);
 }
@@ -336,7 +336,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
             return drawn;
         }
     }
-    const std::uint32_t unused = uses_beams(frame, technique) ? 0U : feature_beams;
+    const ShaderFeatures unused = uses_beams(frame, technique) ? 0U : feature_beams;
     auto program = state.use(
         {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
                                  surface_features(draw) | overlay_features(frame, *draw.terrain) |

@@ -95,11 +95,11 @@ private:
     }
 
     // Far tiles show no grain.
-    [[nodiscard]] std::uint32_t overlay_of(const view::TileDraw& draw) const {
+    [[nodiscard]] ShaderFeatures overlay_of(const view::TileDraw& draw) const {
         return overlay_features(frame_, *draw.terrain, draw.distance);
     }
 
-    [[nodiscard]] std::uint32_t points_of(const view::TileDraw& draw) const {
+    [[nodiscard]] ShaderFeatures points_of(const view::TileDraw& draw) const {
         return point_light_features(frame_, draw);
     }
 
@@ -128,14 +128,13 @@ private:
 
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
-        const std::uint32_t features = frame_.features | points_ |
-                                       (part_ != Part::wide ? feature_sliver : 0U) |
-                                       (part_ == Part::narrow_slivers ? feature_corner_depth : 0U);
+        const ShaderFeatures features = frame_.features | points_ |
+                                        (part_ != Part::wide ? feature_sliver : 0U) |
+                                        (part_ == Part::narrow_slivers ? feature_corner_depth : 0U);
         if (detail != view::DetailLevel::none) {
             return ground_variant(*terrain.detail, detail, features);
         }
-        return {ShaderKind::terrain,
-                features | (is_warped(terrain) ? std::uint32_t{feature_warped} : overlay_)};
+        return {ShaderKind::terrain, features | (is_warped(terrain) ? feature_warped : overlay_)};
     }
 
     // Of a terrain in memory.
@@ -254,8 +253,8 @@ private:
     gl::Program* program_ = nullptr;
     const scene::TerrainNode* terrain_ = nullptr; // of the program's state
     view::DetailLevel detail_ = view::DetailLevel::none;
-    std::uint32_t overlay_ = 0;
-    std::uint32_t points_ = 0;
+    ShaderFeatures overlay_ = 0;
+    ShaderFeatures points_ = 0;
 };
 
 } // namespace

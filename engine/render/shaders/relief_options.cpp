@@ -6,7 +6,7 @@ namespace reljef::render {
 namespace {
 
 struct Search {
-    std::uint32_t features = 0U;
+    ShaderFeatures features = 0U;
     TechniqueBlock values{};
 };
 
@@ -14,21 +14,21 @@ template <class Number> float block_value(Number number) {
     return static_cast<float>(number);
 }
 
-Search parallax_search(std::uint32_t features, double offset) {
+Search parallax_search(ShaderFeatures features, double offset) {
     Search search{.features = feature_parallax | features};
     search.values.parallax_offset = block_value(offset);
     return search;
 }
 
 template <class Technique>
-Search stepped_search(std::uint32_t features, const Technique& technique) {
+Search stepped_search(ShaderFeatures features, const Technique& technique) {
     Search search{.features = features};
     search.values.linear_steps = block_value(technique.linear_steps);
     return search;
 }
 
 template <class Technique>
-Search bisection_search(std::uint32_t features, const Technique& technique) {
+Search bisection_search(ShaderFeatures features, const Technique& technique) {
     Search search = stepped_search(features, technique);
     search.values.bisection_steps = block_value(technique.bisection_steps);
     return search;
@@ -110,8 +110,8 @@ Search search_of(const scene::Technique& technique) {
     return search;
 }
 
-std::uint32_t option_features(const scene::TechniqueOptions& options) {
-    std::uint32_t features = 0U;
+ShaderFeatures option_features(const scene::TechniqueOptions& options) {
+    ShaderFeatures features = 0U;
     features |= options.steps ? feature_view_steps : 0U;
     features |= options.fade ? feature_fade : 0U;
     features |= options.smooth_edges ? feature_smooth_edges : 0U;
@@ -124,8 +124,8 @@ std::uint32_t option_features(const scene::TechniqueOptions& options) {
 
 } // namespace
 
-std::uint32_t technique_features(const scene::Technique& technique) {
-    const std::uint32_t beams = has_beams(technique) ? feature_beams : 0U;
+ShaderFeatures technique_features(const scene::Technique& technique) {
+    const ShaderFeatures beams = has_beams(technique) ? feature_beams : 0U;
     return search_of(technique).features | option_features(technique.options) | beams;
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cstdint>
-
+#include "engine/render/shaders/shader_library.h"
 #include "engine/render/shaders/uniform_blocks.h"
 #include "engine/scene/technique/technique.h"
 
 namespace reljef::render {
 
-std::uint32_t technique_features(const scene::Technique& technique);
+ShaderFeatures technique_features(const scene::Technique& technique);
 
 /// The height in [0,1] that does not change when heights fade: the reference plane of parallax,
 /// else the middle.

@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 11> file_names{
     "terrain/terrain",        "relief/relief",    "relief/beams",     "mesh/mesh",
     "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
     "terrain/relief_terrain", "frame/sky",        "frame/average"};
-// By the bits of ShaderFeature.
+// By the bits of ShaderFeatures.
 constexpr std::array<std::string_view, 32> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
@@ -25,9 +25,9 @@ constexpr std::array<std::string_view, 32> feature_names{
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
     "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY",
     "FACADES",     "POINT_LIGHTS"};
-static_assert(std::bit_width(std::uint32_t{feature_point_lights}) == feature_names.size());
+static_assert(std::bit_width(feature_point_lights) == feature_names.size());
 
-std::string header_of(std::uint32_t features) {
+std::string header_of(ShaderFeatures features) {
     std::string header = "#version 450 core\n";
     for (std::size_t bit = 0; bit < feature_names.size(); ++bit) {
         if ((features >> bit & 1U) != 0) {
@@ -146,7 +146,7 @@ Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& 
 }
 
 // One search method with its modifiers.
-std::uint32_t search_of(std::uint32_t features) {
+ShaderFeatures search_of(ShaderFeatures features) {
     if ((features & feature_exact) != 0) {
         return feature_exact;
     }
@@ -159,13 +159,13 @@ std::uint32_t search_of(std::uint32_t features) {
     if ((features & feature_parallax) != 0) {
         return features & (feature_parallax | feature_limited | feature_iterated);
     }
-    const std::uint32_t narrowing =
+    const ShaderFeatures narrowing =
         (features & feature_bisect) != 0 ? feature_bisect : features & feature_secant;
     return narrowing | (features & feature_view_steps);
 }
 
-std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
-    std::uint32_t options = features & (feature_fade | feature_write_depth);
+ShaderFeatures options_of(ShaderFeatures features, ShaderFeatures search) {
+    ShaderFeatures options = features & (feature_fade | feature_write_depth);
     const bool follows_rays = (search & feature_parallax) == 0;
     if (follows_rays && (features & feature_hit) == 0) {
         options |= search == feature_layers ? 0U : features & feature_smooth_edges;
@@ -179,14 +179,14 @@ std::uint32_t options_of(std::uint32_t features, std::uint32_t search) {
 }
 
 // Only techniques that may begin anywhere on their rays have beams.
-std::uint32_t beams_of(std::uint32_t features, std::uint32_t search) {
+ShaderFeatures beams_of(ShaderFeatures features, ShaderFeatures search) {
     const bool anywhere =
         search == feature_exact || search == feature_cone || search == feature_secant;
     return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
 }
 
-std::uint32_t lighting_of(std::uint32_t features) {
-    for (const std::uint32_t method : {feature_normal_map, feature_bump, feature_emboss}) {
+ShaderFeatures lighting_of(ShaderFeatures features) {
+    for (const ShaderFeatures method : {feature_normal_map, feature_bump, feature_emboss}) {
         if ((features & method) != 0) {
             return method;
         }
@@ -194,32 +194,33 @@ std::uint32_t lighting_of(std::uint32_t features) {
     return 0U;
 }
 
-std::uint32_t sliver_of(std::uint32_t features) {
+ShaderFeatures sliver_of(ShaderFeatures features) {
     return (features & feature_sliver) != 0 ? features & (feature_sliver | feature_corner_depth)
                                             : 0U;
 }
 
-std::uint32_t overlay_of(std::uint32_t features) {
+ShaderFeatures overlay_of(ShaderFeatures features) {
     const bool has_none = (features & feature_hit) != 0 || (features & feature_overlay) == 0;
     return has_none ? 0U : features & (feature_overlay | feature_facades);
 }
 
-std::uint32_t points_of(std::uint32_t features) {
+ShaderFeatures points_of(ShaderFeatures features) {
     return (features & feature_hit) != 0 ? 0U : features & feature_point_lights;
 }
 
 // Features of a kind of shader except light, fog and hit.
-std::uint32_t own_features(ShaderVariant variant) {
+ShaderFeatures own_features(ShaderVariant variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
-    const std::uint32_t wrap = variant.features & feature_wrap;
-    const std::uint32_t lighting = is_lit ? lighting_of(variant.features) : 0U;
-    const std::uint32_t points = points_of(variant.features);
-    constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
+    const ShaderFeatures wrap = variant.features & feature_wrap;
+    const ShaderFeatures lighting = is_lit ? lighting_of(variant.features) : 0U;
+    const ShaderFeatures points = points_of(variant.features);
+    constexpr ShaderFeatures shadows = feature_hard_shadow | feature_soft_shadow;
     const bool on_mesh = variant.kind == ShaderKind::relief_mesh;
-    const std::uint32_t foreign = (on_mesh ? 0U : feature_layers) |
-                                  (variant.kind == ShaderKind::relief_hull ? feature_parallax : 0U);
-    const std::uint32_t search = search_of(variant.features & ~foreign);
+    const ShaderFeatures foreign =
+        (on_mesh ? 0U : feature_layers) |
+        (variant.kind == ShaderKind::relief_hull ? feature_parallax : 0U);
+    const ShaderFeatures search = search_of(variant.features & ~foreign);
     switch (variant.kind) {
     case ShaderKind::terrain:
         return (variant.features & feature_warped) != 0
@@ -274,9 +275,9 @@ bool counts_work(ShaderVariant variant) {
 }
 
 ShaderVariant counting_variant(ShaderVariant variant) {
-    constexpr std::uint32_t looks = feature_counting | feature_fog | feature_write_depth |
-                                    feature_multisampled | feature_overlay | feature_facades |
-                                    feature_point_lights;
+    constexpr ShaderFeatures looks = feature_counting | feature_fog | feature_write_depth |
+                                     feature_multisampled | feature_overlay | feature_facades |
+                                     feature_point_lights;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;
@@ -294,7 +295,7 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
         return counting_variant(variant);
     }
     variant.features &= ~(has_ground(variant.kind) ? feature_hit : 0U);
-    const std::uint32_t own =
+    const ShaderFeatures own =
         own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);
     variant.features &= feature_lit | feature_fog | feature_hit;
     if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average) {

@@ -33,48 +33,59 @@ enum class ShaderKind {
 
 bool searches_for_surface(ShaderKind kind);
 
-/// Preprocessor definitions of a shader variant.
-enum ShaderFeature : std::uint32_t {
-    feature_lit = 1U << 0U,
-    feature_fog = 1U << 1U,
-    feature_hit = 1U << 2U, ///< writes hits instead of colours
-    // Relief search; linear steps without any of these.
-    feature_exact = 1U << 3U,      ///< the true first hit
-    feature_parallax = 1U << 4U,   ///< shifts by the height
-    feature_bisect = 1U << 5U,     ///< steps, then bisection
-    feature_secant = 1U << 6U,     ///< steps, then secants
-    feature_limited = 1U << 7U,    ///< parallax with offset limiting
-    feature_iterated = 1U << 8U,   ///< iterated parallax
-    feature_view_steps = 1U << 9U, ///< the number of steps depends on the view angle
-    // Relief options.
-    feature_fade = 1U << 10U,         ///< reduces heights at grazing angles
-    feature_hard_shadow = 1U << 11U,  ///< a binary shadow ray
-    feature_soft_shadow = 1U << 12U,  ///< a shadow ray weighted by its depth below the surface
-    feature_smooth_edges = 1U << 13U, ///< blends near misses
-    feature_write_depth = 1U << 14U,  ///< writes the hit's depth instead of the box's
-    feature_warped = 1U << 15U,       ///< shows prewarped places
-    feature_cone = 1U << 16U,         ///< relief search: cone stepping
-    // Lighting of a mesh with surface detail; the mesh's normals without any of these.
-    feature_normal_map = 1U << 17U,
-    feature_bump = 1U << 18U,
-    feature_emboss = 1U << 19U,
-    feature_wrap = 1U << 20U,   ///< the tile on a mesh repeats
-    feature_beams = 1U << 21U,  ///< relief rays begin where their beam may hit
-    feature_layers = 1U << 22U, ///< relief search: solids between layers
-    feature_multisampled = 1U << 23U,
-    feature_streamed = 1U << 24U, ///< relief over the tiles of a stream
-    feature_curved = 1U << 25U,   ///< relief on the ellipsoid: view rays are bent
-    feature_counting = 1U << 26U, ///< of a terrain: writes its work instead of colours
-    feature_sliver = 1U << 27U,   ///< of a terrain: triangles from their corners (view::SliverView)
-    feature_corner_depth = 1U << 28U, ///< of slivers: depth from their corners, too
-    feature_overlay = 1U << 29U,      ///< of a terrain: grain and contours
-    feature_facades = 1U << 30U,      ///< of an overlay
-    feature_point_lights = 1U << 31U, ///< of terrains and meshes: scene::PointLight
-};
+/// Preprocessor definitions of a shader variant, as a sum of those below.
+using ShaderFeatures = std::uint64_t;
+
+inline constexpr ShaderFeatures feature_lit = 1ULL << 0U;
+inline constexpr ShaderFeatures feature_fog = 1ULL << 1U;
+inline constexpr ShaderFeatures feature_hit = 1ULL << 2U; ///< writes hits instead of colours
+// Relief search; linear steps without any of these.
+inline constexpr ShaderFeatures feature_exact = 1ULL << 3U;    ///< the true first hit
+inline constexpr ShaderFeatures feature_parallax = 1ULL << 4U; ///< shifts by the height
+inline constexpr ShaderFeatures feature_bisect = 1ULL << 5U;   ///< steps, then bisection
+inline constexpr ShaderFeatures feature_secant = 1ULL << 6U;   ///< steps, then secants
+inline constexpr ShaderFeatures feature_limited = 1ULL << 7U;  ///< parallax with offset limiting
+inline constexpr ShaderFeatures feature_iterated = 1ULL << 8U; ///< iterated parallax
+/// The number of steps depends on the view angle.
+inline constexpr ShaderFeatures feature_view_steps = 1ULL << 9U;
+// Relief options.
+inline constexpr ShaderFeatures feature_fade = 1ULL << 10U; ///< reduces heights at grazing angles
+inline constexpr ShaderFeatures feature_hard_shadow = 1ULL << 11U; ///< a binary shadow ray
+/// A shadow ray weighted by its depth below the surface.
+inline constexpr ShaderFeatures feature_soft_shadow = 1ULL << 12U;
+inline constexpr ShaderFeatures feature_smooth_edges = 1ULL << 13U; ///< blends near misses
+/// Writes the hit's depth instead of the box's.
+inline constexpr ShaderFeatures feature_write_depth = 1ULL << 14U;
+inline constexpr ShaderFeatures feature_warped = 1ULL << 15U; ///< shows prewarped places
+inline constexpr ShaderFeatures feature_cone = 1ULL << 16U;   ///< relief search: cone stepping
+// Lighting of a mesh with surface detail; the mesh's normals without any of these.
+inline constexpr ShaderFeatures feature_normal_map = 1ULL << 17U;
+inline constexpr ShaderFeatures feature_bump = 1ULL << 18U;
+inline constexpr ShaderFeatures feature_emboss = 1ULL << 19U;
+inline constexpr ShaderFeatures feature_wrap = 1ULL << 20U; ///< the tile on a mesh repeats
+/// Relief rays begin where their beam may hit.
+inline constexpr ShaderFeatures feature_beams = 1ULL << 21U;
+/// Relief search: solids between layers.
+inline constexpr ShaderFeatures feature_layers = 1ULL << 22U;
+inline constexpr ShaderFeatures feature_multisampled = 1ULL << 23U;
+/// Relief over the tiles of a stream.
+inline constexpr ShaderFeatures feature_streamed = 1ULL << 24U;
+/// Relief on the ellipsoid: view rays are bent.
+inline constexpr ShaderFeatures feature_curved = 1ULL << 25U;
+/// Of a terrain: writes its work instead of colours.
+inline constexpr ShaderFeatures feature_counting = 1ULL << 26U;
+/// Of a terrain: triangles from their corners (view::SliverView).
+inline constexpr ShaderFeatures feature_sliver = 1ULL << 27U;
+/// Of slivers: depth from their corners, too.
+inline constexpr ShaderFeatures feature_corner_depth = 1ULL << 28U;
+inline constexpr ShaderFeatures feature_overlay = 1ULL << 29U; ///< of a terrain: grain and contours
+inline constexpr ShaderFeatures feature_facades = 1ULL << 30U; ///< of an overlay
+/// Of terrains and meshes: scene::PointLight.
+inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
 
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;
-    std::uint32_t features = 0;
+    ShaderFeatures features = 0;
 
     friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
 };

@@ -10,14 +10,14 @@
 namespace reljef::render {
 
 /// The features that may have an effect on a kind, alone or with others.
-inline std::uint32_t possible_features(ShaderKind kind) {
-    constexpr std::uint32_t any = feature_lit | feature_fog | feature_hit;
-    constexpr std::uint32_t search = feature_exact | feature_parallax | feature_bisect |
-                                     feature_secant | feature_limited | feature_iterated |
-                                     feature_view_steps | feature_cone;
-    constexpr std::uint32_t relief = search | feature_fade | feature_hard_shadow |
-                                     feature_soft_shadow | feature_smooth_edges |
-                                     feature_write_depth;
+inline ShaderFeatures possible_features(ShaderKind kind) {
+    constexpr ShaderFeatures any = feature_lit | feature_fog | feature_hit;
+    constexpr ShaderFeatures search = feature_exact | feature_parallax | feature_bisect |
+                                      feature_secant | feature_limited | feature_iterated |
+                                      feature_view_steps | feature_cone;
+    constexpr ShaderFeatures relief = search | feature_fade | feature_hard_shadow |
+                                      feature_soft_shadow | feature_smooth_edges |
+                                      feature_write_depth;
     switch (kind) {
     case ShaderKind::terrain:
         return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
@@ -62,8 +62,8 @@ inline std::vector<ShaderVariant> all_variants() {
     };
     for (int index = 0; index <= static_cast<int>(ShaderKind::average); ++index) {
         const auto kind = static_cast<ShaderKind>(index);
-        const std::uint32_t all = possible_features(kind);
-        std::uint32_t features = all;
+        const ShaderFeatures all = possible_features(kind);
+        ShaderFeatures features = all;
         add(canonical_variant({kind, features}));
         while (features != 0) {
             features = (features - 1) & all; // the next subset

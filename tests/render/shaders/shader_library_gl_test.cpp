@@ -30,12 +30,12 @@ using testing::HasSubstr;
 class ShaderLibraryGlTest : public test::GlTest {};
 
 constexpr std::size_t feature_count = 32;
-static_assert(1U << (feature_count - 1) == feature_point_lights, "the last feature");
+static_assert(1ULL << (feature_count - 1) == feature_point_lights, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
 
-FeaturePairs pairs_of(std::uint32_t features) {
+FeaturePairs pairs_of(ShaderFeatures features) {
     const std::bitset<feature_count> has(features);
     FeaturePairs pairs;
     for (std::size_t one = 0; one < feature_count; ++one) {

@@ -26,7 +26,7 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
           ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
           ShaderKind::relief_terrain, ShaderKind::sky, ShaderKind::average}) {
-        for (std::uint32_t features = 0; features < feature_counting << 1U; features += 121U) {
+        for (ShaderFeatures features = 0; features < feature_counting << 1U; features += 121U) {
             const ShaderVariant variant = canonical_variant({kind, features});
             ASSERT_EQ(variant.kind, kind);
             ASSERT_TRUE(std::binary_search(variants.begin(), variants.end(), variant));
@@ -39,7 +39,7 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     std::size_t colors = 0;
     std::size_t counted = 0;
     for (const ShaderVariant& variant : all_variants()) {
-        constexpr std::uint32_t looks = feature_lit | feature_fog;
+        constexpr ShaderFeatures looks = feature_lit | feature_fog;
         const bool hit = (variant.features & feature_hit) != 0;
         EXPECT_FALSE(hit && (variant.features & looks) != 0);
         EXPECT_FALSE(variant.kind == ShaderKind::sky && (variant.features & ~looks) != 0);
@@ -90,11 +90,13 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
 }
 
 TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
-    constexpr std::uint32_t shadows = feature_hard_shadow | feature_soft_shadow;
+    constexpr ShaderFeatures shadows = feature_hard_shadow | feature_soft_shadow;
     for (const ShaderVariant& variant : all_variants()) {
-        const auto has = [&](std::uint32_t features) { return (variant.features & features) != 0; };
-        constexpr std::uint32_t options = shadows | feature_fade | feature_smooth_edges |
-                                          feature_write_depth | feature_view_steps;
+        const auto has = [&](ShaderFeatures features) {
+            return (variant.features & features) != 0;
+        };
+        constexpr ShaderFeatures options = shadows | feature_fade | feature_smooth_edges |
+                                           feature_write_depth | feature_view_steps;
         EXPECT_FALSE(has(options) && variant.kind != ShaderKind::relief &&
                      variant.kind != ShaderKind::relief_mesh &&
                      variant.kind != ShaderKind::relief_hull &&
@@ -110,8 +112,8 @@ TEST(ShaderVariants, OptionsThatMeanNothingAreLeftOut) {
 TEST(ShaderVariants, AReliefLooksForItsSurfaceInOneWay) {
     for (const ShaderVariant& variant : all_variants()) {
         int ways = 0;
-        for (const std::uint32_t way : {feature_exact, feature_cone, feature_layers,
-                                        feature_parallax, feature_bisect, feature_secant}) {
+        for (const ShaderFeatures way : {feature_exact, feature_cone, feature_layers,
+                                         feature_parallax, feature_bisect, feature_secant}) {
             ways += (variant.features & way) != 0 ? 1 : 0;
         }
         const bool searches =
