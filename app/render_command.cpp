@@ -11,6 +11,7 @@
 #include "app/cli/standard_input.h"
 #include "app/cli/usage_error.h"
 #include "app/commands.h"
+#include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
 #include "app/rendering/draw_outputs.h"
@@ -131,6 +132,7 @@ constexpr const char* examples =
     "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
     "  reljef render N45E006.hgt --object house.glb:at=45.5,6.5 --hit hit.exr\n"
     "  reljef render urban --pose low --sun 0,-5 --point-light 3,-120:intensity=60 -o night.png\n"
+    "  reljef render alps.tif --sun 265,12 --light 85,40:intensity=0.15,color=#88aaff -o dusk.png\n"
     "  reljef render urban --detail cobble:width=3 -o street.png\n"
     "  reljef render gallery --technique relief --textures cobble -o gallery.png\n"
     "  reljef render dem.tif --technique relief --compare errors -o errors.png\n"
@@ -144,6 +146,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_terrain_options(*arguments, choice->terrain);
     cli::add_view_options(*arguments, choice->view);
     add_object_options(*arguments, choice->view.objects, choice->view.footprints);
+    add_light_option(*arguments, choice->view.lights);
     add_point_light_option(*arguments, choice->view.point_lights);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);

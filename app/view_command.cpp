@@ -13,6 +13,7 @@
 #include "app/cli/options.h"
 #include "app/cli/standard_input.h"
 #include "app/commands.h"
+#include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
 #include "app/rendering/frame_sink.h"
@@ -206,6 +207,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     choice->view.default_grain = 1.0;
     cli::add_view_options(*arguments, choice->view);
     add_object_options(*arguments, choice->view.objects, choice->view.footprints);
+    add_light_option(*arguments, choice->view.lights);
     add_point_light_option(*arguments, choice->view.point_lights);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);

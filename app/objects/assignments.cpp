@@ -8,6 +8,7 @@
 
 #include "app/cli/parsed_option.h"
 #include "engine/core/geometry.h"
+#include "engine/io/formats/scene_file.h"
 
 namespace reljef::app {
 
@@ -45,6 +46,16 @@ Result<glm::dvec2> parse_place(const std::string& text, const std::string& optio
                                  max_world_coordinate)};
     }
     return glm::dvec2(x, y);
+}
+
+Result<void> set_color(Rgba8& color, const std::string& text, const std::string& option) {
+    const auto parsed = io::color_from_hex(text);
+    if (!parsed) {
+        return Error{fmt::format("{}: color '{}' found, a color such as #ffcc88 was expected",
+                                 option, text)};
+    }
+    color = *parsed;
+    return {};
 }
 
 } // namespace reljef::app

@@ -27,14 +27,7 @@ Result<void> set_light_key(io::PointLightDescription& light, const Assignment& a
                           cli::number_in("--point-light: range", 0.0, io::max_range, true)(value));
     }
     if (key == "color") {
-        const auto color = io::color_from_hex(value);
-        if (!color) {
-            return Error{fmt::format("--point-light: color '{}' found, a color such as #ffcc88 was "
-                                     "expected",
-                                     value)};
-        }
-        light.color = *color;
-        return {};
+        return set_color(light.color, value, "--point-light");
     }
     return Error{fmt::format(
         "--point-light: '{}' found, height, intensity, range or color was expected", key)};
@@ -76,34 +69,17 @@ std::string to_text(const io::PointLightDescription& light) {
 }
 
 void add_point_light_option(CLI::App& command, std::vector<io::PointLightDescription>& lights) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--point-light",
-            [&lights](const std::vector<std::string>& texts) {
-                if (texts.size() > io::max_point_lights) {
-                    throw CLI::ValidationError(
-                        fmt::format("--point-light: found {} times, at most {} were expected",
-                                    texts.size(), io::max_point_lights));
-                }
-                lights.clear();
-                for (const std::string& text : texts) {
-                    auto light = parse_point_light(text);
-                    if (!light) {
-                        throw CLI::ValidationError(light.error().message);
-                    }
-                    lights.push_back(*light);
-                }
-            },
-            "lamp above the ground, without shadows; may be repeated. Latitude and longitude, or x "
-            "and y in scene metres on terrain that is not georeferenced; height: above the ground, "
-            "metres (5); intensity: light of white ground that faces the lamp from a metre away, 1 "
-            "is white, and it falls with the square of the distance (25); range: where it ends, "
-            "metres (10 times the root of the intensity); color: sRGB (#ffffff). Of the lamps "
-            "whose "
-            "range meets the view, the 16 brightest at the eye are drawn; --truth draws all. "
-            "Example: --sun 0,-10 --point-light "
-            "45.7,6.8:intensity=4e4,range=2000,color=#ffcc88")
-        ->allow_extra_args(false)
+    add_repeated(
+        command, "--point-light", lights, io::max_point_lights, parse_point_light,
+        "lamp above the ground, without shadows; may be repeated. Latitude and longitude, or x "
+        "and y in scene metres on terrain that is not georeferenced; height: above the ground, "
+        "metres (5); intensity: light of white ground that faces the lamp from a metre away, 1 "
+        "is white, and it falls with the square of the distance (25); range: where it ends, "
+        "metres (10 times the root of the intensity); color: sRGB (#ffffff). Of the lamps "
+        "whose "
+        "range meets the view, the 16 brightest at the eye are drawn; --truth draws all. "
+        "Example: --sun 0,-10 --point-light "
+        "45.7,6.8:intensity=4e4,range=2000,color=#ffcc88")
         ->type_name(light_form);
 }
 

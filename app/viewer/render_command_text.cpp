@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/objects/footprints_option.h"
+#include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
 
@@ -224,6 +225,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     }
     for (const io::FootprintsDescription& footprints : start.scene.footprints) {
         command.add("--footprints", to_text(footprints));
+    }
+    for (const io::LightDescription& light : start.scene.lights) {
+        command.add("--light", to_text(light));
     }
     for (const io::PointLightDescription& light : start.scene.point_lights) {
         command.add("--point-light", to_text(light));

@@ -11,6 +11,7 @@
 
 #include "engine/io/image/sky_file.h"
 #include "engine/scene/graph/terrain_base.h"
+#include "engine/session/objects/placed_lights.h"
 #include "engine/terrain/field/tint.h"
 
 namespace reljef::session {
@@ -111,8 +112,6 @@ sky_picture(const io::SceneDescription& description, const SceneOptions& view) {
     return std::make_shared<const material::SkyPicture>(std::move(*picture));
 }
 
-} // namespace
-
 // Walls follow all samples of the border; a stream shows coarser ones, too.
 Result<Surroundings> surroundings_of(const TerrainScene& scene,
                                      const io::SceneDescription& description,
@@ -135,8 +134,6 @@ Result<Surroundings> surroundings_of(const TerrainScene& scene,
     return found;
 }
 
-namespace {
-
 // Azimuth, [0, 360), and altitude over the terrain's middle, degrees.
 Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
@@ -154,8 +151,6 @@ Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTim
     }
     return glm::dvec2(std::fmod(sun->azimuth + *north + 360.0, 360.0), sun->altitude);
 }
-
-} // namespace
 
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view) {
@@ -176,6 +171,29 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
     sun.altitude = angles->y;
     sun.is_sky_hidden = view.hides_sky.value_or(description.hides_sky);
     return sun;
+}
+
+} // namespace
+
+Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
+                          const SceneOptions& view, Log& log) {
+    auto surroundings = surroundings_of(scene, description, view, log);
+    if (!surroundings) {
+        return surroundings.error();
+    }
+    scene.surroundings = std::move(*surroundings);
+    scene.light = &scene.scene.add_light();
+    const auto sun = chosen_sun(scene, description, view);
+    if (!sun) {
+        return sun.error();
+    }
+    set_daylight(scene, *sun);
+    for (const auto* const lights : {&description.lights, &view.lights}) {
+        for (const io::LightDescription& light : *lights) {
+            scene.scene.add_light(light_of(light));
+        }
+    }
+    return {};
 }
 
 void set_daylight(TerrainScene& scene, scene::Light sun) {

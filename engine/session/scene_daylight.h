@@ -14,16 +14,11 @@ namespace reljef::session {
 /// the convergence of its grid. Empty without a place on Earth.
 std::optional<double> true_north(const TerrainScene& scene);
 
-/// What the options name, else the scene file's. Reads a picture of the sky. Notes a base that the
-/// terrain cannot have.
-Result<Surroundings> surroundings_of(const TerrainScene& scene,
-                                     const io::SceneDescription& description,
-                                     const SceneOptions& view, Log& log);
-
-/// The sun that the options name, else the scene file's: by its angles, or by a time. Usage errors
+/// Adds the sun, the sky, the air, and lights besides the sun, as the options name them, else the
+/// scene file. Reads a picture of the sky. Notes a base that the terrain cannot have. Usage errors
 /// with a time: a terrain without a place on Earth, a sun below the horizon of its middle.
-Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
-                                const SceneOptions& view);
+Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
+                          const SceneOptions& view, Log& log);
 
 /// Shines a sun: sets the light with the colours of its altitude, sky, air, and what lies below the
 /// terrain's edge. Precondition: `bounds` are those of the terrain as it is.

@@ -311,9 +311,12 @@ Result<void> place_point_lights(TerrainScene& scene, const TerrainSource& source
     if (!placed) {
         return placed.error();
     }
-    if (placed->size() > scene::max_shown_point_lights) {
-        log.note(fmt::format("of {} point lights, each picture shows the {} brightest at the eye",
-                             placed->size(), scene::max_shown_point_lights));
+    const std::size_t count =
+        placed->size() + source.description.lights.size() + view.lights.size();
+    if (count > scene::max_shown_point_lights) {
+        log.note(fmt::format("of {} lights besides the sun, each picture shows the {} brightest at "
+                             "the eye",
+                             count, scene::max_shown_point_lights));
     }
     scene.point_lights = std::move(*placed);
     return {};
@@ -324,22 +327,6 @@ Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
     auto placed = place_objects(scene, source, view, log, stop);
     placed = placed ? place_buildings(scene, source, view, log, stop) : placed;
     return placed ? place_point_lights(scene, source, view, log) : placed;
-}
-
-Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
-                          const SceneOptions& view, Log& log) {
-    auto surroundings = surroundings_of(scene, description, view, log);
-    if (!surroundings) {
-        return surroundings.error();
-    }
-    scene.surroundings = std::move(*surroundings);
-    scene.light = &scene.scene.add_light();
-    const auto sun = chosen_sun(scene, description, view);
-    if (!sun) {
-        return sun.error();
-    }
-    set_daylight(scene, *sun);
-    return {};
 }
 
 } // namespace

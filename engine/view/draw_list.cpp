@@ -69,8 +69,9 @@ std::vector<scene::PlacedPointLight> seen_point_lights(std::vector<scene::Placed
                                                        FrameStats::Skipped& skipped) {
     std::erase_if(lights, [&](const scene::PlacedPointLight& light) {
         const glm::dvec3 range(light.light.range);
+        const bool is_everywhere = std::isinf(light.light.range);
         return !(light.light.range > 0.0F) ||
-               !frustum.may_see({light.place - range, light.place + range});
+               (!is_everywhere && !frustum.may_see({light.place - range, light.place + range}));
     });
     std::stable_sort(lights.begin(), lights.end(), [&](const auto& one, const auto& other) {
         return brightness_at(camera.eye, one) > brightness_at(camera.eye, other);

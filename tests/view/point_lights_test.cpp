@@ -43,6 +43,24 @@ TEST(SeenPointLights, AreThoseWhoseRangeMeetsTheView) {
     EXPECT_EQ(list.stats.skipped.point_lights, 0);
 }
 
+TEST(SeenPointLights, HoldParallelOnesWhereverTheCameraLooks) {
+    LampScene made;
+    made.scene.add_light();
+    made.scene.add_light({.color = glm::vec3(0.1F)});
+    for (int i = 0; i < 30; ++i) {
+        made.add({2.0 * (i - 15), 10.0, 1.0}, 1.0F, 300.0F);
+    }
+    for (const double east : {-50.0, 0.0, 50.0}) {
+        made.scene.set_active_camera(
+            made.scene.add_camera(test::camera_at({0.0, 0.0, 5.0}, {east, 1.0, 5.0})));
+        const DrawList list = made.list();
+        EXPECT_EQ(list.point_lights.size(), scene::max_shown_point_lights);
+        EXPECT_TRUE(std::ranges::any_of(list.point_lights, [](const auto& light) {
+            return std::isinf(light.light.range);
+        })) << east;
+    }
+}
+
 // Otherwise light would end at the border of two parts.
 TEST(SeenPointLights, OfAPartOfAPictureAreThoseOfTheWhole) {
     LampScene made;

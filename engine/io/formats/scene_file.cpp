@@ -42,6 +42,8 @@ constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr NumberRange object_heights{-max_object_height, max_object_height, false};
 constexpr NumberRange object_scales{0.0, max_object_scale, true};
 constexpr NumberRange intensities{0.0, max_intensity, true};
+constexpr NumberRange light_altitudes{0.0, 90.0, false};
+constexpr NumberRange light_intensities{0.0, max_light_intensity, true};
 constexpr NumberRange ranges{0.0, max_range, true};
 constexpr std::array<std::string_view, 2> roofs{"flat", "hipped"};
 constexpr std::array<std::string_view, 2> kinds_of_gaps{"holes", "sea"};
@@ -202,6 +204,27 @@ void read_object_keys(TomlTable& table, const std::filesystem::path& folder,
     scene.objects.push_back(std::move(object));
 }
 
+void read_color(TomlTable& table, Rgba8& color) {
+    std::string text;
+    table.read("color", text);
+    const auto parsed = color_from_hex(text);
+    if (!text.empty() && !parsed) {
+        table.fail("color",
+                   fmt::format("is \"{}\", a color such as \"#ffcc88\" was expected", text));
+    }
+    color = parsed.value_or(color);
+}
+
+void read_light_keys(TomlTable& table, SceneDescription& scene) {
+    LightDescription light;
+    table.require({"azimuth", "altitude"});
+    table.read("azimuth", light.azimuth, azimuths);
+    table.read("altitude", light.altitude, light_altitudes);
+    table.read("intensity", light.intensity, light_intensities);
+    read_color(table, light.color);
+    scene.lights.push_back(light);
+}
+
 void read_point_light_keys(TomlTable& table, SceneDescription& scene) {
     PointLightDescription light;
     if (!table.has("at")) {
@@ -211,14 +234,7 @@ void read_point_light_keys(TomlTable& table, SceneDescription& scene) {
     table.read("height", light.height, object_heights);
     table.read("intensity", light.intensity, intensities);
     table.read("range", light.range, ranges);
-    std::string color;
-    table.read("color", color);
-    const auto parsed = color_from_hex(color);
-    if (!color.empty() && !parsed) {
-        table.fail("color",
-                   fmt::format("is \"{}\", a color such as \"#ffcc88\" was expected", color));
-    }
-    light.color = parsed.value_or(light.color);
+    read_color(table, light.color);
     scene.point_lights.push_back(light);
 }
 
@@ -283,6 +299,9 @@ Result<void> read_arrays(TomlTable& root, const std::filesystem::path& folder,
                           [&](TomlTable& table) { read_object_keys(table, folder, scene); });
     good = good ? read_each(root, "point_light", max_point_lights,
                             [&](TomlTable& table) { read_point_light_keys(table, scene); })
+                : good;
+    good = good ? read_each(root, "light", max_lights,
+                            [&](TomlTable& table) { read_light_keys(table, scene); })
                 : good;
     return good ? read_each(root, "footprints", max_footprint_files,
                             [&](TomlTable& table) { read_footprint_keys(table, folder, scene); })

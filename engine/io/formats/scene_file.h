@@ -56,6 +56,16 @@ inline constexpr double max_intensity = 1e12;
 inline constexpr double max_range = 1e6; ///< metres
 inline constexpr std::size_t max_point_lights = 1000;
 
+/// [[light]]: a light besides the sun whose rays are parallel.
+struct LightDescription {
+    double azimuth = 0.0;   ///< degrees clockwise from north, [-360, 360]; as the sun's
+    double altitude = 45.0; ///< degrees above the horizon, [0, 90]
+    double intensity = 0.5; ///< linear radiance of a white surface that faces the light, over 0
+    Rgba8 color{255, 255, 255, 255};
+};
+inline constexpr double max_light_intensity = 1e3;
+inline constexpr std::size_t max_lights = 16;
+
 /// "#rrggbb", opaque; empty if it is none.
 std::optional<Rgba8> color_from_hex(std::string_view text);
 /// In small letters, without the alpha.
@@ -113,6 +123,7 @@ struct SceneDescription {
     std::vector<ObjectDescription> objects;
     std::vector<FootprintsDescription> footprints;
     std::vector<PointLightDescription> point_lights;
+    std::vector<LightDescription> lights;
 
     // [sun]: degrees, or a time
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude

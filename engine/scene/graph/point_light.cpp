@@ -2,10 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
 namespace reljef::scene {
+
+PlacedPointLight as_point_light(const Light& light) {
+    constexpr double square = distance_of_parallel_light * distance_of_parallel_light;
+    return {{light.color, static_cast<float>(square), std::numeric_limits<float>::infinity()},
+            distance_of_parallel_light * to_light(light)};
+}
 
 glm::vec3 radiance_from(const PlacedPointLight& light, glm::dvec3 place, glm::vec3 normal) {
     const glm::dvec3 way = light.place - place;

@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "engine/scene/streaming/light.h"
+
 namespace reljef::scene {
 
 /// A lamp at the origin of its node, which shines the same in all directions. It casts no shadows.
@@ -15,7 +17,7 @@ struct PointLight {
     /// square of the distance. >= 0
     float intensity = 25.0F;
     /// Metres; not above 0: it gives no light. The light ends at the range: it is multiplied by
-    /// (1 − (distance / range)⁴)² (Karis 2013, "Real Shading in Unreal Engine 4").
+    /// (1 − (distance / range)⁴)² (Karis 2013, "Real Shading in Unreal Engine 4"). May be infinite.
     float range = 50.0F;
 
     friend bool operator==(const PointLight&, const PointLight&) = default;
@@ -28,6 +30,13 @@ struct PlacedPointLight {
 
     friend bool operator==(const PlacedPointLight&, const PlacedPointLight&) = default;
 };
+
+/// Metres to lights whose rays are parallel: as far as the Sun (IAU 2012, resolution B2). Over the
+/// whole Earth the directions to them differ by less than 1e-4 radians.
+inline constexpr double distance_of_parallel_light = 149'597'870'700.0;
+
+/// The same light of Light::color, without limits of its range. Light::ambient is not in it.
+PlacedPointLight as_point_light(const Light& light);
 
 /// Maximum that a picture shows.
 inline constexpr std::size_t max_shown_point_lights = 16;

@@ -270,9 +270,15 @@ std::optional<Light> Scene::sun() const {
 
 std::vector<PlacedPointLight> Scene::point_lights() const {
     std::vector<PlacedPointLight> lights;
+    bool has_sun = false;
     visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_local) {
-        if (const auto* light = node.get<PointLight>()) {
-            lights.push_back({*light, glm::dvec3(world_from_local[3])});
+        if (const auto* lamp = node.get<PointLight>()) {
+            lights.push_back({*lamp, glm::dvec3(world_from_local[3])});
+        } else if (const auto* light = node.get<Light>()) {
+            if (has_sun) {
+                lights.push_back(as_point_light(turned(*light, world_from_local)));
+            }
+            has_sun = true;
         }
     });
     return lights;

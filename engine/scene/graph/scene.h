@@ -161,6 +161,8 @@ public:
 
     Result<Node*> add_terrain(terrain::Terrain terrain, const TerrainOptions& options = {});
     Node& add_mesh(Mesh mesh, const Material& material = {});
+    /// The first visible one is the sun. Others shine without shadows; their Light::ambient has no
+    /// effect.
     Node& add_light(const Light& light = {});
     /// At `place`, world metres. The node may move.
     Node& add_point_light(const PointLight& light = {}, glm::dvec3 place = glm::dvec3(0.0));
@@ -183,7 +185,8 @@ public:
 
     /// The first visible light, in the world.
     [[nodiscard]] std::optional<Light> sun() const;
-    /// All visible ones, in the order of the tree.
+    /// All visible ones, in the order of the tree; among them lights that are not the sun, see
+    /// as_point_light().
     [[nodiscard]] std::vector<PlacedPointLight> point_lights() const;
 
     /// z of the highest visible terrain at world (x, y).

@@ -31,6 +31,15 @@ scene::PointLight point_light_of(const io::PointLightDescription& description) {
     return light;
 }
 
+scene::Light light_of(const io::LightDescription& description) {
+    scene::Light light;
+    light.azimuth = description.azimuth;
+    light.altitude = description.altitude;
+    light.color = static_cast<float>(description.intensity) * linear_from_rgba8(description.color);
+    light.ambient = glm::vec3(0.0F);
+    return light;
+}
+
 Result<std::vector<StandingLight>>
 add_point_lights(scene::Scene& scene, const scene::TerrainSurface& surface,
                  const std::vector<io::PointLightDescription>& lights, const SourceHeight& height) {

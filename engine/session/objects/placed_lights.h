@@ -20,6 +20,9 @@ struct StandingLight {
 /// The light, without its place.
 scene::PointLight point_light_of(const io::PointLightDescription& description);
 
+/// A light besides the sun.
+scene::Light light_of(const io::LightDescription& description);
+
 /// Adds point lights above the ground, along the local vertical. `height`: as add_objects(). Fails
 /// on a place that is no place on Earth or not on the terrain.
 Result<std::vector<StandingLight>>

@@ -111,6 +111,15 @@ TEST(RenderCommand, NamesThePointLights) {
                                     "'3,4:height=5,intensity=25,color=#000000'"));
 }
 
+TEST(RenderCommand, NamesTheLightsBesidesTheSun) {
+    session::TerrainScene scene = hill_scene();
+    StartOptions start = start_of("natural");
+    start.scene.lights = {{.azimuth = 85.0, .altitude = 30.0, .intensity = 0.2}};
+    const auto command = render_command(start, scene, shown_of(scene));
+    ASSERT_TRUE(command) << command.error().message;
+    EXPECT_THAT(*command, HasSubstr("--light '85,30:intensity=0.2,color=#ffffff'"));
+}
+
 TEST(RenderCommand, NamesThePictureOfTheSky) {
     session::TerrainScene scene = hill_scene();
     StartOptions start = start_of("natural");

@@ -80,6 +80,23 @@ TEST_F(PointLightsGlTest, LightLevelGroundByTheirLaw) {
     }
 }
 
+TEST_F(PointLightsGlTest, LightLevelGroundAlikeFromFarAway) {
+    for (const std::string_view technique : plane_techniques) {
+        PlaneStage stage;
+        const scene::Light light{.azimuth = 70.0, .altitude = 30.0, .color = {0.9F, 0.6F, 0.3F}};
+        stage.scene.add_light(light);
+        const Image picture = stage.shown(technique);
+        const Rgba8 expected = rgba8_from_linear(stage.albedo() * 0.5F * light.color);
+        int largest = 0;
+        for (int row = 0; row < picture.rows(); ++row) {
+            for (int col = 0; col < picture.cols(); ++col) {
+                largest = std::max(largest, most_off(picture(col, row), expected));
+            }
+        }
+        EXPECT_LE(largest, 2) << technique;
+    }
+}
+
 TEST_F(PointLightsGlTest, EndAtTheirRange) {
     for (const std::string_view technique : plane_techniques) {
         PlaneStage stage;
@@ -102,7 +119,7 @@ TEST_F(PointLightsGlTest, EndAtTheirRange) {
     }
 }
 
-// Rough ground in the dusk, with three lamps close above it.
+// Rough ground in the dusk, with three lamps close above it, and a far light besides the sun.
 struct LampStage : OverlayStage {
     LampStage() {
         sun().altitude = 5.0;
@@ -111,6 +128,7 @@ struct LampStage : OverlayStage {
         add_lamp({-120.0, -300.0}, {1.0F, 0.7F, 0.4F});
         add_lamp({60.0, -380.0}, {1.0F, 1.0F, 1.0F});
         add_lamp({100.0, 80.0}, {0.4F, 0.7F, 1.0F});
+        scene.add_light({.azimuth = 60.0, .altitude = 20.0, .color = {0.0F, 0.05F, 0.1F}});
     }
     void add_lamp(glm::dvec2 place, glm::vec3 color) {
         const double ground = surface().height_at(place.x, place.y).value_or(0.0);

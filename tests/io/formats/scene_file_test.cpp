@@ -387,6 +387,34 @@ TEST(SceneFile, PointLightsHaveAPlaceAndALight) {
     }
 }
 
+TEST(SceneFile, LightsHaveADirection) {
+    const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[[light]]\n";
+    const auto scene =
+        parse_scene(terrain + "azimuth = 85\naltitude = 30\n[[light]]\nazimuth = -10\n"
+                              "altitude = 0\nintensity = 2\ncolor = \"#88aaff\"\n",
+                    "scene.toml", "/folder");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->lights.size(), 2U);
+    EXPECT_EQ(scene->lights[0].azimuth, 85.0);
+    EXPECT_EQ(scene->lights[0].altitude, 30.0);
+    EXPECT_EQ(scene->lights[0].intensity, 0.5);
+    EXPECT_EQ(scene->lights[1].intensity, 2.0);
+    EXPECT_EQ(scene->lights[1].color, (Rgba8{136, 170, 255, 255}));
+    for (const auto& [wrong, sentence] :
+         {std::pair("azimuth = 3", "altitude is missing, azimuth and altitude were expected"),
+          std::pair("azimuth = 361\naltitude = 3", "azimuth is 361"),
+          std::pair("azimuth = 1\naltitude = -3", "altitude is -3, a number"),
+          std::pair("azimuth = 1\naltitude = nan", "altitude is nan"),
+          std::pair("azimuth = 1\naltitude = 3\nintensity = 0", "intensity is 0, a number above 0"),
+          std::pair("azimuth = 1\naltitude = 3\ncolor = \"blue\"", "color is \"blue\""),
+          std::pair("azimuth = 1\naltitude = 3\nrange = 3", "range is unknown")}) {
+        const auto refused = parse_scene(terrain + wrong, "scene.toml", "/folder");
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_THAT(refused.error().message, HasSubstr("[[light]]"));
+        EXPECT_THAT(refused.error().message, HasSubstr(sentence));
+    }
+}
+
 TEST(SceneFile, ObjectsHaveAFileAndAPlace) {
     const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[[object]]\n";
     const auto scene = parse_scene(terrain + "file = \"a.obj\"\nat = [46.5, -7]\n"

@@ -80,6 +80,39 @@ TEST(PointLight, IsWhereItsNodeIs) {
     EXPECT_FALSE(scene.sun()) << "a lamp is no sun";
 }
 
+TEST(PointLight, ShinesAlikeEverywhereIfItsRaysAreParallel) {
+    const Light light{
+        .azimuth = 90.0, .altitude = 30.0, .color = {2.0F, 1.0F, 0.5F}, .ambient = glm::vec3(9.0F)};
+    const PlacedPointLight placed = as_point_light(light);
+    for (const double metres : {0.0, -50.0, 1e4, 1e7}) {
+        for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)}) {
+            const glm::vec3 level = radiance_from(placed, metres * axis, up_normal);
+            EXPECT_LT(glm::distance(level, 0.5F * light.color), 3e-4F) << metres; // 1e-4 radians
+            const glm::vec3 facing =
+                radiance_from(placed, metres * axis, glm::vec3(to_light(light)));
+            EXPECT_LT(glm::distance(facing, light.color), 3e-4F) << metres;
+        }
+    }
+    EXPECT_EQ(radiance_from(placed, {}, -up_normal), glm::vec3(0.0F));
+}
+
+TEST(PointLight, IsEveryLightButTheFirstVisibleOne) {
+    Scene scene;
+    Node& first = scene.add_light({.azimuth = 10.0});
+    Node& second = scene.add_light({.azimuth = 20.0, .altitude = 0.0});
+    scene.add_point_light({.intensity = 4.0F});
+    EXPECT_EQ(scene.sun()->azimuth, 10.0);
+    const auto lights = scene.point_lights();
+    ASSERT_EQ(lights.size(), 2U);
+    EXPECT_EQ(lights[0], as_point_light({.azimuth = 20.0, .altitude = 0.0}));
+    EXPECT_EQ(lights[1].light.intensity, 4.0F);
+    first.set_visible(false);
+    EXPECT_EQ(scene.sun()->azimuth, 20.0);
+    EXPECT_EQ(scene.point_lights().size(), 1U) << "it is the sun now";
+    second.set_visible(false);
+    EXPECT_FALSE(scene.sun());
+}
+
 TEST(PointLight, MovesWithItsAnimators) {
     Scene scene;
     Node& node = scene.add_point_light();
