@@ -14,6 +14,7 @@
 #include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
+#include "app/objects/surface_shader_option.h"
 #include "app/rendering/draw_outputs.h"
 #include "app/rendering/render_choice.h"
 #include "engine/session/frame_maker.h"
@@ -148,6 +149,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_object_options(*arguments, choice->view.objects, choice->view.footprints);
     add_light_option(*arguments, choice->view.lights);
     add_point_light_option(*arguments, choice->view.point_lights);
+    add_surface_shader_option(*arguments, choice->view.surface_shader);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);
     arguments
@@ -171,7 +173,7 @@ cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
         "decide what is in shadow, of meshes, too");
     add_compare_option(*arguments, choice->compare);
     for (const char* option : {"--compare", "--wireframe", "--context", "--simd", "--shader-dir",
-                               "--detail", "--samples", "--calibration"}) {
+                               "--detail", "--samples", "--calibration", "--surface-shader"}) {
         truth->excludes(arguments->get_option(option));
     }
     cli::add_parsed(*arguments, "--rays", choice->rays, cli::number_in<int>("--rays", 1, 16),

@@ -16,6 +16,7 @@
 #include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
+#include "app/objects/surface_shader_option.h"
 #include "app/rendering/frame_sink.h"
 #include "app/viewer/opening.h"
 #include "app/viewer/viewer.h"
@@ -209,6 +210,7 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_object_options(*arguments, choice->view.objects, choice->view.footprints);
     add_light_option(*arguments, choice->view.lights);
     add_point_light_option(*arguments, choice->view.point_lights);
+    add_surface_shader_option(*arguments, choice->view.surface_shader);
     cli::add_samples_option(*arguments, choice->view);
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
     arguments->add_flag("--no-panels", choice->hides_panels,

@@ -11,6 +11,7 @@
 #include "app/objects/light_option.h"
 #include "app/objects/object_option.h"
 #include "app/objects/point_light_option.h"
+#include "app/objects/surface_shader_option.h"
 
 namespace reljef::app {
 namespace {
@@ -231,6 +232,9 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     }
     for (const io::PointLightDescription& light : start.scene.point_lights) {
         command.add("--point-light", to_text(light));
+    }
+    if (start.scene.surface_shader) {
+        command.add("--surface-shader", to_text(*start.scene.surface_shader));
     }
     add_surroundings(command, scene, start, shown);
     if (scene.materials().front()->wireframe) {

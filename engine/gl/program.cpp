@@ -81,6 +81,11 @@ Result<Program> Program::create(std::span<const StageSource> stages) {
     return program;
 }
 
+Result<void> Program::check(const StageSource& stage) {
+    const auto shader = gl::compile(stage);
+    return shader ? Result<void>() : shader.error();
+}
+
 void Program::read_uniform_locations() {
     GLint count = 0;
     GLint longest = 0;

@@ -56,6 +56,9 @@ public:
     /// file names when the stages do not link.
     static Result<Program> create(std::span<const StageSource> stages);
 
+    /// Whether a stage compiles by itself. Fails as create().
+    static Result<void> check(const StageSource& stage);
+
     void use() const;
 
     /// Sets a uniform; the program need not be in use. Returns false when the program does not use

@@ -351,7 +351,7 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
         .no_vertices = no_vertices_,
         .skips = options_.skips,
         .state = state};
-    if (!hits && !list.point_lights.empty()) {
+    if (!hits && (!list.point_lights.empty() || view::has_surface_shader(list))) {
         if (auto set = state.set(point_light_block(list)); !set) {
             return set;
         }

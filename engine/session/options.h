@@ -104,6 +104,7 @@ struct SceneOptions {
     std::optional<DetailChoice> detail;               ///< absent: the scene file's, else none
     std::optional<scene::Technique> detail_technique; ///< absent: the scene file's, else relief
     bool wireframe = false;
+    std::optional<io::SurfaceShaderDescription> surface_shader; ///< absent: the scene file's
     glm::ivec2 size{1024, 768}; ///< of the picture, pixels; the default camera fits its shape
     double vertical_fov = 57.3; ///< degrees
     scene::ProjectionKind projection = scene::ProjectionKind::perspective;

@@ -16,6 +16,7 @@
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/gallery.h"
 #include "engine/session/material_source.h"
+#include "engine/session/objects/surface_shaders.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_daylight.h"
 #include "engine/session/streaming.h"
@@ -181,6 +182,13 @@ Result<void> choose_technique(TerrainScene& scene, const SceneOptions& view) {
     }
     node.material.technique = technique;
     return {};
+}
+
+Result<void> finish_materials(TerrainScene& scene, const io::SceneDescription& description,
+                              const SceneOptions& view) {
+    const auto& shader = view.surface_shader ? view.surface_shader : description.surface_shader;
+    const auto set = shader ? set_surface_shader(*shader, scene.materials()) : Result<void>();
+    return set && !scene.is_gallery ? choose_technique(scene, view) : set;
 }
 
 } // namespace
@@ -369,7 +377,8 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         if (view.rays == RayUse::only) { // which draw no floor of triangles
             shown.material.technique = {scene::Exact{}};
         }
-    } else if (auto done = choose_technique(result, view); !done) {
+    }
+    if (auto done = finish_materials(result, source.description, view); !done) {
         return done.error();
     }
     if (auto done = add_daylight(result, source.description, view, log); !done) {

@@ -90,14 +90,24 @@ bool is_reached(const DrawList& list, const Box& box) {
     });
 }
 
-bool is_reached(const DrawList& list, const TileDraw& draw) {
-    return !list.point_lights.empty() &&
-           is_reached(list, transformed(list.world_from_local(draw), draw.tile->bounds));
+bool needs_ground(const DrawList& list, const TileDraw& draw) {
+    return draw.terrain->material.shader != nullptr ||
+           (!list.point_lights.empty() &&
+            is_reached(list, transformed(list.world_from_local(draw), draw.tile->bounds)));
 }
 
-bool is_reached(const DrawList& list, const TerrainDraw& draw) {
-    return !list.point_lights.empty() &&
-           is_reached(list, transformed(draw.world_from_local, draw.terrain->surface->bounds()));
+bool needs_ground(const DrawList& list, const TerrainDraw& draw) {
+    return draw.terrain->material.shader != nullptr ||
+           (!list.point_lights.empty() &&
+            is_reached(list, transformed(draw.world_from_local, draw.terrain->surface->bounds())));
+}
+
+bool has_surface_shader(const DrawList& list) {
+    return std::ranges::any_of(
+               list.terrains,
+               [](const auto& draw) { return draw.terrain->material.shader != nullptr; }) ||
+           std::ranges::any_of(
+               list.meshes, [](const auto& draw) { return draw.mesh->material.shader != nullptr; });
 }
 
 glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain) {

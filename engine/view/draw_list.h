@@ -123,9 +123,12 @@ std::vector<scene::PlacedPointLight> seen_point_lights(std::vector<scene::Placed
 
 /// Whether a point light of the list may reach a box, world metres.
 bool is_reached(const DrawList& list, const Box& box);
-/// The same of a tile, and of all of a terrain.
-bool is_reached(const DrawList& list, const TileDraw& draw);
-bool is_reached(const DrawList& list, const TerrainDraw& draw);
+/// Whether a tile, or all of a terrain, is drawn with the albedo and the normals of the ground:
+/// point lights reach it, or its material has its own shader.
+bool needs_ground(const DrawList& list, const TileDraw& draw);
+bool needs_ground(const DrawList& list, const TerrainDraw& draw);
+/// Whether a material of the list has its own shader.
+bool has_surface_shader(const DrawList& list);
 
 /// Widths of a detail tile on the picture between which it fades in, pixels.
 inline constexpr glm::vec2 seen_tile_pixels{8.0F, 32.0F};

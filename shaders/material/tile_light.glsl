@@ -71,6 +71,7 @@ float facing_of(vec3 upright) {
 
 // Adds the light of points, at the place on the mesh, not in its relief.
 vec3 with_points(vec3 lit, vec3 albedo, vec3 normal) {
+    keep_surface(albedo, normal);
 #ifdef POINT_LIGHTS
     return lit + albedo * light_of_points(relative, normal);
 #else

@@ -26,6 +26,7 @@ void main() {
 #ifdef POINT_LIGHTS
     lit += albedo * light_of_points(INSIDE(way_from_eye), normal);
 #endif
-    color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
+    keep_surface(albedo, normal);
+    color = vec4(seen_through_air(shaded(lit, INSIDE(way_from_eye)), distance_to_eye()), 1.0);
 #endif
 }

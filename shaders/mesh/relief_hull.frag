@@ -109,6 +109,7 @@ void main() {
 #else
     vec2 right = pixel_on_mesh(beside, at, 1.0 - along);
     vec2 up = pixel_on_mesh(above, at, 1.0 - along);
-    color = vec4(seen_through_air(color_at(place, space, way, right, up), length(where)), 1.0);
+    vec3 lit = color_at(place, space, way, right, up);
+    color = vec4(seen_through_air(shaded(lit, where), length(where)), 1.0);
 #endif
 }

@@ -66,6 +66,6 @@ void main() {
         shown = mix(color_at(missed, space, way, right, up), shown, distance_share);
     }
 #endif
-    color = vec4(seen_through_air(shown, length(where)), 1.0);
+    color = vec4(seen_through_air(shaded(shown, where), length(where)), 1.0);
 #endif
 }

@@ -40,6 +40,6 @@ void main() {
     vec2 up = dFdy(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
     vec3 lit = lit_tile(albedo, coordinate, tangent_space(), right, up, 1.0);
-    color = vec4(seen_through_air(lit, length(relative)), 1.0);
+    color = vec4(seen_through_air(shaded(lit, relative), length(relative)), 1.0);
 #endif
 }

@@ -227,7 +227,7 @@ vec3 color_at(vec2 place, float level, vec3 relative, float metres) {
 #ifdef OVERLAY
     lit = overlaid_at(lit, place, relative);
 #endif
-    return seen_through_air(lit, metres);
+    return seen_through_air(shaded(lit, relative), metres);
 }
 #endif
 

@@ -85,5 +85,6 @@ void main() {
     float share = smoothstep(seen_pixels.x, seen_pixels.y, tile_width / pixel);
     float height_share = smoothstep(seen_pixels.z, seen_pixels.w, lift / pixel);
     vec3 shown = mix(plain, detailed(albedo, ground, across, down, height_share), share);
-    color = vec4(seen_through_air(shown, distance_to_eye()), 1.0);
+    keep_surface(albedo, normalize(world_from_normal * ground.xyz));
+    color = vec4(seen_through_air(shaded(shown, relative), distance_to_eye()), 1.0);
 }

@@ -142,7 +142,7 @@ void main() {
                    !is_level(height, change));
 #endif
 #ifndef HIT
-    color = vec4(seen_through_air(lit, distance_to_eye()), 1.0);
+    color = vec4(seen_through_air(shaded(lit, INSIDE(way_from_eye)), distance_to_eye()), 1.0);
 #endif
 #ifdef COUNT
 #ifdef WARPED

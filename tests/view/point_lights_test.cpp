@@ -110,14 +110,14 @@ TEST(SeenPointLights, ReachTheTilesWithinTheirRange) {
             glm::clamp(glm::dvec2(-40.0, 40.0), glm::dvec2(bounds.low), glm::dvec2(bounds.high));
         const double distance =
             glm::length(glm::dvec3(nearest, 0.0) - glm::dvec3(-40.0, 40.0, 1.0));
-        EXPECT_EQ(is_reached(list, draw), distance < 8.0);
-        reached += is_reached(list, draw) ? 1U : 0U;
+        EXPECT_EQ(needs_ground(list, draw), distance < 8.0);
+        reached += needs_ground(list, draw) ? 1U : 0U;
     }
     EXPECT_GT(reached, 0U);
     EXPECT_LT(reached, list.tiles.size());
-    EXPECT_TRUE(is_reached(list, list.terrains.front()));
+    EXPECT_TRUE(needs_ground(list, list.terrains.front()));
     made.scene.root().children().back()->set_position({0.0, 0.0, 9.0});
-    EXPECT_FALSE(is_reached(made.list(), made.list().terrains.front())) << "high above";
+    EXPECT_FALSE(needs_ground(made.list(), made.list().terrains.front())) << "high above";
 }
 
 TEST(SeenPointLights, ALampThatMovesIsAnotherView) {

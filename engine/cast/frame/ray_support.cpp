@@ -35,6 +35,9 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (is_curved(terrain) && technique.options.shadow) {
         return "shadows by rays on the ellipsoid, where they bend,";
     }
+    if (terrain.material.shader != nullptr) {
+        return "a surface shader";
+    }
     if (terrain.material.wireframe) {
         return "a wireframe";
     }
@@ -47,6 +50,9 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
 
 std::string obstacle_of(const scene::MeshNode& mesh) {
     const scene::Material& material = mesh.material;
+    if (material.shader != nullptr) {
+        return "a surface shader";
+    }
     if (material.wireframe) {
         return "a wireframe";
     }

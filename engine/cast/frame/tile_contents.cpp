@@ -97,7 +97,8 @@ TileContents::find_missing(const view::DrawList& list,
         const bool has_paint =
             !options.paints || (content.levels && content.light == light &&
                                 content.sun.has_value() == (options.in_parts && light));
-        const bool needs_ground = options.paints && !content.ground && view::is_reached(list, draw);
+        const bool needs_ground =
+            options.paints && !content.ground && view::needs_ground(list, draw);
         if (content.pieces.front() && has_paint && !needs_ground) {
             ++stats.skipped.uploads_unchanged;
         } else {
@@ -356,7 +357,7 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             PlacedTile& tile = placed.tiles.emplace_back(
                 placer.placed(draw, piece, *content.pieces[number_of(piece)]));
             if (options.paints) {
-                paint(content, glm::vec2(piece.vertex), view::is_reached(list, draw), tile);
+                paint(content, glm::vec2(piece.vertex), view::needs_ground(list, draw), tile);
                 tile.paint.longest_texels = placer.longest(tile.paint, piece);
             }
         }

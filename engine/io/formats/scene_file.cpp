@@ -225,6 +225,24 @@ void read_light_keys(TomlTable& table, SceneDescription& scene) {
     scene.lights.push_back(light);
 }
 
+Result<void> read_surface_shader(TomlTable& root, const std::filesystem::path& folder,
+                                 SceneDescription& scene) {
+    TomlTable table = root.table("surface_shader");
+    SurfaceShaderDescription shader;
+    if (root.has("surface_shader") && !table.has("file")) {
+        table.fail("file", "is missing, a shader file was expected");
+    }
+    table.read("file", shader.file, folder);
+    TomlTable constants = table.table("constants");
+    constexpr std::size_t max_numbers = 4;
+    constants.read_all(shader.constants, max_numbers, max_shader_constant);
+    if (!shader.file.empty()) {
+        scene.surface_shader = std::move(shader);
+    }
+    const auto good = constants.finish();
+    return good ? table.finish() : good;
+}
+
 void read_point_light_keys(TomlTable& table, SceneDescription& scene) {
     PointLightDescription light;
     if (!table.has("at")) {
@@ -367,6 +385,9 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     if (auto good = read_arrays(root, folder, scene); !good) {
         return good.error();
     }
+    if (auto good = read_surface_shader(root, folder, scene); !good) {
+        return good.error();
+    }
     for (const TomlTable* table :
          {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
         if (auto good = table->finish(); !good) {
@@ -395,7 +416,8 @@ named_files(const SceneDescription& scene) {
         {"the gallery's textures", scene.gallery_textures},
         {"the detail texture", scene.detail.value_or(DetailDescription{}).textures},
         {"the terrain's ramp", scene.ramp},
-        {"the sky", scene.sky}};
+        {"the sky", scene.sky},
+        {"the surface shader", scene.surface_shader.value_or(SurfaceShaderDescription{}).file}};
     for (const std::filesystem::path& image : scene.imagery) {
         files.emplace_back("the terrain's imagery", image);
     }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -55,6 +56,13 @@ struct PointLightDescription {
 inline constexpr double max_intensity = 1e12;
 inline constexpr double max_range = 1e6; ///< metres
 inline constexpr std::size_t max_point_lights = 1000;
+
+/// [surface_shader]: a shader of the user's (scene::SurfaceShader).
+struct SurfaceShaderDescription {
+    std::filesystem::path file;                           ///< GLSL; relative to the scene file
+    std::map<std::string, std::vector<double>> constants; ///< one to four numbers each
+};
+inline constexpr double max_shader_constant = 1e30;
 
 /// [[light]]: a light besides the sun whose rays are parallel.
 struct LightDescription {
@@ -124,6 +132,7 @@ struct SceneDescription {
     std::vector<FootprintsDescription> footprints;
     std::vector<PointLightDescription> point_lights;
     std::vector<LightDescription> lights;
+    std::optional<SurfaceShaderDescription> surface_shader;
 
     // [sun]: degrees, or a time
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude

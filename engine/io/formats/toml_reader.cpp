@@ -313,6 +313,29 @@ void TomlTable::read(std::string_view key, std::optional<glm::dvec2>& value) {
     }
 }
 
+void TomlTable::read_all(std::map<std::string, std::vector<double>>& values, std::size_t max,
+                         double limit) {
+    for (const auto& [key, node] : *table_) {
+        const std::string name(key.str());
+        known_.push_back(name);
+        const toml::array single{node.is_number() ? node.value_or(0.0) : limit * 2.0};
+        const toml::array& numbers = node.is_array() ? *node.as_array() : single;
+        std::vector<double> found;
+        for (const toml::node& number : numbers) {
+            found.push_back(number.is_number() ? number.value_or(0.0) : limit * 2.0);
+        }
+        const bool is_good = !found.empty() && found.size() <= max &&
+                             std::all_of(found.begin(), found.end(),
+                                         [&](double value) { return std::abs(value) <= limit; });
+        if (is_good) {
+            values.insert_or_assign(name, std::move(found));
+        } else {
+            fail(name, fmt::format("is {}, a number or a list of 1 to {} numbers was expected",
+                                   text_of(node), max));
+        }
+    }
+}
+
 TomlTable TomlTable::table(std::string_view key) {
     const toml::node* node = find(key);
     if (node != nullptr && !node->is_table()) {

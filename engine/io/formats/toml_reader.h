@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,6 +52,10 @@ public:
     void read(std::string_view key, std::optional<glm::dvec3>& value);
     /// Two numbers of at most max_world_coordinate.
     void read(std::string_view key, std::optional<glm::dvec2>& value);
+
+    /// Each key's number, or list of 1 to `max` numbers, of at most `limit` in size.
+    void read_all(std::map<std::string, std::vector<double>>& values, std::size_t max,
+                  double limit);
 
     /// A nested table; empty if absent.
     TomlTable table(std::string_view key);

@@ -16,19 +16,19 @@ ShaderFeatures scene_features(const view::DrawList& list, bool hits, int samples
 
 namespace {
 
-ShaderFeatures features_if(const FrameContext& frame, bool is_reached) {
-    return is_reached && !frame.hits && !frame.counts() ? feature_point_lights : 0U;
+ShaderFeatures features_if(const FrameContext& frame, bool needs_ground) {
+    return needs_ground && !frame.hits && !frame.counts() ? feature_point_lights : 0U;
 }
 
 } // namespace
 
 ShaderFeatures point_light_features(const FrameContext& frame, const view::TileDraw& draw) {
     const bool is_warped = draw.terrain->material.technique.id() == scene::TechniqueId::prewarp;
-    return features_if(frame, !is_warped && view::is_reached(frame.list, draw));
+    return features_if(frame, !is_warped && view::needs_ground(frame.list, draw));
 }
 
 ShaderFeatures point_light_features(const FrameContext& frame, const view::TerrainDraw& draw) {
-    return features_if(frame, view::is_reached(frame.list, draw));
+    return features_if(frame, view::needs_ground(frame.list, draw));
 }
 
 } // namespace reljef::render

@@ -31,8 +31,8 @@ struct FrameContext {
 /// the picture.
 ShaderFeatures scene_features(const view::DrawList& list, bool hits, int samples, bool skips);
 
-/// feature_point_lights if point lights reach what is drawn; 0 for hits, and where prewarp shows
-/// other places than its triangles.
+/// feature_point_lights if view::needs_ground(); 0 for hits, and where prewarp shows other places
+/// than its triangles.
 ShaderFeatures point_light_features(const FrameContext& frame, const view::TileDraw& draw);
 ShaderFeatures point_light_features(const FrameContext& frame, const view::TerrainDraw& draw);
 

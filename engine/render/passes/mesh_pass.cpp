@@ -2,6 +2,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/render/passes/surface_pass.h"
 #include "engine/render/passes/tile_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
@@ -98,10 +99,11 @@ Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw,
     const scene::Camera& camera = frame.list.camera;
     const MeshResidency& residency = frame.residency.meshes();
     DrawState& state = frame.state;
-    auto program = state.use(mesh_variant(material, frame, more_features));
+    auto program = state.use(with_surface(mesh_variant(material, frame, more_features), material));
     if (!program) {
         return program.error();
     }
+    set_surface(**program, material, camera);
     state.set_culling(draw.from_behind ? gl::Culling::front : gl::Culling::back);
     state.set_wireframe(material.wireframe);
     (*program)->set(uniforms.relative_from_local,

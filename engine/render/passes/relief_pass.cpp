@@ -8,6 +8,7 @@
 #include "engine/core/geometry.h"
 #include "engine/render/passes/beams.h"
 #include "engine/render/passes/overlay_pass.h"
+#include "engine/render/passes/surface_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
 #include "engine/render/shaders/uniforms.h"
@@ -337,14 +338,16 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
         }
     }
     const ShaderFeatures unused = uses_beams(frame, technique) ? 0U : feature_beams;
-    auto program = state.use(
-        {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
-                                 surface_features(draw) | overlay_features(frame, *draw.terrain) |
-                                 point_light_features(frame, draw)});
+    const ShaderFeatures features =
+        frame.features | (technique_features(technique) & ~unused) | surface_features(draw) |
+        overlay_features(frame, *draw.terrain) | point_light_features(frame, draw);
+    const scene::Material& material = draw.terrain->material;
+    auto program = state.use(with_surface({ShaderKind::relief, features}, material));
     if (!program) {
         return program.error();
     }
-    state.set_wireframe(draw.terrain->material.wireframe);
+    set_surface(**program, material, frame.list.camera);
+    state.set_wireframe(material.wireframe);
     state.set_adding(frame.counts());
     if (auto set = set_relief(**program, frame, draw); !set) {
         return set;

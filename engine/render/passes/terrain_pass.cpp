@@ -6,6 +6,7 @@
 #include "engine/core/geometry.h"
 #include "engine/render/passes/ground_pass.h"
 #include "engine/render/passes/overlay_pass.h"
+#include "engine/render/passes/surface_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
@@ -108,11 +109,12 @@ private:
         const scene::TerrainNode& terrain = *draw.terrain;
         overlay_ = overlay_of(draw);
         points_ = points_of(draw);
-        auto program = state_.use(variant_for(terrain, detail));
+        auto program = state_.use(with_surface(variant_for(terrain, detail), terrain.material));
         if (!program) {
             return program.error();
         }
         program_ = *program;
+        set_surface(*program_, terrain.material, frame_.list.camera);
         terrain_ = &terrain;
         detail_ = detail;
         state_.set_wireframe(terrain.material.wireframe);

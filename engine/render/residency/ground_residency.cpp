@@ -61,12 +61,12 @@ Result<void> GroundResidency::prepare_lit_grounds(const view::DrawList& list,
                                                   view::FrameStats& stats) {
     std::map<const scene::TerrainNode*, glm::dmat4> reached;
     for (const view::TileDraw& draw : list.tiles) {
-        if (draw.tile->borrows && view::is_reached(list, draw)) {
+        if (draw.tile->borrows && view::needs_ground(list, draw)) {
             reached.emplace(draw.terrain, list.world_from_local(draw));
         }
     }
     for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
-        if (draw->search->tiles.empty() && view::is_reached(list, *draw)) {
+        if (draw->search->tiles.empty() && view::needs_ground(list, *draw)) {
             reached.emplace(draw->terrain, draw->world_from_local);
         }
     }

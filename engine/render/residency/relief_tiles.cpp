@@ -178,7 +178,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Terrai
         done = prepare_light(stream, tiles, source->maker(), lit,
                              light ? &lights.irradiance_of(source, *light) : nullptr, stats);
     }
-    if (done && with_light && view::is_reached(list, draw)) {
+    if (done && with_light && view::needs_ground(list, draw)) {
         done = prepare_ground(stream, tiles, source->maker(), stats);
     }
     return done;

@@ -90,7 +90,7 @@ Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::Til
 
 Result<void> TileMaps::prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
                                       Entry& entry, view::FrameStats& stats) {
-    if (draw.detail == view::DetailLevel::none && !view::is_reached(list, draw)) {
+    if (draw.detail == view::DetailLevel::none && !view::needs_ground(list, draw)) {
         entry.maps.ground.reset(); // no budget counts it: keep it only where it is seen
         return {};
     }

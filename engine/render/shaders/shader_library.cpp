@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/check.h"
 #include "engine/render/shaders/frame_block.h"
 
 namespace reljef::render {
@@ -40,7 +41,8 @@ std::string header_of(ShaderFeatures features) {
 // Joins a shader file and its includes into one text with `#line` directives.
 class Joiner {
 public:
-    explicit Joiner(const std::filesystem::path& folder) : folder_(folder) {}
+    Joiner(const std::filesystem::path& folder, const scene::SurfaceShader* surface)
+        : folder_(folder), surface_(surface) {}
 
     Result<gl::StageSource> join(gl::Stage stage, const std::string& name, std::string header) {
         source_ = {stage, name, std::move(header), {}};
@@ -52,6 +54,7 @@ public:
 
 private:
     static constexpr int max_include_depth = 8;
+    static constexpr std::string_view surface_include = "surface_shader";
 
     [[nodiscard]] Result<std::string> text_of(const std::string& name) const {
         std::error_code ignored;
@@ -88,6 +91,11 @@ private:
                 source_.text += line + '\n';
                 continue;
             }
+            if (included == surface_include) {
+                append_surface();
+                source_.text += fmt::format("#line {} {}\n", line_number + 1, number);
+                continue;
+            }
             source_.included.emplace_back(included);
             if (auto appended = append(included, source_.included.size(), depth + 1); !appended) {
                 return appended.error();
@@ -95,6 +103,15 @@ private:
             source_.text += fmt::format("#line {} {}\n", line_number + 1, number);
         }
         return {};
+    }
+
+    // As it is: files that it names are not included.
+    void append_surface() {
+        if (surface_ != nullptr) {
+            source_.included.push_back(surface_->name());
+            source_.text +=
+                fmt::format("#line 1 {}\n{}\n", source_.included.size(), surface_->text());
+        }
     }
 
     // The file that a line `#include "file"` names; empty for any other line.
@@ -107,6 +124,7 @@ private:
     }
 
     const std::filesystem::path& folder_;
+    const scene::SurfaceShader* surface_; // null: none
     gl::StageSource source_;
 };
 
@@ -123,14 +141,16 @@ Result<void> check_blocks(const gl::Program& program, std::string_view name) {
     return {};
 }
 
-Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& folder) {
+Result<gl::Program> compile(const ShaderVariant& variant, const std::filesystem::path& folder) {
     const std::string name(file_names[static_cast<std::size_t>(variant.kind)]);
-    const std::string header = header_of(variant.features);
-    auto vertex = Joiner(folder).join(gl::Stage::vertex, name + ".vert", header);
+    const std::string header =
+        header_of(variant.features) + (variant.surface ? "#define SURFACE_SHADER\n" : "");
+    auto vertex = Joiner(folder, nullptr).join(gl::Stage::vertex, name + ".vert", header);
     if (!vertex) {
         return vertex.error();
     }
-    auto fragment = Joiner(folder).join(gl::Stage::fragment, name + ".frag", header);
+    auto fragment =
+        Joiner(folder, variant.surface.get()).join(gl::Stage::fragment, name + ".frag", header);
     if (!fragment) {
         return fragment.error();
     }
@@ -143,6 +163,18 @@ Result<gl::Program> compile(ShaderVariant variant, const std::filesystem::path& 
         return good.error();
     }
     return program;
+}
+
+// Compiles it by itself: drivers name its file and lines then (Mesa loses them in joined texts).
+Result<void> check_surface(const scene::SurfaceShader& surface) {
+    const auto shaders = embedded_shaders();
+    const auto declared = std::find_if(shaders.begin(), shaders.end(), [](const auto& shader) {
+        return shader.name == "frame/surface.glsl";
+    });
+    check(declared != shaders.end(), "the declaration of Surface was expected");
+    return gl::Program::check({gl::Stage::fragment, surface.name(),
+                               fmt::format("{}{}#line 1 0\n{}\nvoid main() {{}}\n", header_of(0),
+                                           declared->text, surface.text())});
 }
 
 // One search method with its modifiers.
@@ -209,7 +241,7 @@ ShaderFeatures points_of(ShaderFeatures features) {
 }
 
 // Features of a kind of shader except light, fog and hit.
-ShaderFeatures own_features(ShaderVariant variant) {
+ShaderFeatures own_features(const ShaderVariant& variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
     const bool is_lit = (variant.features & feature_lit) != 0;
     const ShaderFeatures wrap = variant.features & feature_wrap;
@@ -251,7 +283,7 @@ ShaderFeatures own_features(ShaderVariant variant) {
     }
 }
 
-bool is_multisampled(ShaderVariant variant) {
+bool is_multisampled(const ShaderVariant& variant) {
     const bool has_samples = variant.kind != ShaderKind::beams && variant.kind != ShaderKind::sky &&
                              variant.kind != ShaderKind::average;
     return has_samples && (variant.features & feature_hit) == 0 &&
@@ -267,7 +299,7 @@ bool is_lit_per_pixel(ShaderKind kind) {
     return kind != ShaderKind::terrain && kind != ShaderKind::relief;
 }
 
-bool counts_work(ShaderVariant variant) {
+bool counts_work(const ShaderVariant& variant) {
     const bool is_terrain = variant.kind == ShaderKind::terrain ||
                             variant.kind == ShaderKind::relief || variant.kind == ShaderKind::beams;
     return is_terrain && (variant.features & feature_hit) == 0 &&
@@ -309,6 +341,9 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
         variant.features &= ~feature_lit;
     }
     variant.features |= own;
+    if (variant.kind == ShaderKind::sky || (variant.features & feature_hit) != 0) {
+        variant.surface = nullptr;
+    }
     return variant;
 }
 
@@ -317,6 +352,11 @@ Result<gl::Program*> ShaderLibrary::program(ShaderVariant variant) {
     const auto found = programs_.find(variant);
     if (found != programs_.end()) {
         return &found->second;
+    }
+    if (variant.surface) {
+        if (auto good = check_surface(*variant.surface); !good) {
+            return good.error();
+        }
     }
     auto program = compile(variant, folder_);
     if (!program) {

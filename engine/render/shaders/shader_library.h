@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string_view>
 
 #include "engine/core/result.h"
 #include "engine/gl/program.h"
+#include "engine/scene/graph/surface_shader.h"
 
 namespace reljef::render {
 
@@ -86,6 +88,7 @@ inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;
     ShaderFeatures features = 0;
+    std::shared_ptr<const scene::SurfaceShader> surface = {}; ///< of a material, for colours
 
     friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
 };
@@ -93,7 +96,7 @@ struct ShaderVariant {
 /// The variant without features that have no effect. Hits have no light, fog, shadows, smooth edges
 /// or samples. The sky has no fog. Sky and surface detail on terrains are never hit. A terrain's
 /// light is in its map unless a relief casts shadows. Parallax follows no ray. Work is that of a
-/// colour, whose air, depth and overlay cost no taps.
+/// colour, whose air, depth and overlay cost no taps. Only colours have surface shaders.
 ShaderVariant canonical_variant(ShaderVariant variant);
 
 /// Programs by variant, compiled on first use. Needs a current context.

@@ -55,6 +55,9 @@ struct Uniforms {
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
 
+    // With a surface shader: surface_shader.glsl.
+    gl::Uniform<glm::vec3> eye_place{"eye_place"};
+
     gl::Uniform<float> sky_side{"sky_side"};
     gl::Uniform<glm::mat3> picture_from_world{"picture_from_world"};
     gl::Uniform<int> picture_count{"picture_count"};

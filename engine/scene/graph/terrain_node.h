@@ -4,12 +4,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/surface_detail.h"
+#include "engine/scene/graph/surface_shader.h"
 #include "engine/scene/streaming/terrain_surface.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/terrain/mesh/bisection.h"
@@ -21,6 +23,10 @@ struct Material {
     bool wireframe = false;
     glm::vec3 color{0.8F}; ///< linear albedo, meshes only; a terrain has its own
     SurfaceDetail detail;  ///< meshes only; without a set the mesh has one colour
+    /// Null: none. Precondition: shader->check(constants). Constants without a value here have that
+    /// of the shader.
+    std::shared_ptr<const SurfaceShader> shader = {};
+    std::vector<ShaderConstant> constants = {};
 
     friend bool operator==(const Material&, const Material&) = default;
 };

@@ -120,6 +120,15 @@ TEST(RenderCommand, NamesTheLightsBesidesTheSun) {
     EXPECT_THAT(*command, HasSubstr("--light '85,30:intensity=0.2,color=#ffffff'"));
 }
 
+TEST(RenderCommand, NamesTheSurfaceShader) {
+    session::TerrainScene scene = hill_scene();
+    StartOptions start = start_of("natural");
+    start.scene.surface_shader = {.file = "my snow.glsl", .constants = {{"line", {2.5}}}};
+    const auto command = render_command(start, scene, shown_of(scene));
+    ASSERT_TRUE(command) << command.error().message;
+    EXPECT_THAT(*command, HasSubstr("--surface-shader 'my snow.glsl:line=2.5'"));
+}
+
 TEST(RenderCommand, NamesThePictureOfTheSky) {
     session::TerrainScene scene = hill_scene();
     StartOptions start = start_of("natural");

@@ -387,6 +387,34 @@ TEST(SceneFile, PointLightsHaveAPlaceAndALight) {
     }
 }
 
+TEST(SceneFile, SurfaceShadersHaveAFileAndConstants) {
+    const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[surface_shader]\n";
+    const auto scene = parse_scene(terrain + "file = \"snow.glsl\"\n[surface_shader.constants]\n"
+                                             "line = 2500\ntint = [1, 0.5, -2]\n",
+                                   "scene.toml", "/folder");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_TRUE(scene->surface_shader);
+    EXPECT_EQ(scene->surface_shader->file, "/folder/snow.glsl");
+    EXPECT_EQ(scene->surface_shader->constants.at("line"), std::vector<double>{2500.0});
+    EXPECT_EQ(scene->surface_shader->constants.at("tint"), (std::vector<double>{1.0, 0.5, -2.0}));
+    const std::string file = "file = \"a.glsl\"\n";
+    for (const auto& [wrong, sentence] :
+         {std::pair(std::string(), "file is missing, a shader file was expected"),
+          std::pair(file + "line = 3", "line is unknown"),
+          std::pair(file + "constants = 3", "constants is 3, a table"),
+          std::pair(file + "constants.a = []", "a is [], a number or a list of 1 to 4 numbers"),
+          std::pair(file + "constants.a = [1, 2, 3, 4, 5]", "a is [1, 2, 3, 4, 5]"),
+          std::pair(file + "constants.a = [1, \"x\"]", "a is [1, 'x']"),
+          std::pair(file + "constants.a = nan", "a is nan"),
+          std::pair(file + "constants.a = \"x\"", "a is 'x'")}) {
+        const auto refused = parse_scene(terrain + wrong, "scene.toml", "/folder");
+        ASSERT_FALSE(refused) << wrong;
+        EXPECT_THAT(refused.error().message, HasSubstr(sentence));
+    }
+    EXPECT_FALSE(
+        parse_scene("[terrain]\ngenerator = \"natural\"\n", "a.toml", "/")->surface_shader);
+}
+
 TEST(SceneFile, LightsHaveADirection) {
     const std::string terrain = "[terrain]\ngenerator = \"natural\"\n[[light]]\n";
     const auto scene =

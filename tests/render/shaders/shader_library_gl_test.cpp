@@ -5,6 +5,7 @@
 #include <bit>
 #include <bitset>
 #include <map>
+#include <memory>
 #include <optional>
 #include <regex>
 #include <set>
@@ -172,12 +173,35 @@ CompiledVariant inspect(const gl::Program& program, std::string name) {
     return variant;
 }
 
+// The same with a surface shader that reads all it gets: of each kind, those with one feature or
+// none, and the one with the most.
+std::vector<ShaderVariant> shaded_variants(const std::vector<ShaderVariant>& variants) {
+    const auto surface = std::make_shared<const scene::SurfaceShader>(
+        scene::SurfaceShader::create("test.glsl",
+                                     "vec3 surface_color(Surface surface) { return surface.light * "
+                                     "surface.albedo + surface.normal + surface.place * "
+                                     "surface.from_eye; }")
+            .value());
+    std::set<ShaderKind> known;
+    std::vector<ShaderVariant> shaded;
+    for (const ShaderVariant& variant : variants) {
+        const bool is_first = known.insert(variant.kind).second;
+        if (is_first || std::popcount(variant.features) <= 1) {
+            shaded.push_back({variant.kind, variant.features, surface});
+        }
+    }
+    return shaded;
+}
+
 // Compiled once for all tests of this process. Empty where a variant does not compile.
 const std::vector<CompiledVariant>& compiled_variants() {
     static const std::vector<CompiledVariant> all = [] {
         ShaderLibrary shaders;
         std::vector<CompiledVariant> made;
-        for (const ShaderVariant& variant : pairwise_variants()) {
+        std::vector<ShaderVariant> variants = pairwise_variants();
+        const std::vector<ShaderVariant> shaded = shaded_variants(variants);
+        variants.insert(variants.end(), shaded.begin(), shaded.end());
+        for (const ShaderVariant& variant : variants) {
             const auto program = shaders.program(variant);
             if (!program) {
                 ADD_FAILURE() << program.error().message;
