@@ -103,6 +103,9 @@ private:
                                  scene::to_string(pose), to_string(BaselineWork::relief)));
                 continue;
             }
+            if (stop_.stop_requested()) {
+                return {};
+            }
             for (BaselineEntry& entry : group) {
                 entry.row.pose = pose;
                 entry.ms.clear();
