@@ -32,7 +32,7 @@ Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& comman
 
 cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand(
-        "peers", "frame time, triangles and error of polygons and of Irrlicht's terrain node");
+        "peers", "time and error of other programs beside reljef, on the same terrain");
     auto choice = std::make_shared<PeersChoice>();
     arguments
         ->add_option("--terrain", choice->options.terrain,
@@ -41,10 +41,22 @@ cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
     add_suite_options(*arguments, choice->options.suite);
     add_json_option(*arguments, choice->outputs);
     arguments->footer(
-        "Both programs draw the same 2^n+1 x 2^n+1 samples of the terrain's middle from the poses\n"
-        "overview and low, in two windows, one frame after the other: first with a still camera,\n"
-        "then with a moving one. The suite needs a display; xvfb-run provides one. It also needs\n"
-        "Irrlicht when reljef is built (apt-get install libirrlicht-dev).\n"
+        "All draw the same 2^n+1 x 2^n+1 samples of the terrain's middle, without light, from the\n"
+        "poses overview and low, one frame after the other. One table for each kind of work:\n"
+        "  levels of triangles: Irrlicht's terrain node beside polygons, also with a moving "
+        "camera\n"
+        "  a vertex for every sample: OpenSceneGraph's terrain beside polygons\n"
+        "  a flat square: Irrlicht's parallax material beside parallax\n"
+        "  hits of rays: Embree beside exact on the CPU\n"
+        "  a picture of rays: POV-Ray's height_field beside exact on the CPU. Its time is its own\n"
+        "    'Trace Time': without its start and without reading the scene\n"
+        "A program that is not installed is left out with a note: Irrlicht and OpenSceneGraph must "
+        "be\n"
+        "there when reljef is built (apt-get install libirrlicht-dev libopenscenegraph-dev), "
+        "POV-Ray\n"
+        "when the suite runs (apt-get install povray). The suite needs a display; xvfb-run "
+        "provides\n"
+        "one.\n"
         "Example:\n"
         "  xvfb-run -a reljef-bench peers --terrain N45E006.hgt --json peers.json");
     return {arguments, [arguments, choice, &interrupt] {

@@ -1,147 +1,38 @@
 #include "bench/baselines/baseline_suite.h"
 
-#include <algorithm>
-#include <fstream>
+#include <array>
 #include <functional>
-#include <limits>
-#include <span>
+#include <iterator>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "app/cli/message.h"
+#include "app/cli/console_log.h"
 #include "app/cli/progress_line.h"
-#include "bench/baselines/baseline_process.h"
-#include "bench/baselines/baseline_scene.h"
-#include "bench/baselines/irrlicht/protocol.h"
+#include "bench/baselines/baseline_entry.h"
+#include "bench/baselines/own_entries.h"
 #include "bench/runner/benchmark_scene.h"
-#include "engine/core/memory_file.h"
-#include "engine/scene/graph/scene.h"
-#include "engine/session/scene_renderer.h"
-#include "engine/view/terrain_maps.h"
+#include "engine/truth/draw.h"
 
 namespace reljef::bench {
 namespace {
 
 constexpr int default_rounds = 30;
+constexpr int quick_rounds = 5;
 constexpr int warm_up = 2;              // rounds
 constexpr double frames_across = 500.0; // of a moving camera; 20 s at 25 frames per second
 
-struct BaselineFiles {
-    MemoryFile heights;
-    MemoryFile colors;
+struct OtherProgram {
+    std::string_view name;
+    BaselineEntries (*entries)(const BaselineView& view);
 };
-
-Result<MemoryFile> file_of(std::span<const std::byte> bytes) {
-    auto file = MemoryFile::create();
-    if (!file) {
-        return file.error();
-    }
-    std::ofstream out(fmt::format("/proc/self/fd/{}", file->descriptor()), std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    return out.flush() ? std::move(file) : Error{"no memory for what Irrlicht is to read"};
-}
-
-Result<BaselineFiles> files_of(const scene::TerrainSurface& surface) {
-    const Grid<float>& heights = surface.heightfield().heights;
-    const int side = heights.cols();
-    std::vector<float> columns;
-    for (int col = 0; col < side; ++col) {
-        for (int row = side - 1; row >= 0; --row) {
-            columns.push_back(heights(col, row));
-        }
-    }
-    const Image lit = view::lit_map(surface, std::nullopt, side);
-    std::vector<std::uint8_t> colors;
-    for (int row = 0; row < side; ++row) {
-        for (int col = 0; col < side; ++col) {
-            const Rgba8& color = lit.clamped(col, row);
-            colors.insert(colors.end(), {color.r, color.g, color.b});
-        }
-    }
-    auto heights_file = file_of(std::as_bytes(std::span(columns)));
-    auto colors_file = file_of(std::as_bytes(std::span(colors)));
-    if (!heights_file || !colors_file) {
-        return (heights_file ? colors_file : heights_file).error();
-    }
-    return BaselineFiles{std::move(*heights_file), std::move(*colors_file)};
-}
-
-std::string path_of(const MemoryFile& file) {
-    return fmt::format("/proc/{}/fd/{}", ::getpid(), file.descriptor());
-}
-
-Result<BaselineProcess> start_irrlicht(const scene::TerrainSurface& surface,
-                                       const BaselineFiles& files, glm::ivec2 size, double fov) {
-    std::error_code ignored;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() /
-                         baseline::program_name;
-    if (!std::filesystem::exists(program, ignored)) {
-        return Error{fmt::format("{} was not built, as Irrlicht was not found: install it (apt-get "
-                                 "install libirrlicht-dev), configure and build again",
-                                 baseline::program_name)};
-    }
-    const terrain::Heightfield& heightfield = surface.heightfield();
-    return BaselineProcess::start(
-        program,
-        {fmt::format("{}", size.x), fmt::format("{}", size.y), fmt::format("{}", fov),
-         fmt::format("{}", heightfield.heights.cols()), fmt::format("{}", heightfield.spacing.x),
-         fmt::format("{}", heightfield.spacing.y), path_of(files.heights), path_of(files.colors)});
-}
-
-// Contains the visible depths with a margin of a factor of 2.
-struct DepthRange {
-    double near = 1.0;
-    double far = 2.0;
-};
-
-DepthRange depth_range_of(const HitBuffer& hits) {
-    DepthRange range{std::numeric_limits<double>::infinity(), 0.0};
-    for (const Hit& hit : hits.samples()) {
-        if (truth::shows_terrain(hit)) {
-            range.near = std::min<double>(range.near, hit.depth);
-            range.far = std::max<double>(range.far, hit.depth);
-        }
-    }
-    return {0.5 * range.near, 2.0 * range.far};
-}
-
-truth::SurfaceView surface_view(const BaselineScene& scene) {
-    return {scene.surface().heightfield().heights.view(), scene.surface().placement(),
-            scene.terrain->world_from_local(), scene.view()};
-}
-
-// Hits from a depth buffer, see protocol.h.
-HitBuffer hits_of(const BaselineScene& scene, std::span<const float> depths, glm::ivec2 size,
-                  const DepthRange& range) {
-    HitBuffer hits(size.x, size.y);
-    for (int y = 0; y < size.y; ++y) {
-        for (int x = 0; x < size.x; ++x) {
-            const double stored =
-                depths[static_cast<std::size_t>(size.y - 1 - y) * static_cast<std::size_t>(size.x) +
-                       static_cast<std::size_t>(x)];
-            if (stored >= 1.0) {
-                continue;
-            }
-            const double depth =
-                range.near * range.far / (range.far - stored * (range.far - range.near));
-            const Ray ray = scene::view_ray(scene.view(), size, glm::dvec2(x, y) + 0.5);
-            if (const auto sample = scene.surface().placement().sample_from_world(ray.at(depth))) {
-                hits(x, y) = {static_cast<float>(sample->x), static_cast<float>(sample->y),
-                              static_cast<float>(sample->z), static_cast<float>(depth)};
-            }
-        }
-    }
-    return hits;
-}
-
-struct BaselineEntry {
-    BaselineRow row;
-    std::function<Result<void>()> set_camera;
-    std::function<Result<double>(BaselineRow&)> draw; // returns ms; sets the row's triangles
-    std::function<Result<HitBuffer>()> hits;
-    std::vector<double> ms{};
+constexpr std::array other_programs{
+    OtherProgram{"Irrlicht's terrain node", irrlicht_terrain_entries},
+    OtherProgram{"Irrlicht's parallax material", irrlicht_relief_entries},
+    OtherProgram{"OpenSceneGraph", openscenegraph_entries},
+    OtherProgram{"Embree", embree_entries},
+    OtherProgram{"POV-Ray", povray_entries},
 };
 
 class BaselineRun {
@@ -154,14 +45,17 @@ public:
         if (!scene) {
             return scene.error();
         }
-        scene_.emplace(std::move(*scene));
-        results_.side = scene_->surface().heightfield().heights.cols();
-        if (auto started = start_baselines(); !started) {
-            return started;
+        view_.emplace(BaselineView{.scene = std::move(*scene),
+                                   .size = options_.suite.size,
+                                   .threads = static_cast<unsigned>(options_.suite.threads)});
+        results_.side = view_->side();
+        auto devices = OwnDevices::create(options_.suite);
+        if (!devices) {
+            return devices.error();
         }
-        if (auto opened = open_device(); !opened) {
-            return opened;
-        }
+        devices_.emplace(std::move(*devices));
+        results_.environment = environment_of(devices_->device(), options_.suite.threads);
+        make_groups();
         for (const scene::Pose pose : {scene::Pose::overview, scene::Pose::low}) {
             if (auto done = run_pose(pose); !done || stop_.stop_requested()) {
                 return done;
@@ -171,177 +65,133 @@ public:
     }
 
 private:
-    Result<void> start_baselines() {
-        auto files = files_of(scene_->surface());
-        if (!files) {
-            return files.error();
-        }
-        for (const int levels : {1, 3, 5}) {
-            auto baseline = start_irrlicht(scene_->surface(), *files, options_.suite.size,
-                                           scene_->view().vertical_fov);
-            if (!baseline) {
-                return baseline.error();
-            }
-            if (auto built = baseline->ask(fmt::format("lods {}", levels)); !built) {
-                return built.error();
-            }
-            baselines_.emplace_back(levels, std::move(*baseline));
-        }
-        return {};
+    void note(const std::string& sentence) {
+        results_.notes.push_back(sentence);
+        cli::ConsoleLog(options_.suite.quiet).note(sentence);
     }
 
-    Result<void> open_device() {
-        auto opened = session::Device::create(
-            {.context = options_.suite.context.value_or(session::BackendKind::glfw),
-             .size = options_.suite.size,
-             .shader_dir = options_.suite.shader_dir,
-             .threads = options_.suite.threads});
-        if (!opened) {
-            return opened.error();
+    // Rows of one group are timed together.
+    using Group = std::vector<BaselineEntry>;
+
+    void make_groups() {
+        std::vector<BaselineEntry> entries;
+        const auto add = [&](std::vector<BaselineEntry> more) {
+            std::move(more.begin(), more.end(), std::back_inserter(entries));
+        };
+        for (const OtherProgram& other : other_programs) {
+            auto made = other.entries(*view_);
+            made ? add(std::move(*made))
+                 : note(fmt::format("{} left out: {}", other.name, made.error().message));
         }
-        device_.emplace(std::move(*opened));
-        results_.environment = environment_of(*device_, options_.suite.threads);
-        return {};
+        add(own_entries(*view_, *devices_));
+        std::map<std::pair<BaselineWork, bool>, Group> groups;
+        for (BaselineEntry& entry : entries) {
+            groups[{entry.row.work, entry.row.moving}].push_back(std::move(entry));
+        }
+        for (auto& [kind, group] : groups) {
+            groups_.push_back(std::move(group));
+        }
     }
 
     Result<void> run_pose(scene::Pose pose) {
-        scene::Camera& camera = *scene_->camera->get<scene::Camera>();
-        camera = scene::pose_camera(pose, scene_->terrain->world_bounds(), [&](double x, double y) {
-            return scene_->scene.height_at(x, y).value_or(0.0);
-        });
-        set_technique(reference_technique);
-        const auto shown = device_->renderer().draw_hits(scene_->scene);
-        if (!shown) {
-            return shown.error();
+        if (auto placed = place_camera(pose); !placed) {
+            return placed;
         }
-        range_ = depth_range_of(*shown);
-        if (range_.far == 0.0) {
-            return Error{fmt::format("{}, {}: no pixel of terrain found, some were expected",
-                                     options_.terrain, scene::to_string(pose))};
-        }
-        camera.near = range_.near;
-        still_ = camera;
-        auto entries = entries_for(pose);
-        for (BaselineEntry& entry : entries) {
-            if (auto measured = measure_error(entry); !measured) {
+        for (Group& group : groups_) {
+            if (shows_no_square(group)) {
+                note(fmt::format("{}: {} left out: the eye is below the square",
+                                 scene::to_string(pose), to_string(BaselineWork::relief)));
+                continue;
+            }
+            if (stop_.stop_requested()) {
+                return {};
+            }
+            for (BaselineEntry& entry : group) {
+                entry.row.pose = pose;
+                entry.ms.clear();
+            }
+            auto measured = attempt(group, [&](auto& entry) { return measure_error(entry); });
+            if (measured && !group.empty()) {
+                measured = time_together(group);
+            }
+            if (!measured) {
                 return measured;
             }
-        }
-        for (const bool moving : {false, true}) {
-            if (auto timed = time_all(entries, moving); !timed) {
-                return timed;
-            }
-        }
-        for (BaselineEntry& entry : entries) {
-            if (!entry.ms.empty()) {
-                entry.row.frames = entry.ms.size();
-                entry.row.ms = summarize(entry.ms);
-                results_.rows.push_back(std::move(entry.row));
+            for (const BaselineEntry& entry : group) {
+                add_row(entry);
             }
         }
         return {};
     }
 
-    void set_technique(const scene::Technique& technique) {
-        scene_->terrain->get<scene::TerrainNode>()->material.technique = technique;
+    // The square lies at the middle height.
+    [[nodiscard]] bool shows_no_square(const Group& group) const {
+        const Box bounds = view_->scene.terrain->world_bounds();
+        return !group.empty() && group.front().row.work == BaselineWork::relief &&
+               view_->scene.view().eye.z < bounds.center().z;
     }
 
-    std::vector<BaselineEntry> entries_for(scene::Pose pose) {
-        std::vector<BaselineEntry> entries;
-        for (auto& [levels, baseline] : baselines_) {
-            entries.push_back(irrlicht_entry(pose, levels, baseline));
+    void add_row(const BaselineEntry& entry) {
+        if (!entry.ms.empty()) {
+            results_.rows.push_back(entry.row);
+            results_.rows.back().frames = entry.ms.size();
+            results_.rows.back().ms = summarize(entry.ms);
         }
-        const scene::Technique coarse{scene::Polygons{.error = 4.0}};
-        const scene::Technique every_sample{scene::Polygons{}};
-        for (const scene::Technique& technique : {reference_technique, coarse, every_sample}) {
-            entries.push_back(own_entry(pose, technique));
-        }
-        const std::size_t still = entries.size();
-        entries.push_back(irrlicht_entry(pose, baselines_.back().first, baselines_.back().second));
-        entries.push_back(own_entry(pose, reference_technique));
-        entries.push_back(own_entry(pose, coarse));
-        for (std::size_t i = still; i < entries.size(); ++i) {
-            entries[i].row.moving = true;
-        }
-        return entries;
     }
 
-    BaselineEntry own_entry(scene::Pose pose, const scene::Technique& technique) {
-        BaselineEntry entry;
-        entry.row.pose = pose;
-        entry.row.what = scene::to_string(technique);
-        entry.set_camera = [] { return Result<void>(); };
-        entry.draw = [this, technique](BaselineRow& row) -> Result<double> {
-            set_technique(technique);
-            const auto stats = device_->renderer().draw(scene_->scene, true);
-            if (!stats) {
-                return stats.error();
+    // Another program that fails is left out from then on; reljef must not fail.
+    Result<void> attempt(Group& group, const std::function<Result<void>(BaselineEntry&)>& step) {
+        for (auto entry = group.begin(); entry != group.end();) {
+            Result<void> done = step(*entry);
+            if (!done && !entry->is_other) {
+                return done;
             }
-            row.triangles = stats->triangles;
-            return stats->cpu_ms + stats->gpu_ms;
-        };
-        entry.hits = [this, technique] {
-            set_technique(technique);
-            return device_->renderer().draw_hits(scene_->scene);
-        };
-        return entry;
+            if (!done) {
+                note(fmt::format("{} left out: {}", entry->row.what, done.error().message));
+                entry = group.erase(entry);
+            } else {
+                ++entry;
+            }
+        }
+        return {};
     }
 
-    BaselineEntry irrlicht_entry(scene::Pose pose, int levels, BaselineProcess& baseline) {
-        BaselineEntry entry;
-        entry.row.pose = pose;
-        entry.row.what = fmt::format("irrlicht:lods={}", levels);
-        entry.set_camera = [this, &baseline]() -> Result<void> {
-            const glm::dvec3 eye = scene_->view().eye;
-            const glm::dvec3 look = scene_->view().target;
-            const auto placed =
-                baseline.ask(fmt::format("view {} {} {} {} {} {} {} {}", eye.x, eye.y, eye.z,
-                                         look.x, look.y, look.z, range_.near, range_.far));
-            return placed ? Result<void>() : placed.error();
-        };
-        entry.draw = [&baseline](BaselineRow& row) -> Result<double> {
-            const auto answer = baseline.ask("draw");
-            if (!answer) {
-                return answer.error();
-            }
-            std::size_t end = 0;
-            const double ms = std::stod(*answer, &end);
-            row.triangles = std::stoul(answer->substr(end));
-            return ms;
-        };
-        entry.hits = [this, &baseline] { return irrlicht_hits(baseline); };
-        return entry;
+    Result<void> place_camera(scene::Pose pose) {
+        scene::Camera& camera = *view_->scene.camera->get<scene::Camera>();
+        camera =
+            scene::pose_camera(pose, view_->scene.terrain->world_bounds(), [&](double x, double y) {
+                return view_->scene.scene.height_at(x, y).value_or(0.0);
+            });
+        view_->set_technique(scene::Technique{scene::Polygons{.error = 1.0}});
+        const auto shown = devices_->opengl().draw_hits(view_->scene.scene);
+        if (!shown) {
+            return shown.error();
+        }
+        view_->range = depth_range_of(*shown);
+        if (view_->range.far == 0.0) {
+            return Error{fmt::format("{}, {}: no pixel of terrain found, some were expected",
+                                     options_.terrain, scene::to_string(pose))};
+        }
+        camera.near = view_->range.near;
+        still_ = camera;
+        auto truth = truth::draw_hits(view_->scene.scene, view_->size,
+                                      {.threads = view_->threads, .stop = stop_, .progress = {}});
+        if (!truth) {
+            return truth.error();
+        }
+        truth_ = std::move(*truth);
+        return {};
     }
 
     // The camera of the pose, moved to its right by `frame` steps if `moving`.
-    void place_camera(bool moving, int frame) {
+    void move_camera(bool moving, int frame) {
         const double step =
-            moving ? frame * scene_->terrain->world_bounds().size().x / frames_across : 0.0;
+            moving ? frame * view_->scene.terrain->world_bounds().size().x / frames_across : 0.0;
         const glm::dvec3 offset = step * scene::view_axes(still_).right;
-        scene::Camera& camera = *scene_->camera->get<scene::Camera>();
+        scene::Camera& camera = *view_->scene.camera->get<scene::Camera>();
         camera = still_;
         camera.eye += offset;
         camera.target += offset;
-    }
-
-    Result<HitBuffer> irrlicht_hits(BaselineProcess& baseline) {
-        const glm::ivec2 size = options_.suite.size;
-        std::vector<float> depths(static_cast<std::size_t>(size.x) *
-                                  static_cast<std::size_t>(size.y));
-        auto file = MemoryFile::create();
-        if (!file) {
-            return file.error();
-        }
-        if (const auto written = baseline.ask("depth " + path_of(*file)); !written) {
-            return written.error();
-        }
-        std::ifstream in(path_of(*file), std::ios::binary);
-        in.read(reinterpret_cast<char*>(depths.data()),
-                static_cast<std::streamsize>(depths.size() * sizeof(float)));
-        if (!in) {
-            return Error{"irrlicht: fewer depths found than pixels, one each was expected"};
-        }
-        return hits_of(*scene_, depths, size, range_);
     }
 
     Result<void> measure_error(BaselineEntry& entry) {
@@ -355,28 +205,33 @@ private:
         if (!hits) {
             return hits.error();
         }
-        // The truth does not affect the reprojection error.
-        const auto errors = truth::geometric_errors(surface_view(*scene_), *hits, *hits);
-        entry.row.error = errors ? errors->reprojection.distribution : std::nullopt;
+        const auto errors = truth::geometric_errors(view_->surface(), *hits, truth_);
+        if (!errors) {
+            return errors.error();
+        }
+        entry.row.error = errors->reprojection.distribution;
+        entry.row.hit_error = errors->hit.distribution;
+        entry.row.wrong_percent = errors->wrong_percent;
         return {};
     }
 
-    Result<void> time_all(std::vector<BaselineEntry>& entries, bool moving) {
+    Result<void> time_together(Group& group) {
         const int rounds = options_.suite.rounds > 0 ? options_.suite.rounds
-                           : options_.suite.quick    ? 5
+                           : options_.suite.quick    ? quick_rounds
                                                      : default_rounds;
+        const bool moving = group.front().row.moving;
         cli::ProgressLine line("measuring peers", options_.suite.quiet);
         for (int round = -warm_up; round < rounds && !stop_.stop_requested(); ++round) {
-            place_camera(moving, round);
-            for (BaselineEntry& entry : entries) {
-                auto timed =
-                    entry.row.moving == moving ? time_one(entry, round >= 0) : Result<void>();
-                if (!timed) {
-                    return timed;
-                }
+            move_camera(moving, round);
+            const auto time = [&](BaselineEntry& entry) {
+                return round < entry.max_rounds ? time_one(entry, round >= 0) : Result<void>();
+            };
+            if (auto timed = attempt(group, time); !timed) {
+                return timed;
             }
             line.update(static_cast<double>(round + warm_up) / (rounds + warm_up));
         }
+        move_camera(false, 0);
         return {};
     }
 
@@ -397,27 +252,12 @@ private:
     BaselineResults& results_;
     const BaselineOptions& options_;
     std::stop_token stop_;
-    std::optional<BaselineScene> scene_;
-    std::vector<std::pair<int, BaselineProcess>> baselines_; // with their levels
-    std::optional<session::Device> device_;
-    DepthRange range_;
-    scene::Camera still_; // of the pose
+    std::optional<BaselineView> view_;
+    std::optional<OwnDevices> devices_;
+    std::vector<Group> groups_; // in the order of BaselineWork; still before moving
+    HitBuffer truth_;           // of the pose
+    scene::Camera still_;       // of the pose
 };
-
-// Of the reference row with the same pose and camera; 0 if absent.
-double reference_ms(const BaselineResults& results, const BaselineRow& view) {
-    const std::string reference = scene::to_string(reference_technique);
-    const auto found = std::find_if(results.rows.begin(), results.rows.end(), [&](const auto& row) {
-        return row.pose == view.pose && row.moving == view.moving && row.what == reference;
-    });
-    return found == results.rows.end() ? 0.0 : found->ms.median;
-}
-
-std::vector<FigureJson> error_values(const std::optional<truth::Distribution>& error) {
-    return error ? std::vector<FigureJson>{error->median, error->p95, error->p99,
-                                           error->max,    error->rms, error->count}
-                 : std::vector<FigureJson>(6);
-}
 
 } // namespace
 
@@ -426,54 +266,6 @@ BaselineResults run_baselines(const BaselineOptions& options, const std::stop_to
     const auto done = BaselineRun(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
     return results;
-}
-
-FigureTable figure_table(const BaselineResults& results) {
-    const glm::ivec2 size = results.options.suite.size;
-    FigureTable table{.schema = "reljef-bench-peers/1",
-                      .heading = fmt::format("{}, {} x {} samples, {}, {}, {} threads",
-                                             cli::printable(results.options.terrain), results.side,
-                                             results.side, size_text(size),
-                                             cli::printable(results.environment.renderer),
-                                             results.environment.threads),
-                      .settings = {{"environment", json_of(results.environment)},
-                                   {"terrain", results.options.terrain},
-                                   {"side", results.side},
-                                   {"size", size_text(size)}},
-                      .columns = {{"/pose", "pose"},
-                                  {"/what", "what"},
-                                  {"/camera", "camera"},
-                                  {"/frames", "frames"},
-                                  {"/ms/median", "ms"},
-                                  {"/ms/p95", "p95"},
-                                  {"/ms/p99", ""},
-                                  {"/fps", ""},
-                                  {"", "x error=1"},
-                                  {"/triangles", "triangles"},
-                                  {"/reprojection_px/median", ""},
-                                  {"/reprojection_px/p95", ""},
-                                  {"/reprojection_px/p99", "p99 px", 3},
-                                  {"/reprojection_px/max", "max px", 3},
-                                  {"/reprojection_px/rms", "rms px", 3},
-                                  {"/reprojection_px/count", ""}},
-                      .end = results.end};
-    for (const BaselineRow& row : results.rows) {
-        FigureJson values{scene::to_string(row.pose),
-                          row.what,
-                          row.moving ? "moving" : "still",
-                          row.frames,
-                          row.ms.median,
-                          row.ms.p95,
-                          row.ms.p99,
-                          1000.0 / row.ms.median,
-                          row.ms.median / reference_ms(results, row),
-                          row.triangles};
-        for (FigureJson& figure : error_values(row.error)) {
-            values.push_back(std::move(figure));
-        }
-        table.rows.push_back(std::move(values));
-    }
-    return table;
 }
 
 } // namespace reljef::bench

@@ -87,16 +87,18 @@ const std::vector<Library>& guarded_libraries() {
         {"libtiff", {"tiff"}, {"engine/io/codec/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Highway", {"hwy/"}, {"engine/cast/", "engine/terrain/light/"}},
-        {"Embree", {"embree"}, {"engine/cast/mesh/", "tests/truth/"}},
+        {"Embree", {"embree"}, {"engine/cast/mesh/", "bench/baselines/embree/", "tests/truth/"}},
         {"Dear ImGui", {"imgui", "backends/imgui"}, {"app/viewer/panels/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
+        {"OpenSceneGraph", {"osg"}, {"bench/baselines/openscenegraph/"}},
     };
     return libraries;
 }
 
 bool may_use_gl(std::string_view path) {
     return starts_with_any(path, {"engine/gl/", "engine/platform/", "engine/render/", "tests/gl/",
-                                  "tests/platform/", "bench/baselines/irrlicht/"}) ||
+                                  "tests/platform/", "bench/baselines/irrlicht/",
+                                  "bench/baselines/openscenegraph/"}) ||
            (path.starts_with("tests/") && path.ends_with("_gl_test.cpp"));
 }
 

@@ -1,71 +1,34 @@
-// Draws a terrain with Irrlicht's terrain node for reljef-bench, see protocol.h.
+// Draws a terrain with Irrlicht for reljef-bench, see bench/baselines/program/protocol.h.
+#include <array>
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
-#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <GL/gl.h>
 #include <irrlicht/irrlicht.h>
 
+#include "bench/baselines/irrlicht/relief_plane.h"
+#include "bench/baselines/program/program.h"
+
 namespace {
 
 using namespace irr;
-
-struct Arguments {
-    core::dimension2du size;
-    f32 fov = 1.0F; // radians
-    u32 side = 0;
-    core::vector3df spacing; // metres east, up, north
-    std::vector<f32> heights;
-    std::vector<u8> colors;
-};
-
-template <class T> std::vector<T> read_all(const std::string& name, std::size_t count) {
-    std::vector<T> values(count);
-    std::ifstream file(name, std::ios::binary);
-    file.read(reinterpret_cast<char*>(values.data()),
-              static_cast<std::streamsize>(count * sizeof(T)));
-    return file ? values : std::vector<T>();
-}
-
-std::optional<Arguments> arguments_of(const std::vector<std::string>& words) {
-    if (words.size() != 9) {
-        return std::nullopt;
-    }
-    Arguments arguments;
-    arguments.size = {static_cast<u32>(std::stoul(words[1])),
-                      static_cast<u32>(std::stoul(words[2]))};
-    arguments.fov = std::stof(words[3]) * core::DEGTORAD;
-    arguments.side = static_cast<u32>(std::stoul(words[4]));
-    arguments.spacing = {std::stof(words[5]), 1.0F, std::stof(words[6])};
-    const std::size_t samples = std::size_t{arguments.side} * arguments.side;
-    arguments.heights = read_all<f32>(words[7], samples);
-    arguments.colors = read_all<u8>(words[8], 3 * samples);
-    if (arguments.heights.empty() || arguments.colors.empty()) {
-        return std::nullopt;
-    }
-    return arguments;
-}
+namespace baseline = reljef::bench::baseline;
 
 // Irrlicht's axes are east, up, north.
-core::vector3df from_east_north_up(std::istream& words) {
-    f32 east = 0.0F;
-    f32 north = 0.0F;
-    f32 up = 0.0F;
-    words >> east >> north >> up;
-    return {east, up, north};
+core::vector3df place_of(const baseline::Place& place) {
+    return {place.east, place.up, place.north};
 }
 
 class Renderer {
 public:
-    explicit Renderer(Arguments arguments) : arguments_(std::move(arguments)) {
+    explicit Renderer(baseline::Arguments arguments) : arguments_(std::move(arguments)) {
         SIrrlichtCreationParameters parameters;
         parameters.DriverType = video::EDT_OPENGL;
-        parameters.WindowSize = arguments_.size;
+        parameters.WindowSize = {arguments_.width, arguments_.height};
         parameters.Bits = 32;
         parameters.ZBufferBits = 24;
         parameters.Vsync = false;
@@ -77,9 +40,9 @@ public:
         driver_ = device_->getVideoDriver();
         scene_ = device_->getSceneManager();
         camera_ = scene_->addCameraSceneNode();
-        camera_->setFOV(arguments_.fov);
-        camera_->setAspectRatio(static_cast<f32>(arguments_.size.Width) /
-                                static_cast<f32>(arguments_.size.Height));
+        camera_->setFOV(arguments_.fov * core::DEGTORAD);
+        camera_->setAspectRatio(static_cast<f32>(arguments_.width) /
+                                static_cast<f32>(arguments_.height));
         texture_ = make_texture();
     }
     Renderer(const Renderer&) = delete;
@@ -91,14 +54,17 @@ public:
 
     [[nodiscard]] bool is_open() const { return device_ != nullptr; }
 
-    std::string answer(const std::string& line) {
-        std::istringstream words(line);
-        std::string command;
-        words >> command;
+    std::string answer(const std::string& command, std::istream& words) {
         if (command == "lods") {
             s32 levels = 1;
             words >> levels;
             return build(levels) ? "ok" : "failed Irrlicht builds no terrain of these heights";
+        }
+        if (command == "relief") {
+            return build_relief();
+        }
+        if (command == "samples") {
+            return write_samples(words);
         }
         if (command == "view") {
             return place_eye(words);
@@ -111,7 +77,9 @@ public:
             std::getline(words >> std::ws, name);
             return write_depth(name);
         }
-        return "failed '" + command + "' found, lods, view, draw, depth or quit was expected";
+        return "failed '" + command +
+               "' found, lods, relief, view, draw, depth, samples or quit was "
+               "expected";
     }
 
 private:
@@ -134,10 +102,11 @@ private:
             terrain_->remove();
         }
         const f32 half = 0.5F * static_cast<f32>(arguments_.side - 1);
-        const core::vector3df corner = arguments_.spacing * core::vector3df(-half, 0.0F, -half);
+        const core::vector3df spacing(arguments_.east, 1.0F, arguments_.north);
+        const core::vector3df corner = spacing * core::vector3df(-half, 0.0F, -half);
         terrain_ = scene_->addTerrainSceneNode(static_cast<io::IReadFile*>(nullptr), nullptr, -1,
-                                               corner, {}, arguments_.spacing, {255, 255, 255, 255},
-                                               levels, scene::ETPS_17, 0, true);
+                                               corner, {}, spacing, {255, 255, 255, 255}, levels,
+                                               scene::ETPS_17, 0, true);
         auto* const file = device_->getFileSystem()->createMemoryReadFile(
             arguments_.heights.data(), static_cast<s32>(arguments_.heights.size() * sizeof(f32)),
             "heights", false);
@@ -150,22 +119,55 @@ private:
         return good;
     }
 
+    std::string build_relief() {
+        relief_.emplace(*scene_, arguments_);
+        if (!relief_->is_supported()) {
+            return "failed the OpenGL driver has no shaders for Irrlicht's parallax material";
+        }
+        relief_->build(texture_);
+        background_ = baseline::ReliefPlane::background();
+        return "ok";
+    }
+
+    std::string write_samples(std::istream& words) {
+        int axis = 0;
+        std::string name;
+        words >> axis;
+        std::getline(words >> std::ws, name);
+        if (!relief_ || axis < 0 || axis > 1) {
+            return "failed a relief and an axis of 0 or 1 were expected";
+        }
+        relief_->show_places(axis);
+        device_->run();
+        draw_frame();
+        std::vector<std::array<u8, 3>> colors(std::size_t{arguments_.width} * arguments_.height);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, static_cast<GLsizei>(arguments_.width),
+                     static_cast<GLsizei>(arguments_.height), GL_RGB, GL_UNSIGNED_BYTE,
+                     colors.data());
+        driver_->endScene();
+        relief_->show_colors();
+        std::vector<float> samples;
+        samples.reserve(colors.size());
+        for (const auto& color : colors) {
+            samples.push_back(relief_->sample_of(color));
+        }
+        return baseline::write_floats(name, samples) ? "ok" : "failed no samples written";
+    }
+
     std::string place_eye(std::istream& words) {
-        const core::vector3df eye = from_east_north_up(words);
-        const core::vector3df target = from_east_north_up(words);
-        f32 near = 1.0F;
-        f32 far = 2.0F;
-        words >> near >> far;
-        camera_->setPosition(eye);
-        camera_->setTarget(target);
+        baseline::View view;
+        words >> view;
+        camera_->setPosition(place_of(view.eye));
+        camera_->setTarget(place_of(view.target));
         camera_->updateAbsolutePosition();
-        camera_->setNearValue(near);
-        camera_->setFarValue(far);
+        camera_->setNearValue(view.near);
+        camera_->setFarValue(view.far);
         return words ? "ok" : "failed eight numbers were expected";
     }
 
     void draw_frame() {
-        driver_->beginScene(true, true, {255, 160, 190, 220});
+        driver_->beginScene(true, true, background_);
         scene_->drawAll();
         glFinish();
     }
@@ -194,37 +196,25 @@ private:
         for (f32& depth : depths) {
             depth = 2.0F * depth - 1.0F;
         }
-        std::ofstream file(name, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(depths.data()),
-                   static_cast<std::streamsize>(depths.size() * sizeof(f32)));
-        return file && size == arguments_.size ? "ok" : "failed no depths of that size written";
+        const core::dimension2du expected(arguments_.width, arguments_.height);
+        return size == expected && baseline::write_floats(name, depths)
+                   ? "ok"
+                   : "failed no depths of that size written";
     }
 
-    Arguments arguments_;
+    baseline::Arguments arguments_;
     IrrlichtDevice* device_ = nullptr;
     video::IVideoDriver* driver_ = nullptr;
     scene::ISceneManager* scene_ = nullptr;
     scene::ICameraSceneNode* camera_ = nullptr;
     scene::ITerrainSceneNode* terrain_ = nullptr;
+    std::optional<baseline::ReliefPlane> relief_;
+    video::SColor background_{255, 160, 190, 220};
     video::ITexture* texture_ = nullptr;
 };
 
 } // namespace
 
 int main(int argc, char** argv) {
-    auto arguments = arguments_of({argv, argv + argc});
-    if (!arguments) {
-        std::cout << "failed eight arguments and the files they name were expected" << std::endl;
-        return EXIT_FAILURE;
-    }
-    Renderer renderer(std::move(*arguments));
-    if (!renderer.is_open()) {
-        std::cout << "failed Irrlicht opens no window here" << std::endl;
-        return EXIT_FAILURE;
-    }
-    std::cout << "ok" << std::endl;
-    for (std::string line; std::getline(std::cin, line) && line != "quit";) {
-        std::cout << renderer.answer(line) << std::endl;
-    }
-    return EXIT_SUCCESS;
+    return baseline::answer_lines<Renderer>({argv, argv + argc}, "Irrlicht");
 }

@@ -1,5 +1,9 @@
 #include <cmath>
 #include <filesystem>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,9 +27,55 @@ std::string hills_dem() {
     return text;
 }
 
+const std::filesystem::path xvfb = "/usr/bin/xvfb-run";
+
+std::filesystem::path beside_bench(std::string_view name) {
+    return std::filesystem::path(RELJEF_BENCH_BINARY).parent_path() / name;
+}
+
 bool has_irrlicht() {
-    return std::filesystem::exists(std::filesystem::path(RELJEF_BENCH_BINARY).parent_path() /
-                                   "reljef-bench-irrlicht");
+    return std::filesystem::exists(beside_bench("reljef-bench-irrlicht"));
+}
+
+bool has_povray() {
+    return std::filesystem::exists("/usr/bin/povray");
+}
+
+nlohmann::json read_report(const std::filesystem::path& json) {
+    return nlohmann::json::parse(test::read_bytes(json), nullptr, false);
+}
+
+// A script in place of another program.
+void write_script(const test::TemporaryFolder& folder, const char* name, const std::string& lines) {
+    const auto path = folder.write(name, "#!/bin/sh\n" + lines);
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+}
+
+// `peers` of a copy of the program in `folder`, where other programs may lie, too. Only there is
+// povray searched for.
+test::ProgramResult peers_alone(const test::TemporaryFolder& folder, const std::string& json) {
+    const auto dem = folder.write("dem.asc", hills_dem()).string();
+    const auto alone = folder.path() / "reljef-bench";
+    std::filesystem::copy_file(RELJEF_BENCH_BINARY, alone);
+    return test::run_program(xvfb, {"-a", "/usr/bin/env", "PATH=" + folder.path().string(),
+                                    alone.string(), "peers", "--terrain", dem, "--size", "80x60",
+                                    "--rounds", "1", "--json", json});
+}
+
+std::set<std::string> other_names(const nlohmann::json& report) {
+    std::set<std::string> names;
+    for (const auto& row : report.at("other_work")) {
+        names.insert(row.at("what").get<std::string>());
+    }
+    return names;
+}
+
+std::string all_notes(const nlohmann::json& report) {
+    std::string notes;
+    for (const auto& note : report.at("notes")) {
+        notes += note.get<std::string>() + '\n';
+    }
+    return notes;
 }
 
 TEST(BenchPeers, WithoutADisplayIsOneLine) {
@@ -40,14 +90,58 @@ TEST(BenchPeers, WithoutADisplayIsOneLine) {
     EXPECT_EQ(result.out, "");
 }
 
-TEST(BenchPeers, WithoutIrrlichtSaysHowToGetIt) {
+TEST(BenchPeers, MissingProgramsAreLeftOutAndNotesNameTheirPackages) {
+    if (!std::filesystem::exists(xvfb)) {
+        GTEST_SKIP() << "needs xvfb-run";
+    }
     const test::TemporaryFolder folder;
-    const auto dem = folder.write("dem.asc", hills_dem()).string();
-    const auto alone = folder.path() / "reljef-bench";
-    std::filesystem::copy_file(RELJEF_BENCH_BINARY, alone);
-    const auto result = test::run_program(alone, {"peers", "--terrain", dem, "--quiet"});
-    EXPECT_EQ(result.exit_code, 1);
-    EXPECT_THAT(result.err, testing::HasSubstr("apt-get install libirrlicht-dev"));
+    const auto json = folder.path() / "peers.json";
+    const auto result = peers_alone(folder, json.string());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto report = read_report(json);
+    const std::string notes = all_notes(report);
+    for (const char* package : {"libirrlicht-dev", "libopenscenegraph-dev", "povray"}) {
+        EXPECT_THAT(notes, testing::HasSubstr(std::string("apt-get install ") + package));
+        EXPECT_THAT(result.err, testing::HasSubstr(package));
+        EXPECT_THAT(result.out, testing::HasSubstr(package));
+    }
+    EXPECT_EQ(report.at("rows").size(), 10U); // polygons
+    EXPECT_THAT(other_names(report), testing::IsSupersetOf({"Embree, grid", "Embree, quads"}));
+    EXPECT_THAT(other_names(report), testing::Not(testing::Contains("POV-Ray, height_field")));
+}
+
+TEST(BenchPeers, ProgramsThatDieAreLeftOut) {
+    if (!std::filesystem::exists(xvfb)) {
+        GTEST_SKIP() << "needs xvfb-run";
+    }
+    const test::TemporaryFolder folder;
+    const auto json = folder.path() / "peers.json";
+    write_script(folder, "reljef-bench-irrlicht", "echo failed no window here\n");
+    write_script(folder, "reljef-bench-openscenegraph", "echo ok; read line; echo ok; read line\n");
+    write_script(folder, "povray", "[ \"$1\" = --version ] || { echo no memory; exit 3; }\n");
+    const auto result = peers_alone(folder, json.string());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto report = read_report(json);
+    const std::string notes = all_notes(report);
+    EXPECT_THAT(notes, testing::HasSubstr("no window here"));
+    EXPECT_THAT(notes, testing::ContainsRegex("OpenSceneGraph.*left out.*it ended"));
+    EXPECT_THAT(notes, testing::ContainsRegex("POV-Ray.*left out.*no memory"));
+    EXPECT_THAT(other_names(report),
+                testing::IsSubsetOf({"Embree, grid", "Embree, quads", "exact", "polygons:lods=1",
+                                     "parallax:offset=-0.5", "parallax-limited:offset=-0.5"}));
+}
+
+TEST(BenchPeers, APovrayThatWritesNoPictureIsLeftOut) {
+    if (!std::filesystem::exists(xvfb)) {
+        GTEST_SKIP() << "needs xvfb-run";
+    }
+    const test::TemporaryFolder folder;
+    const auto json = folder.path() / "peers.json";
+    write_script(folder, "povray", "echo nothing\n");
+    const auto result = peers_alone(folder, json.string());
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(all_notes(read_report(json)),
+                testing::ContainsRegex("POV-Ray.*left out.*no picture of 80 x 60"));
 }
 
 TEST(BenchPeers, TooFewSamplesForItAreTold) {
@@ -58,19 +152,26 @@ TEST(BenchPeers, TooFewSamplesForItAreTold) {
     EXPECT_THAT(result.err, testing::HasSubstr("17x17"));
 }
 
+// All rows of a small run with all programs that are installed.
+const nlohmann::json& whole_report() {
+    static const nlohmann::json report = [] {
+        const test::TemporaryFolder folder;
+        const auto dem = folder.write("dem.asc", hills_dem()).string();
+        const auto json = folder.path() / "peers.json";
+        const auto result = test::run_program(
+            xvfb, {"-a", RELJEF_BENCH_BINARY, "peers", "--terrain", dem, "--size", "160x120",
+                   "--rounds", "2", "--quiet", "--json", json.string()});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return read_report(json);
+    }();
+    return report;
+}
+
 TEST(BenchPeers, BothShowTheSameTerrain) {
-    const std::filesystem::path xvfb = "/usr/bin/xvfb-run";
     if (!has_irrlicht() || !std::filesystem::exists(xvfb)) {
         GTEST_SKIP() << "needs Irrlicht and xvfb-run";
     }
-    const test::TemporaryFolder folder;
-    const auto dem = folder.write("dem.asc", hills_dem()).string();
-    const auto json = folder.path() / "peers.json";
-    const auto result =
-        test::run_program(xvfb, {"-a", RELJEF_BENCH_BINARY, "peers", "--terrain", dem, "--size",
-                                 "160x120", "--rounds", "2", "--quiet", "--json", json.string()});
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    const auto report = nlohmann::json::parse(test::read_bytes(json));
+    const nlohmann::json& report = whole_report();
     EXPECT_EQ(report.at("complete"), true);
     ASSERT_EQ(report.at("rows").size(), 18U);
     for (std::size_t i = 0; i < 18; i += 9) {
@@ -89,6 +190,67 @@ TEST(BenchPeers, BothShowTheSameTerrain) {
         EXPECT_EQ(report.at("rows").at(i + 6).at("what"), "irrlicht:lods=5");
         EXPECT_EQ(report.at("rows").at(i + 7).at("what"), "polygons:error=1");
     }
+}
+
+const nlohmann::json* other_row(const char* pose, const std::string& what) {
+    for (const auto& row : whole_report().at("other_work")) {
+        if (row.at("pose") == pose && row.at("what") == what) {
+            return &row;
+        }
+    }
+    return nullptr;
+}
+
+double pixels(const nlohmann::json& row, const char* figure) {
+    return row.at("reprojection_px").at(figure).get<double>();
+}
+
+// Each cell of theirs is two triangles.
+void expect_triangles_of_cells(const char* pose, const std::string& what) {
+    const nlohmann::json* row = other_row(pose, what);
+    ASSERT_NE(row, nullptr) << what;
+    EXPECT_LT(row->at("wrong_percent").get<double>(), 1.0) << what << pose;
+    EXPECT_LT(pixels(*row, "rms"), pixels(*other_row(pose, "polygons:lods=1"), "rms") + 0.1)
+        << what << pose;
+    EXPECT_GT(pixels(*row, "count"), 2000.0) << what << pose;
+    EXPECT_GT(row->at("ms").at("median").get<double>(), 0.0) << what << pose;
+    EXPECT_GT(row->at("times_reljef").get<double>(), 0.0) << what << pose;
+}
+
+TEST(BenchPeers, AllTrianglesAndRaysShowTheSameTerrain) {
+    if (!std::filesystem::exists(xvfb)) {
+        GTEST_SKIP() << "needs xvfb-run";
+    }
+    std::vector<std::string> names{"polygons:lods=1", "Embree, grid", "Embree, quads", "exact"};
+    if (std::filesystem::exists(beside_bench("reljef-bench-openscenegraph"))) {
+        names.emplace_back("OpenSceneGraph, GeometryTechnique");
+    }
+    if (has_povray()) {
+        names.emplace_back("POV-Ray, height_field");
+    }
+    for (const char* pose : {"overview", "low"}) {
+        for (const std::string& name : names) {
+            expect_triangles_of_cells(pose, name);
+        }
+    }
+}
+
+TEST(BenchPeers, TheParallaxMaterialMovesTexelsAsParallaxDoes) {
+    if (!has_irrlicht() || !std::filesystem::exists(xvfb)) {
+        GTEST_SKIP() << "needs Irrlicht and xvfb-run";
+    }
+    const nlohmann::json* theirs = other_row("overview", "Irrlicht, parallax material");
+    const nlohmann::json* ours = other_row("overview", "parallax-limited:offset=-0.5");
+    ASSERT_NE(ours, nullptr);
+    if (theirs == nullptr) {
+        GTEST_SKIP() << all_notes(whole_report());
+    }
+    const auto rms = [](const nlohmann::json& row) {
+        return row.at("hit_texels").at("rms").get<double>();
+    };
+    EXPECT_NEAR(rms(*theirs), rms(*ours), 0.1 * rms(*ours) + 0.05);
+    EXPECT_NEAR(theirs->at("wrong_percent").get<double>(), ours->at("wrong_percent").get<double>(),
+                5.0);
 }
 
 } // namespace
