@@ -3,6 +3,7 @@
 #include "app/cli/options.h"
 #include "app/cli/parsed_option.h"
 #include "app/cli/usage_error.h"
+#include "bench/claims/claim_suite.h"
 #include "bench/claims/distance_suite.h"
 #include "bench/claims/guess_suite.h"
 #include "bench/commands.h"
@@ -21,6 +22,7 @@ struct TablesChoice {
     OutputChoice outputs;
     bool distances = false;
     bool guesses = false;
+    bool claims = false;
 };
 
 void add_tables_options(CLI::App& command, TablesChoice& choice) {
@@ -49,34 +51,53 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
         "--guesses", choice.guesses,
         "instead of the tables: the error of heights that are guessed from the colours "
         "of each terrain");
+    command.add_flag(
+        "--claims", choice.claims,
+        "instead of the tables: time, memory and error of a city of one repeated tile, of relief "
+        "over a city only, and of four layers on bricks");
     add_suite_options(command, choice.options.suite);
     add_drawing_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);
+}
+
+// The options that replace the tables and are given.
+std::vector<std::string> replacements(const TablesChoice& choice) {
+    std::vector<std::string> names;
+    for (const auto& [is_given, name] : {std::pair{choice.distances, "--distances"},
+                                         {choice.guesses, "--guesses"},
+                                         {choice.claims, "--claims"}}) {
+        if (is_given) {
+            names.emplace_back(name);
+        }
+    }
+    return names;
 }
 
 void check_tables_options(const TablesChoice& choice) {
     if (choice.options.suite.moving && choice.options.suite.cold) {
         cli::fail_usage("--moving, --cold: both found, one was expected");
     }
-    if (!choice.distances && !choice.guesses) {
+    const std::vector<std::string> names = replacements(choice);
+    if (names.empty()) {
         return;
     }
-    if (choice.distances && choice.guesses) {
-        cli::fail_usage("--distances, --guesses: both found, one was expected");
+    if (names.size() > 1) {
+        cli::fail_usage(fmt::format("{}, {}: both found, one was expected", names[0], names[1]));
     }
-    const std::string option = choice.distances ? "--distances" : "--guesses";
     const auto forbid = [&](bool is_given, std::string_view other) {
         if (is_given) {
-            cli::fail_usage(fmt::format("{}: {} found, none was expected with it", option, other));
+            cli::fail_usage(
+                fmt::format("{}: {} found, none was expected with it", names[0], other));
         }
     };
     forbid(choice.options.pose.has_value(), "--pose");
-    forbid(choice.options.suite.rounds > 0, "--rounds");
+    forbid(!choice.claims && choice.options.suite.rounds > 0, "--rounds");
     forbid(choice.options.suite.moving, "--moving");
     forbid(choice.options.suite.cold, "--cold");
     forbid(!choice.outputs.csv.empty(), "--csv");
     forbid(!choice.outputs.html.empty(), "--html");
-    forbid(choice.guesses && !choice.options.techniques.empty(), "--technique");
+    forbid(!choice.distances && !choice.options.techniques.empty(), "--technique");
+    forbid(choice.claims && !choice.options.terrains.empty(), "--terrain");
 }
 
 Result<void> measure_distances(const TablesOptions& tables, const OutputChoice& outputs,
@@ -102,6 +123,14 @@ Result<void> measure_guesses(const TablesOptions& tables, const OutputChoice& ou
     return report(figure_table(run_guesses(options, stop)), outputs.json, outputs.markdown);
 }
 
+Result<void> measure_claims(const TablesOptions& tables, const OutputChoice& outputs,
+                            const std::stop_token& stop) {
+    ClaimOptions options;
+    options.suite = tables.suite;
+    options.lone.threads = static_cast<unsigned>(tables.suite.threads);
+    return report(figure_table(run_claims(options, stop)), outputs.json, outputs.markdown);
+}
+
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
                                 const cli::Interrupt& interrupt) {
     const auto inputs = terrain_files(choice.options.terrains);
@@ -118,6 +147,9 @@ Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& comm
     }
     if (choice.guesses) {
         return measure_guesses(options, choice.outputs, interrupt.token());
+    }
+    if (choice.claims) {
+        return measure_claims(options, choice.outputs, interrupt.token());
     }
     options.suite.keep_views = !choice.outputs.html.empty();
     return report(run_tables(options, interrupt.token()), choice.outputs);
@@ -144,7 +176,8 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench tables --cold --technique polygons:error=1 --technique auto --terrain "
         "natural\n"
         "  reljef-bench tables --distances --json distance.json\n"
-        "  reljef-bench tables --guesses --terrain my-scene.toml");
+        "  reljef-bench tables --guesses --terrain my-scene.toml\n"
+        "  reljef-bench tables --claims --json claims.json");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_tables_command(*choice, *arguments, interrupt);
             }};

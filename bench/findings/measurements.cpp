@@ -38,6 +38,10 @@ std::vector<ResultsSource> results_sources() {
          "--terrain bench/scenes/crater-lake.toml --json bench/results/guesses.json "
          "--markdown bench/results/guesses.md",
          false},
+        {"claims",
+         "A city of one repeated tile, relief over a city only, and four layers on bricks.",
+         "reljef-bench tables --claims --context osmesa --size 512x384 --rounds 9 "
+         "--json bench/results/claims.json --markdown bench/results/claims.md"},
     };
 }
 

@@ -1,7 +1,6 @@
 #include "bench/objects/objects_suite.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -97,12 +96,6 @@ std::vector<std::pair<CityForm, scene::Technique>> techniques_in(const CityForms
         found.emplace_back(CityForm::meshes_only, scene::Technique{bounded});
     }
     return found;
-}
-
-std::optional<RowError::Geometric> geometric_figures(const truth::PixelErrors& errors) {
-    return errors.distribution
-               ? std::optional(RowError::Geometric{*errors.distribution, errors.unbounded})
-               : std::nullopt;
 }
 
 class ObjectsRun {
@@ -223,15 +216,7 @@ private:
         if (!geometric || !image) {
             return geometric ? image.error() : geometric.error();
         }
-        variant.row.error =
-            RowError{.reprojection_px = geometric_figures(geometric->reprojection),
-                     .hit_texels = geometric_figures(geometric->hit),
-                     .wrong_percent = geometric->wrong_percent,
-                     .holes = geometric->holes,
-                     .rmse = image->rmse,
-                     .psnr = std::isfinite(image->psnr) ? std::optional(image->psnr) : std::nullopt,
-                     .ssim = image->ssim,
-                     .flip = image->flip.mean};
+        variant.row.error = row_error_of(*geometric, *image);
         if (!options_.suite.keep_views || variant.row.null_row) {
             return {};
         }

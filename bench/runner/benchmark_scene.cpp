@@ -11,7 +11,6 @@
 #include "bench/runner/gallery_tiles.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/session/calibration/calibration.h"
-#include "engine/truth/image_error.h"
 
 namespace reljef::bench {
 namespace {
@@ -57,6 +56,8 @@ std::optional<RowError::Geometric> geometric_of(const truth::PixelErrors& errors
                : std::nullopt;
 }
 
+} // namespace
+
 RowError row_error_of(const truth::GeometricErrors& geometric, const truth::ImageErrors& image) {
     return {.reprojection_px = geometric_of(geometric.reprojection),
             .hit_texels = geometric_of(geometric.hit),
@@ -67,8 +68,6 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
             .ssim = image.ssim,
             .flip = image.flip.mean};
 }
-
-} // namespace
 
 Result<session::Device> make_device(const SuiteOptions& options) {
     const bool is_beside_rays = options.context == session::BackendKind::cpu;

@@ -15,6 +15,7 @@
 #include "engine/truth/detail_plane.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
+#include "engine/truth/image_error.h"
 
 namespace reljef::bench {
 
@@ -57,6 +58,9 @@ Result<session::TerrainSource> open_measured(const session::SourceOptions& terra
 
 /// Places the camera; keeps its near distance.
 void set_pose(session::TerrainScene& scene, scene::Pose pose);
+
+/// The errors of a picture and of its hits, as a row has them.
+RowError row_error_of(const truth::GeometricErrors& geometric, const truth::ImageErrors& image);
 
 struct MeasuredError {
     RowError error;

@@ -184,7 +184,7 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/view", "terrains"}},
         {"bench/claims",
          {"app/cli", "bench/report", "bench/runner", "engine/core", "engine/material",
-          "engine/truth"}},
+          "engine/scene/graph", "engine/session", "engine/truth", "terrains"}},
         {"bench/options",
          {"app/cli", "bench/page", "bench/report", "bench/runner", "engine/core",
           "engine/io/formats", "engine/scene/technique"}},

@@ -1,0 +1,101 @@
+#include "bench/claims/claim_suite.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/bench_program.h"
+
+namespace reljef::bench {
+namespace {
+
+ClaimOptions small_claims() {
+    ClaimOptions options;
+    options.suite.size = {160, 120};
+    options.suite.context = session::BackendKind::osmesa;
+    options.suite.quiet = true;
+    options.suite.rounds = 1;
+    options.tile = 64;
+    options.copies = {3};
+    options.lone = {.piece = 32, .city = 2, .pieces = 6};
+    options.poses = {scene::Pose::overview};
+    return options;
+}
+
+class ClaimSuite : public testing::Test {
+protected:
+    static const ClaimResults& results() {
+        static const ClaimResults measured = run_claims(small_claims(), {});
+        return measured;
+    }
+
+    static const ClaimRow& row(const std::string& test, const std::string& form,
+                               const std::string& label) {
+        for (const ClaimRow& row : results().rows) {
+            if (row.test == test && row.form == form && row.label.starts_with(label)) {
+                return row;
+            }
+        }
+        ADD_FAILURE() << test << ", " << form << ", " << label;
+        return results().rows.front();
+    }
+};
+
+TEST_F(ClaimSuite, CopiesOfATileShowTheSamePlacesWithoutItsMemory) {
+    ASSERT_FALSE(results().end.stopped) << results().end.stopped->message;
+    for (const char* const form : {"one terrain", "one tile"}) {
+        EXPECT_EQ(row("repeat", form, "exact").error.wrong_percent, 0.0) << form;
+        EXPECT_LT(row("repeat", form, "exact").error.reprojection_px->distribution.rms, 0.01);
+        EXPECT_GT(row("repeat", form, "texture").error.wrong_percent, 20.0) << form;
+        EXPECT_LT(row("repeat", form, "relief").error.wrong_percent, 10.0) << form;
+    }
+    EXPECT_EQ(row("repeat", "one tile", "relief").nodes, 9U);
+    EXPECT_LT(row("repeat", "one tile", "relief").bytes,
+              row("repeat", "one terrain", "relief").bytes / 4);
+}
+
+TEST_F(ClaimSuite, ATextureOnLevelGroundShowsItExactlyWithFewerTaps) {
+    const ClaimRow& everywhere = row("city only", "pieces", "exact");
+    const ClaimRow& city_only = row("city only", "city only", "exact");
+    EXPECT_EQ(everywhere.error.wrong_percent, 0.0);
+    EXPECT_EQ(city_only.error.wrong_percent, 0.0);
+    EXPECT_LT(*city_only.taps, *everywhere.taps);
+    EXPECT_LT(*row("city only", "city only", "relief").taps,
+              *row("city only", "pieces", "relief").taps);
+    EXPECT_GT(row("city only", "one terrain", "texture").error.wrong_percent, 1.0);
+}
+
+TEST_F(ClaimSuite, FourLayersShowBricksAsWellAsOne) {
+    EXPECT_GT(row("layers", "detail texture", "texture").error.wrong_percent, 20.0);
+    EXPECT_LT(row("layers", "detail texture", "relief").error.wrong_percent, 10.0);
+    EXPECT_LT(row("layers", "detail texture", "multi").error.wrong_percent, 10.0);
+}
+
+TEST_F(ClaimSuite, ItsTableHasWhatFindingsRead) {
+    const auto json = nlohmann::json::parse(figure_json(figure_table(results())));
+    ASSERT_EQ(json["rows"].size(), results().rows.size());
+    const auto& first = json["rows"][0];
+    EXPECT_EQ(first["test"], "repeat");
+    EXPECT_EQ(first["scene"], "3 × 3 tiles of 64 cells");
+    EXPECT_EQ(first["pose"], "overview");
+    EXPECT_TRUE(first["ms"]["median"].is_number());
+    EXPECT_TRUE(first["objects"]["bytes"].is_number());
+    EXPECT_TRUE(first["error"]["wrong_percent"].is_number());
+    EXPECT_TRUE(json["rows"].back()["taps"].is_null());
+}
+
+TEST(ClaimOptionsOfTables, RefuseWhatTheyDoNotUse) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"--pose", "low"},
+                                                 {"--guesses"},
+                                                 {"--technique", "relief"},
+                                                 {"--terrain", "urban"}}) {
+        std::vector<std::string> arguments{"tables", "--claims"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto run = test::reljef_bench(arguments);
+        EXPECT_EQ(run.exit_code, 2) << more[0];
+        EXPECT_THAT(run.err, testing::HasSubstr(more[0])) << run.err;
+    }
+}
+
+} // namespace
+} // namespace reljef::bench
