@@ -76,9 +76,10 @@ auto number_in(std::string option, std::type_identity_t<T> low, std::type_identi
     return [=](const std::string& text) -> Result<T> {
         const auto value = number_from<T>(text);
         if (!value || !(above ? *value > low : *value >= low) || !(*value <= high)) {
-            return Error{fmt::format("{}: '{}' found, a {} {} {} to {} was expected", option, text,
+            return Error{fmt::format("{}: '{}' found, a {} {} {} {} {} was expected", option, text,
                                      std::is_integral_v<T> ? "whole number" : "number",
-                                     above ? "over" : "from", low, high)};
+                                     above ? "above" : "from", low, above ? "and at most" : "to",
+                                     high)};
         }
         return *value;
     };

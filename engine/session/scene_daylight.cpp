@@ -193,6 +193,11 @@ Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& descr
             scene.scene.add_light(light_of(light));
         }
     }
+    const auto& node = *scene.terrain->get<scene::TerrainNode>();
+    if (!scene.is_gallery && !scene.scene.point_lights().empty() &&
+        node.material.technique.id() == scene::TechniqueId::prewarp) {
+        log.note("the technique prewarp shows no light on terrain but that of the sun and the sky");
+    }
     return {};
 }
 

@@ -3,9 +3,15 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace reljef::session {
 namespace {
+
+// Samples. Places on Earth round to about 1e-8 m, 16 times the last bit of the Earth's radius;
+// samples are at least a centimetre wide.
+constexpr double border_rounding = 1e-6;
 
 // The place among the samples, without a height.
 Result<glm::dvec2> sample_of(const scene::TerrainSurface& surface, const GroundPlace& place) {
@@ -20,12 +26,13 @@ Result<glm::dvec2> sample_of(const scene::TerrainSurface& surface, const GroundP
     }
     const auto sample = world ? placement.sample_from_world(*world) : std::nullopt;
     const glm::dvec2 last(field.heights.cols() - 1, field.heights.rows() - 1);
-    const bool is_inside = sample && sample->x >= 0.0 && sample->y >= 0.0 && sample->x <= last.x &&
-                           sample->y <= last.y;
-    if (!is_inside) {
-        return misplaced(place, "a place outside the terrain", "one on " + surface.terrain().name);
+    if (sample) {
+        const glm::dvec2 inside = glm::clamp(glm::dvec2(*sample), glm::dvec2(0.0), last);
+        if (glm::distance(inside, glm::dvec2(*sample)) <= border_rounding) {
+            return inside;
+        }
     }
-    return glm::dvec2(*sample);
+    return misplaced(place, "a place outside the terrain", "one on " + surface.terrain().name);
 }
 
 } // namespace

@@ -1,6 +1,9 @@
 #include "engine/session/objects/placed_lights.h"
 
 #include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
 
 #include "engine/core/color.h"
 #include "engine/session/objects/ground_place.h"
@@ -9,12 +12,15 @@
 namespace reljef::session {
 namespace {
 
-GroundPlace place_of(const StandingLight& light) {
-    return {"point light", light.description.at.value_or(glm::dvec2(0.0)), light.ground_height};
+// `number`: from 1 on, for errors.
+GroundPlace place_of(const StandingLight& light, std::size_t number = 0) {
+    return {fmt::format("point light {}", number), light.description.at.value_or(glm::dvec2(0.0)),
+            light.ground_height};
 }
 
-Result<glm::dvec3> position_of(const scene::TerrainSurface& surface, const StandingLight& light) {
-    const auto ground = ground_at(surface, place_of(light));
+Result<glm::dvec3> position_of(const scene::TerrainSurface& surface, const StandingLight& light,
+                               std::size_t number = 0) {
+    const auto ground = ground_at(surface, place_of(light, number));
     if (!ground) {
         return ground.error();
     }
@@ -45,14 +51,16 @@ add_point_lights(scene::Scene& scene, const scene::TerrainSurface& surface,
                  const std::vector<io::PointLightDescription>& lights, const SourceHeight& height) {
     std::vector<StandingLight> placed;
     for (const io::PointLightDescription& description : lights) {
+        const std::size_t number = placed.size() + 1;
         StandingLight light{nullptr, description, {}};
         if (height) {
             light.ground_height = height(*description.at);
             if (!light.ground_height) {
-                return misplaced(place_of(light), "no height", "a place on the terrain with one");
+                return misplaced(place_of(light, number), "no height",
+                                 "a place on the terrain with one");
             }
         }
-        const auto position = position_of(surface, light);
+        const auto position = position_of(surface, light, number);
         if (!position) {
             return position.error();
         }

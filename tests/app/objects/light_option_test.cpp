@@ -39,7 +39,7 @@ TEST(LightOption, NamesWhatIsWrong) {
         {"361,2", "azimuth 361 found, -360 to 360"},
         {"1,-1", "altitude -1 found, 0 to 90"},
         {"1,91", "altitude 91 found"},
-        {"1,2:intensity=0", "intensity: '0' found, a number over 0"},
+        {"1,2:intensity=0", "intensity: '0' found, a number above 0 and at most"},
         {"1,2:intensity=1001", "intensity: '1001' found"},
         {"1,2:color=red", "color 'red' found, a color such as #ffcc88"},
         {"1,2:range=3", "'range' found, intensity or color"},

@@ -48,7 +48,7 @@ TEST(PointLightOption, NamesWhatIsWrong) {
         {"1e30,2", "'1e30,2' found, at most"},
         {"1,2:height=1e9", "height: '1e9' found"},
         {"1,2:height=1,height=2", "height found twice"},
-        {"1,2:intensity=0", "intensity: '0' found, a number over 0"},
+        {"1,2:intensity=0", "intensity: '0' found, a number above 0 and at most"},
         {"1,2:intensity=inf", "intensity: 'inf' found"},
         {"1,2:range=-5", "range: '-5' found"},
         {"1,2:color=red", "color 'red' found, a color such as #ffcc88"},
