@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/core/color.h"
+#include "engine/session/objects/ground_place.h"
 #include "tests/session/objects/made_ground.h"
 #include "tests/terrain/made_heightfield.h"
 
