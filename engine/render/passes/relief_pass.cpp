@@ -340,7 +340,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     auto program = state.use(
         {ShaderKind::relief, frame.features | (technique_features(technique) & ~unused) |
                                  surface_features(draw) | overlay_features(frame, *draw.terrain) |
-                                 point_light_features(frame, draw)});
+                                 point_light_features(frame, draw) | frame.mesh_shadows});
     if (!program) {
         return program.error();
     }

@@ -55,6 +55,8 @@ struct Uniforms {
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
 
+    gl::Uniform<glm::mat4> sun_clip_from_local{"sun_clip_from_local"}; // sun_depth.vert
+
     gl::Uniform<float> sky_side{"sky_side"};
     gl::Uniform<glm::mat3> picture_from_world{"picture_from_world"};
     gl::Uniform<int> picture_count{"picture_count"};
