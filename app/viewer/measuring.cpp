@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -12,41 +13,45 @@
 namespace reljef::app {
 namespace {
 
-std::string distance_text(std::span<const terrain::ProfilePoint> profile) {
+// `rise`: from the first point to the last one, metres; they may be on objects. Empty: not known.
+std::string distance_text(std::span<const terrain::ProfilePoint> profile,
+                          std::optional<double> rise) {
     const terrain::ProfileSummary found = terrain::summarize(profile);
-    const double rise = profile.back().height - profile.front().height;
     std::string text = fmt::format("  distance {:.1f} m, over the ground {:.1f} m", found.distance,
                                    found.over_ground);
-    if (std::isfinite(rise)) {
-        text += fmt::format(", {} by {:.1f} m", rise < 0.0 ? "lower" : "higher", std::abs(rise));
+    if (rise) {
+        text += fmt::format(", {} by {:.1f} m", *rise < 0.0 ? "lower" : "higher", std::abs(*rise));
     }
     return text + fmt::format(", climb {:.1f} m, descent {:.1f} m\n", found.climb, found.descent);
 }
 
 } // namespace
 
-Result<std::string> Measuring::pick(const std::optional<glm::dvec3>& world) {
-    if (!world) {
+Result<std::string> Measuring::pick(const std::optional<session::PickedPlace>& place) {
+    if (!place) {
         return Error{"measuring: the sky found, a place on the ground was expected"};
     }
-    points_.push_back(*world);
-    texts_.push_back(session::point_text(terrain_, *world));
+    const double height = session::height_of(terrain(), *place);
+    const double rise = height - std::exchange(last_height_, height);
+    points_.push_back(place->world);
+    texts_.push_back(session::point_text(terrain(), *place));
     std::string text = fmt::format("{}  {}\n", points_.size(), texts_.back());
     if (points_.size() < 2) {
         return text;
     }
     const glm::dvec3 from = points_[points_.size() - 2];
-    auto profile = session::ground_profile(terrain_, from, *world);
+    auto profile = session::ground_profile(terrain(), from, place->world);
     if (!profile) {
         return profile.error();
     }
     profile_ = std::move(*profile);
-    text += distance_text(profile_);
-    const auto hidden = session::hidden_by(terrain_, from, *world, eye_height);
+    const bool is_over_ground = std::isfinite(profile_.back().height - profile_.front().height);
+    text += distance_text(profile_, is_over_ground ? std::optional(rise) : std::nullopt);
+    const auto hidden = session::hidden_by(scene_, from, place->world, eye_height);
     is_in_sight_ = !hidden;
     return text +
            (hidden ? fmt::format("  hidden from each other by {}\n",
-                                 session::point_text(terrain_, *hidden))
+                                 session::point_text(terrain(), *hidden))
                    : fmt::format("  in sight of each other, {} m above the ground\n", eye_height));
 }
 
@@ -77,17 +82,17 @@ Result<void> Measuring::begin_viewshed(const std::filesystem::path& file) {
     if (points_.empty()) {
         return Error{"viewshed: no measured point found, one was expected; X measures"};
     }
-    const auto place = terrain_.surface->placement().geodetic_from_world(points_.back());
-    if (!place || !terrain_.surface->heightfield().georeference) {
+    const auto place = terrain().surface->placement().geodetic_from_world(points_.back());
+    if (!place || !terrain().surface->heightfield().georeference) {
         return Error{"viewshed: no place on Earth found, a georeferenced terrain was expected"};
     }
     session::ViewshedRequest request;
     request.from = {place->latitude, place->longitude};
     request.eye_height = eye_height;
-    request.placement = terrain_.surface->placement().kind();
+    request.placement = terrain().surface->placement().kind();
     viewshed_ = std::make_unique<Viewshed>();
     viewshed_->file = file;
-    viewshed_->surface = terrain_.surface;
+    viewshed_->surface = terrain().surface;
     viewshed_->work.emplace([made = viewshed_.get(), request](const std::stop_token& stop) {
         const auto task = made->log.start("viewshed");
         return session::viewshed_of(made->surface->terrain(), request,

@@ -12,27 +12,29 @@
 #include "app/viewer/appearance/background.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/terrain_node.h"
+#include "engine/session/ground.h"
 #include "engine/session/log.h"
 #include "engine/session/measuring/terrain_viewshed.h"
 #include "engine/terrain/measure/profile.h"
 
 namespace reljef::app {
 
-/// Points picked on the ground, the way between the last two, and what is seen from the last one.
+/// Points picked on the ground and on objects, the way between the last two, and what is seen from
+/// the last one.
 class Measuring {
 public:
     static constexpr double eye_height = 2.0; ///< above the ground, for lines of sight, metres
 
-    /// The terrain outlives this.
-    explicit Measuring(const scene::TerrainNode& terrain) : terrain_(terrain) {}
+    /// The scene outlives this.
+    explicit Measuring(const session::TerrainScene& scene) : scene_(scene) {}
 
     void set_on(bool on) { is_on_ = on; }
     [[nodiscard]] bool is_on() const { return is_on_; }
 
-    /// Picks a point of the ground, world metres; empty: the sky. Returns lines that tell its
-    /// height, slope and aspect, and from the second point on the distance from the last one, along
-    /// the surface too, and whether they see each other. Fails for the sky.
-    Result<std::string> pick(const std::optional<glm::dvec3>& world);
+    /// Picks a point of the ground or of an object; empty: the sky. Returns lines that tell its
+    /// height, slope and aspect (of an object its name), and from the second point on the distance
+    /// from the last one, along the ground too, and whether they see each other. Fails for the sky.
+    Result<std::string> pick(const std::optional<session::PickedPlace>& place);
     [[nodiscard]] std::span<const glm::dvec3> points() const { return points_; }
     /// Between the last two points; empty before.
     [[nodiscard]] std::span<const terrain::ProfilePoint> profile() const { return profile_; }
@@ -60,9 +62,14 @@ private:
         std::optional<Background<session::TerrainViewshed>> work; // uses the others
     };
 
-    const scene::TerrainNode& terrain_;
+    [[nodiscard]] const scene::TerrainNode& terrain() const {
+        return *scene_.terrain->get<scene::TerrainNode>();
+    }
+
+    const session::TerrainScene& scene_;
     bool is_on_ = false;
-    std::vector<glm::dvec3> points_;
+    std::vector<glm::dvec3> points_; // world metres
+    double last_height_ = 0.0;       // of the last point, true metres
     std::vector<std::string> texts_; // of the points
     bool is_in_sight_ = false;
     std::vector<terrain::ProfilePoint> profile_;

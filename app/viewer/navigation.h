@@ -15,7 +15,7 @@ namespace reljef::app {
 
 struct NavigationOptions {
     scene::GestureWorld world;
-    /// The ground that a ray meets first, world metres; empty: the sky.
+    /// The ground or object that a ray meets first, world metres; empty: the sky.
     std::function<std::optional<glm::dvec3>(const Ray&)> pick;
     glm::dvec3 middle{0.0}; ///< of the terrain: the wheel in the sky moves as far as towards it
 };
@@ -41,9 +41,6 @@ public:
     /// The place of a click since the last call, pixels.
     std::optional<glm::dvec2> take_click() { return std::exchange(click_, std::nullopt); }
     [[nodiscard]] const scene::GestureWorld& world() const { return options_.world; }
-    /// The ground at a place of the picture, world metres.
-    [[nodiscard]] std::optional<glm::dvec3> ground_at(const scene::Camera& camera,
-                                                      glm::dvec2 pixel) const;
 
 private:
     struct Drag {
@@ -58,6 +55,8 @@ private:
         double time = 0.0;
     };
 
+    [[nodiscard]] std::optional<glm::dvec3> ground_at(const scene::Camera& camera,
+                                                      glm::dvec2 pixel) const;
     std::optional<scene::Camera> press(const MouseButtonEvent& event, const scene::Camera& camera);
     std::optional<scene::Camera> release(const MouseButtonEvent& event);
     std::optional<scene::Camera> drag(glm::dvec2 to, const scene::Camera& camera);

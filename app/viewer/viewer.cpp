@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "engine/geo/place.h"
-#include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/ground.h"
 #include "engine/session/streaming.h"
@@ -60,8 +59,8 @@ NavigationOptions navigation_options(const session::TerrainScene& scene, glm::iv
     }
     world.min_distance = clearances_apart * clearance;
     world.max_distance = sides_apart * std::max(scene.bounds.size().x, scene.bounds.size().y);
-    options.pick = [node = scene.terrain](const Ray& ray) {
-        const auto hit = scene::pick_ground(*node->get<scene::TerrainNode>(), ray);
+    options.pick = [&scene](const Ray& ray) {
+        const auto hit = session::pick_place(scene, ray);
         return hit ? std::optional(hit->world) : std::nullopt;
     };
     return options;
@@ -90,9 +89,8 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
       switch_(scene, options.maps), techniques_(scene, switch_, material().technique),
       surface_switch_(scene, options.maps.threads, options.maps.largest_side),
       flight_(make_flight(scene, start_, options.allow_underground)),
-      navigation_(navigation_options(scene, size, options.allow_underground)),
-      measuring_(*scene.terrain->get<scene::TerrainNode>()), comparison_(scene, options.maps),
-      terrain_(options.terrain) {
+      navigation_(navigation_options(scene, size, options.allow_underground)), measuring_(scene),
+      comparison_(scene, options.maps), terrain_(options.terrain) {
     if (options.bookmarks) {
         bookmarks_.emplace(*options.bookmarks);
     }

@@ -26,6 +26,7 @@
 #include "engine/scene/motion/camera_path.h"
 #include "engine/scene/motion/free_flight.h"
 #include "engine/scene/technique/technique.h"
+#include "engine/session/ground.h"
 #include "engine/session/scene_setup.h"
 #include "engine/view/frame_stats.h"
 
@@ -80,7 +81,7 @@ public:
     /// The options that show this view again; fails on the map, which has none.
     [[nodiscard]] Result<std::string> camera_options() const;
 
-    /// Points on the ground; while it is on, each click picks one.
+    /// Points on the ground and on objects; while it is on, each click picks one.
     [[nodiscard]] Measuring& measuring() { return measuring_; }
     [[nodiscard]] const Measuring& measuring() const { return measuring_; }
     /// Writes the profile, or begins the viewshed, under a free name in the current folder.
@@ -151,8 +152,8 @@ public:
     [[nodiscard]] std::string exaggeration_obstacle() const { return surface_switch_.obstacle(); }
     /// Whether the models have the techniques with which the scene was opened.
     [[nodiscard]] bool keeps_techniques() const;
-    /// The ground that a pixel shows, world metres; empty over the sky and in the gallery.
-    [[nodiscard]] std::optional<glm::dvec3> ground_at_pixel(glm::dvec2 pixel) const;
+    /// The ground or object that a pixel shows; empty over the sky and in the gallery.
+    [[nodiscard]] std::optional<session::PickedPlace> place_at_pixel(glm::dvec2 pixel) const;
     /// Degrees clockwise from north, [0, 360); empty outside the map's domain.
     [[nodiscard]] std::optional<double> heading() const;
     [[nodiscard]] double speed() const { return flight_.speed(); } ///< metres a second
@@ -233,6 +234,7 @@ private:
     void leave();
     void show_camera(const scene::Camera& camera);
     [[nodiscard]] std::string place() const;
+    [[nodiscard]] std::optional<session::PickedPlace> place_at(glm::dvec2 pixel) const;
     [[nodiscard]] const scene::Camera& camera() const {
         return *scene_.camera->get<scene::Camera>();
     }

@@ -109,7 +109,7 @@ void Viewer::receive_click() {
     if (!pixel || !measuring_.is_on()) {
         return;
     }
-    auto picked = measuring_.pick(navigation_.ground_at(camera(), *pixel));
+    auto picked = measuring_.pick(place_at(*pixel));
     report(picked ? Result<void>() : picked.error());
     output_ += picked ? *picked : std::string();
     content_changed_ = true;
@@ -380,8 +380,12 @@ bool Viewer::keeps_techniques() const {
                       });
 }
 
-std::optional<glm::dvec3> Viewer::ground_at_pixel(glm::dvec2 pixel) const {
-    return scene_.models.empty() ? navigation_.ground_at(camera(), pixel) : std::nullopt;
+std::optional<session::PickedPlace> Viewer::place_at_pixel(glm::dvec2 pixel) const {
+    return scene_.models.empty() ? place_at(pixel) : std::nullopt;
+}
+
+std::optional<session::PickedPlace> Viewer::place_at(glm::dvec2 pixel) const {
+    return session::pick_place(scene_, scene::view_ray(camera(), navigation_.world().size, pixel));
 }
 
 } // namespace reljef::app

@@ -118,13 +118,15 @@ PathContent path_of(const Viewer& viewer) {
 
 } // namespace
 
-PlaceContent place_of(const session::TerrainScene& scene, glm::dvec3 world) {
+PlaceContent place_of(const session::TerrainScene& scene, const session::PickedPlace& picked) {
     const scene::TerrainSurface& surface = *terrain_of(scene).surface;
+    const glm::dvec3 world = picked.world;
     PlaceContent place;
     place.world = world;
     place.on_earth = surface.placement().geodetic_from_world(world);
     const auto sample = surface.placement().sample_from_world(world);
-    place.height = sample ? sample->z : world.z;
+    place.height = session::height_of(terrain_of(scene), picked);
+    place.object = picked.object;
     place.in_crs = sample ? crs_place(surface, *sample) : std::nullopt;
     return place;
 }
@@ -158,7 +160,7 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.measure = measure_of(viewer, camera, window);
     content.path = path_of(viewer);
     content.compare = viewer.comparison().content(viewer.technique());
-    content.eye = place_of(scene, viewer.is_map() ? camera.target : camera.eye);
+    content.eye = place_of(scene, {viewer.is_map() ? camera.target : camera.eye});
     if (!viewer.is_map() && scene.models.empty()) {
         content.eye.above_ground = session::height_above_ground(terrain_of(scene), camera.eye);
     }

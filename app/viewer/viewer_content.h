@@ -7,6 +7,7 @@
 
 #include "app/viewer/panels/panel_content.h"
 #include "app/viewer/viewer.h"
+#include "engine/session/ground.h"
 #include "engine/session/scene_setup.h"
 
 namespace reljef::app {
@@ -16,8 +17,8 @@ namespace reljef::app {
 PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene,
                         glm::ivec2 window);
 
-/// A point of the scene, world metres.
-PlaceContent place_of(const session::TerrainScene& scene, glm::dvec3 world);
+/// A point of the scene.
+PlaceContent place_of(const session::TerrainScene& scene, const session::PickedPlace& picked);
 
 /// The colours of the heights, upwards; empty if the scene shows none: images or models cover them.
 std::vector<LegendStop> legend_of(const session::TerrainScene& scene);

@@ -180,8 +180,8 @@ private:
         if (is_outside || mouse_captured_ || panels_->is_over_panel(pointer_)) {
             return std::nullopt;
         }
-        const auto ground = viewer_.ground_at_pixel(pointer_);
-        return ground ? std::optional(place_of(scene_, *ground)) : std::nullopt;
+        const auto picked = viewer_.place_at_pixel(pointer_);
+        return picked ? std::optional(place_of(scene_, *picked)) : std::nullopt;
     }
 
     PanelContent content(glm::ivec2 size) {

@@ -275,6 +275,11 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     if (auto prepared = beam_target_.prepare(list); !prepared) {
         return prepared;
     }
+    if (auto prepared =
+            hits ? Result<void>() : mesh_shadow_.prepare(list, limits_.max_texture_size);
+        !prepared) {
+        return prepared;
+    }
     return residency_.prepare(list, !hits, stats);
 }
 
@@ -286,6 +291,9 @@ void Driver::write_frame_block(const view::DrawList& list, view::FrameStats& sta
 }
 
 Result<void> Driver::draw_picture(const view::DrawList& list, view::FrameStats& stats) {
+    if (auto drawn = draw_mesh_shadows(list, stats); !drawn) {
+        return drawn;
+    }
     const int samples = samples_of(list, size(), options_.samples);
     if (samples == 1) {
         return draw_pass(list, color_target_, stats);
@@ -299,6 +307,18 @@ Result<void> Driver::draw_picture(const view::DrawList& list, view::FrameStats& 
         sample_target_ = std::move(*made);
     }
     return draw_samples(list, stats);
+}
+
+// Its triangles are not those of the picture.
+Result<void> Driver::draw_mesh_shadows(const view::DrawList& list, view::FrameStats& stats) {
+    if (!mesh_shadow_.is_cast()) {
+        return {};
+    }
+    view::FrameStats drawn_stats;
+    DrawState state(shaders_, blocks_, options_.software, drawn_stats);
+    auto drawn = mesh_shadow_.draw(list, residency_, state);
+    add_work(stats, drawn_stats);
+    return drawn;
 }
 
 Result<void> Driver::draw_samples(const view::DrawList& list, view::FrameStats& stats) {
@@ -350,7 +370,13 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
         .beams = beam_target_.framebuffer(),
         .no_vertices = no_vertices_,
         .skips = options_.skips,
-        .state = state};
+        .state = state,
+        .mesh_shadows = !hits && mesh_shadow_.is_cast() ? feature_mesh_shadows : 0U};
+    if (frame.mesh_shadows != 0) {
+        if (auto bound = mesh_shadow_.bind(state); !bound) {
+            return bound;
+        }
+    }
     if (!hits && (!list.point_lights.empty() || view::has_surface_shader(list))) {
         if (auto set = state.set(point_light_block(list)); !set) {
             return set;

@@ -13,6 +13,7 @@
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
 #include "engine/render/passes/beams.h"
+#include "engine/render/passes/mesh_shadow.h"
 #include "engine/render/passes/sample_target.h"
 #include "engine/render/passes/skips.h"
 #include "engine/render/residency/block_buffers.h"
@@ -80,6 +81,7 @@ private:
     Result<void> prepare(const view::DrawList& list, bool hits, view::FrameStats& stats);
     void write_frame_block(const view::DrawList& list, view::FrameStats& stats);
     Result<void> draw_picture(const view::DrawList& list, view::FrameStats& stats);
+    Result<void> draw_mesh_shadows(const view::DrawList& list, view::FrameStats& stats);
     Result<void> draw_samples(const view::DrawList& list, view::FrameStats& stats);
     Result<void> draw_sample_pass(const view::DrawList& list, int pass, view::FrameStats& stats);
     Result<void> draw_pass(const view::DrawList& list, const gl::Framebuffer& picture,
@@ -97,6 +99,7 @@ private:
     SampleTarget sample_target_;
     BeamTarget beam_target_;
     BeamTarget counted_beams_{true};
+    MeshShadow mesh_shadow_; // of the last picture
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -107,6 +108,26 @@ glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, doubl
     const auto ground = ground_below(terrain, eye);
     const double missing = ground ? ground->highest + clearance - ground->height : 0.0;
     return missing > 0.0 ? eye + missing * terrain.surface->placement().up(eye) : eye;
+}
+
+std::optional<PickedPlace> pick_place(const TerrainScene& scene, const Ray& ray) {
+    const auto ground = scene::pick_ground(*scene.terrain->get<scene::TerrainNode>(), ray);
+    const double end = ground ? ground->t : std::numeric_limits<double>::infinity();
+    if (const auto on_mesh = scene.scene.pick_mesh(ray, {0.0, end})) {
+        return PickedPlace{on_mesh->world, scene::object_name(*on_mesh->node)};
+    }
+    return ground ? std::optional(PickedPlace{ground->world}) : std::nullopt;
+}
+
+double height_of(const scene::TerrainNode& terrain, const PickedPlace& place) {
+    const terrain::Placement& placement = terrain.surface->placement();
+    const auto sample = placement.sample_from_world(place.world);
+    if (!sample) {
+        return place.world.z;
+    }
+    const auto above =
+        place.object.empty() ? std::nullopt : height_above_ground(terrain, place.world);
+    return above ? sample->z + (placement.exaggeration() - 1.0) * *above : sample->z;
 }
 
 std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,

@@ -20,6 +20,18 @@ std::optional<scene::GroundBelow> ground_below(const scene::TerrainNode& terrain
 /// The eye, lifted along the local vertical to `clearance` metres above everything drawn below it.
 glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);
 
+/// What a ray of the viewer meets first.
+struct PickedPlace {
+    glm::dvec3 world{0.0};
+    std::string object = {}; ///< its name; empty: the ground
+};
+/// The ground, or an object or model before it; empty: the sky.
+std::optional<PickedPlace> pick_place(const TerrainScene& scene, const Ray& ray);
+
+/// Height of a picked place, true metres: exaggeration lifts the ground, and objects as a whole.
+/// Beside the terrain, and outside of the placement's domain, its z.
+double height_of(const scene::TerrainNode& terrain, const PickedPlace& place);
+
 /// Metres per pixel at the middle of the picture, across the view; empty if it shows no ground.
 std::optional<double> metres_per_pixel(const scene::TerrainNode& terrain,
                                        const scene::Camera& camera, int pixels_high);

@@ -80,6 +80,7 @@ struct MeshDraw {
     const scene::MeshNode* mesh = nullptr;
     glm::dmat4 world_from_local{1.0};
     bool from_behind = false; ///< its inner side
+    Box local_bounds = {};    ///< metres; empty for a base
 };
 
 /// What to draw in a frame: pure data. Valid as long as the scene is unchanged.

@@ -171,7 +171,7 @@ private:
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (terrain.base != nullptr && scene::shows_heights(terrain.material.technique) &&
             !terrain.material.wireframe) {
-            list_.bases.push_back({terrain.base.get(), world_from_local, false});
+            list_.bases.push_back({terrain.base.get(), world_from_local, false, {}});
         }
         if (scene::searches_surface(terrain.material.technique.id())) {
             add_relief(terrain, world_from_local);
@@ -186,11 +186,11 @@ private:
                   const Box& local_bounds) {
         if (!options_.frustum || frustum_.may_see(transformed(world_from_local, local_bounds))) {
             if (scene::is_seen_from_behind(mesh.material)) {
-                list_.meshes.push_back({&mesh, world_from_local, true});
+                list_.meshes.push_back({&mesh, world_from_local, true, local_bounds});
             }
-            list_.meshes.push_back({&mesh, world_from_local, false});
+            list_.meshes.push_back({&mesh, world_from_local, false, local_bounds});
         } else {
-            list_.meshes_beside.push_back({&mesh, world_from_local, false});
+            list_.meshes_beside.push_back({&mesh, world_from_local, false, local_bounds});
             ++list_.stats.skipped.nodes_outside_frustum;
             list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;
         }

@@ -6,6 +6,9 @@
 #ifdef POINT_LIGHTS
 #include "material/point_lights.glsl"
 #endif
+#ifdef MESH_SHADOWS
+#include "material/mesh_shadow.glsl"
+#endif
 
 in vec3 world_normal;
 #ifdef HIT
@@ -22,7 +25,13 @@ void main() {
     hit_low = vec2(0.0);
 #else
     vec3 normal = normalize(INSIDE(world_normal));
-    vec3 lit = lit_color(albedo, normal, 1.0);
+#ifdef MESH_SHADOWS
+    float sun = sun_on_mesh(INSIDE(way_from_eye), dFdx(FROM_PIXEL_TO_PIXEL(way_from_eye)),
+                            dFdy(FROM_PIXEL_TO_PIXEL(way_from_eye)));
+#else
+    const float sun = 1.0;
+#endif
+    vec3 lit = lit_color(albedo, normal, sun);
 #ifdef POINT_LIGHTS
     lit += albedo * light_of_points(INSIDE(way_from_eye), normal);
 #endif

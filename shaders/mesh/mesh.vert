@@ -7,7 +7,7 @@ uniform mat4 relative_from_local;
 uniform mat3 world_from_normal;
 
 out vec3 world_normal;
-#if defined(MULTISAMPLED) || defined(POINT_LIGHTS) || defined(SURFACE_SHADER)
+#if defined(MULTISAMPLED) || defined(POINT_LIGHTS) || defined(MESH_SHADOWS) || defined(SURFACE_SHADER)
 out vec3 way_from_eye; // metres
 #endif
 #ifdef MULTISAMPLED
@@ -20,7 +20,7 @@ out float view_depth; // metres along the view axis
 void main() {
     vec4 relative = relative_from_local * vec4(position, 1.0);
     world_normal = world_from_normal * normal;
-#if defined(MULTISAMPLED) || defined(POINT_LIGHTS) || defined(SURFACE_SHADER)
+#if defined(MULTISAMPLED) || defined(POINT_LIGHTS) || defined(MESH_SHADOWS) || defined(SURFACE_SHADER)
     way_from_eye = relative.xyz;
 #endif
 #ifdef MULTISAMPLED

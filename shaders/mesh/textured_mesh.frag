@@ -6,6 +6,9 @@
 #include "frame/surface_light.glsl"
 #include "material/tile_light.glsl"
 #include "material/tile_lighting.glsl"
+#ifdef MESH_SHADOWS
+#include "material/mesh_shadow.glsl"
+#endif
 #endif
 
 #ifdef WARPED
@@ -39,7 +42,13 @@ void main() {
     vec2 right = dFdx(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
     vec2 up = dFdy(FROM_PIXEL_TO_PIXEL(vertex_coordinate));
     vec3 albedo = textureLod(color_map, coordinate, level_of(color_map, right, up)).rgb;
-    vec3 lit = lit_tile(albedo, coordinate, tangent_space(), right, up, 1.0);
+#ifdef MESH_SHADOWS
+    float sun = sun_on_mesh(relative, dFdx(FROM_PIXEL_TO_PIXEL(vertex_relative)),
+                            dFdy(FROM_PIXEL_TO_PIXEL(vertex_relative)));
+#else
+    const float sun = 1.0;
+#endif
+    vec3 lit = lit_tile(albedo, coordinate, tangent_space(), right, up, sun);
     color = vec4(seen_through_air(shaded(lit, relative), length(relative)), 1.0);
 #endif
 }

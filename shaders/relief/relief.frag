@@ -48,6 +48,9 @@ uniform float texels_per_metre_away; // per pixel
 #ifdef POINT_LIGHTS
 #include "terrain/ground_points.glsl"
 #endif
+#ifdef MESH_SHADOWS
+#include "material/mesh_shadow.glsl"
+#endif
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 
@@ -207,7 +210,11 @@ vec3 lit_at(vec2 place, float level, vec3 relative) {
     LitPlace at = lit_place(place, level);
     vec3 lit = reflected_at(at);
 #ifdef SHADOW
-    lit += share_of_sun_at(place, relative) * of_sun_at(at);
+    float sun = share_of_sun_at(place, relative);
+#ifdef MESH_SHADOWS
+    sun = sun > 0.0 ? sun * sun_on_ground(relative) : 0.0;
+#endif
+    lit += sun * of_sun_at(at);
 #endif
     return lit;
 }

@@ -36,9 +36,9 @@ TEST(Draw, ShowsAtEachPixelWhatTheRayThroughItsCentreMeets) {
             ASSERT_EQ(hit.is_sky(), !expected);
             if (expected) {
                 ++terrain;
-                ASSERT_NEAR(hit.col, expected->hit.sample.x, 1e-5);
-                ASSERT_NEAR(hit.row, expected->hit.sample.y, 1e-5);
-                ASSERT_NEAR(hit.height, expected->hit.sample.z, 1e-5);
+                ASSERT_NEAR(hit.col, expected->ground->sample.x, 1e-5);
+                ASSERT_NEAR(hit.row, expected->ground->sample.y, 1e-5);
+                ASSERT_NEAR(hit.height, expected->ground->sample.z, 1e-5);
             }
         }
     }

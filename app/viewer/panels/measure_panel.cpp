@@ -23,7 +23,7 @@ void draw_profile(const ProfileContent& profile, float scale) {
     row("Distance", length_text(profile.distance));
     row("Over the ground", length_text(profile.over_ground));
     row("Climb, descent", fmt::format("{:.1f} m, {:.1f} m", profile.climb, profile.descent));
-    row("Line of sight", profile.in_sight ? "free" : "hidden by ground");
+    row("Line of sight", profile.in_sight ? "free" : "hidden");
     tip("Between both points, 2 m above the ground, by exact rays");
 }
 
@@ -34,7 +34,7 @@ PanelActions draw_measure(const PanelContent& content, const Fonts& fonts) {
     const FontScope small(fonts.small);
     PanelActions actions;
     section(fonts.heading, "Points");
-    if (tick("Clicks pick points of the ground  (X)", measure.is_on)) {
+    if (tick("Clicks pick points of the ground and of objects  (X)", measure.is_on)) {
         actions.emplace_back(PressKey{Key::x});
     }
     for (std::size_t i = 0; i < measure.points.size(); ++i) {

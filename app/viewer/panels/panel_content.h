@@ -145,6 +145,7 @@ struct PlaceContent {
     std::optional<CrsPlace> in_crs;
     double height = 0.0;                ///< true metres above the DEM's zero
     std::optional<double> above_ground; ///< true metres; of the eye
+    std::string object;                 ///< its name; empty: the ground
 };
 
 struct TaskContent {
@@ -175,7 +176,7 @@ struct PanelContent {
     MeasureContent measure;
     PathContent path;
     PlaceContent eye;
-    std::optional<PlaceContent> cursor;     ///< the ground under the pointer
+    std::optional<PlaceContent> cursor;     ///< the ground or object under the pointer
     std::optional<double> heading;          ///< degrees clockwise from north
     std::optional<double> metres_per_pixel; ///< of the window, at its middle
     double speed = 0.0;                     ///< metres per second

@@ -20,6 +20,11 @@ std::string eye_text(const PanelContent& content, PlaceFormat format) {
     return line;
 }
 
+std::string cursor_text(const PlaceContent& cursor, PlaceFormat format) {
+    const std::string object = cursor.object.empty() ? "" : "   " + cursor.object;
+    return fmt::format("{}   {:.1f} m{}", place_text(cursor, format), cursor.height, object);
+}
+
 void draw_part(const char* name, const std::string& value) {
     muted_text(name);
     ImGui::SameLine();
@@ -46,8 +51,7 @@ void PlacePanel::draw(const PanelContent& content, const Area& area, const Fonts
     draw_part(content.appearance.shows_map ? "Middle" : "Eye", eye_text(content, format_));
     if (content.cursor) {
         ImGui::SameLine(0.0F, 22.0F);
-        draw_part("Pointer", fmt::format("{}   {:.1f} m", place_text(*content.cursor, format_),
-                                         content.cursor->height));
+        draw_part("Pointer", cursor_text(*content.cursor, format_));
     }
     const std::string keys = "H  help     Tab  hide panels";
     const float at = width - 14.0F - ImGui::CalcTextSize(keys.c_str()).x;

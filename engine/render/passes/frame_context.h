@@ -22,6 +22,7 @@ struct FrameContext {
     const gl::VertexArray& no_vertices;
     const Skips& skips;
     DrawState& state;
+    ShaderFeatures mesh_shadows = 0; ///< feature_mesh_shadows if meshes may hide the sun
 
     /// Whether fragments add their work to the picture instead of their colours.
     [[nodiscard]] bool counts() const { return (features & feature_counting) != 0; }

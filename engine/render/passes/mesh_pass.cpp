@@ -144,11 +144,12 @@ Result<void> draw_bases(const FrameContext& frame) {
 Result<void> draw_meshes(const FrameContext& frame) {
     const ShaderFeatures points =
         frame.hits || frame.list.point_lights.empty() ? 0U : feature_point_lights;
+    const ShaderFeatures more_features = points | frame.mesh_shadows;
     for (const view::MeshDraw& draw : frame.list.meshes) {
         if (draw.mesh->mesh->indices.empty()) {
             continue;
         }
-        if (auto drawn = draw_mesh(frame, draw, points); !drawn) {
+        if (auto drawn = draw_mesh(frame, draw, more_features); !drawn) {
             return drawn;
         }
     }

@@ -338,9 +338,10 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
         }
     }
     const ShaderFeatures unused = uses_beams(frame, technique) ? 0U : feature_beams;
-    const ShaderFeatures features =
-        frame.features | (technique_features(technique) & ~unused) | surface_features(draw) |
-        overlay_features(frame, *draw.terrain) | point_light_features(frame, draw);
+    const ShaderFeatures features = frame.features | (technique_features(technique) & ~unused) |
+                                    surface_features(draw) |
+                                    overlay_features(frame, *draw.terrain) |
+                                    point_light_features(frame, draw) | frame.mesh_shadows;
     const scene::Material& material = draw.terrain->material;
     auto program = state.use(with_surface({ShaderKind::relief, features}, material));
     if (!program) {

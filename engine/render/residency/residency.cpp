@@ -11,6 +11,7 @@
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/sun_maps.h"
 #include "engine/scene/streaming/certain_sun.h"
 #include "engine/view/terrain_maps.h"
 
@@ -82,6 +83,9 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     done = done ? prepare_reliefs(list, with_maps, stats) : done;
     std::vector<view::MeshDraw> meshes = list.meshes;
     meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
+    if (with_maps && casts_mesh_shadows(list)) {
+        meshes.insert(meshes.end(), list.meshes_beside.begin(), list.meshes_beside.end());
+    }
     return done ? meshes_.prepare(meshes, list.camera, stats) : done;
 }
 

@@ -31,8 +31,8 @@ inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_bl
                                                 sizeof(FrameBlock)};
 
 inline constexpr std::array block_layouts{
-    FrameBlock::layout,  TechniqueBlock::layout, ReliefBlock::layout,    DetailBlock::layout,
-    CourseBlock::layout, OverlayBlock::layout,   PointLightBlock::layout};
+    FrameBlock::layout,  TechniqueBlock::layout, ReliefBlock::layout,     DetailBlock::layout,
+    CourseBlock::layout, OverlayBlock::layout,   PointLightBlock::layout, MeshShadowBlock::layout};
 
 FrameBlock frame_block(const view::DrawList& list);
 

@@ -14,19 +14,19 @@ namespace reljef::render {
 namespace {
 
 // By ShaderKind.
-constexpr std::array<std::string_view, 11> file_names{
-    "terrain/terrain",        "relief/relief",    "relief/beams",     "mesh/mesh",
-    "mesh/textured_mesh",     "mesh/relief_mesh", "mesh/relief_hull", "terrain/textured_terrain",
-    "terrain/relief_terrain", "frame/sky",        "frame/average"};
+constexpr std::array<std::string_view, 12> file_names{
+    "terrain/terrain",          "relief/relief",          "relief/beams",     "mesh/mesh",
+    "mesh/textured_mesh",       "mesh/relief_mesh",       "mesh/relief_hull", "mesh/sun_depth",
+    "terrain/textured_terrain", "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeatures.
-constexpr std::array<std::string_view, 32> feature_names{
+constexpr std::array<std::string_view, 33> feature_names{
     "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
     "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY",
-    "FACADES",     "POINT_LIGHTS"};
-static_assert(std::bit_width(feature_point_lights) == feature_names.size());
+    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS"};
+static_assert(std::bit_width(feature_mesh_shadows) == feature_names.size());
 
 std::string header_of(ShaderFeatures features) {
     std::string header = "#version 450 core\n";
@@ -240,6 +240,18 @@ ShaderFeatures points_of(ShaderFeatures features) {
     return (features & feature_hit) != 0 ? 0U : features & feature_point_lights;
 }
 
+// Of a mesh's own colours.
+ShaderFeatures mesh_shadows_of(ShaderFeatures features) {
+    const bool is_lit = (features & feature_lit) != 0 && (features & feature_hit) == 0;
+    return is_lit ? features & feature_mesh_shadows : 0U;
+}
+
+// Only a relief whose own shadows are rays has the sun's light apart.
+ShaderFeatures mesh_shadows_on_relief(ShaderFeatures features, ShaderFeatures options) {
+    const bool has_rays = (options & (feature_hard_shadow | feature_soft_shadow)) != 0;
+    return has_rays ? features & feature_mesh_shadows : 0U;
+}
+
 // Features of a kind of shader except light, fog and hit.
 ShaderFeatures own_features(const ShaderVariant& variant) {
     const bool is_hit = (variant.features & feature_hit) != 0;
@@ -261,13 +273,15 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                overlay_of(variant.features) | points |
+               mesh_shadows_on_relief(variant.features, options_of(variant.features, search)) |
                (variant.features & (feature_streamed | feature_curved));
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap | points;
     case ShaderKind::textured_mesh:
-        return (variant.features & feature_warped) | (is_hit ? wrap : lighting) | points;
+        return (variant.features & feature_warped) | (is_hit ? wrap : lighting) | points |
+               mesh_shadows_of(variant.features);
     case ShaderKind::textured_terrain:
         return lighting | sliver_of(variant.features) | points;
     case ShaderKind::relief_hull:
@@ -277,16 +291,20 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
         return search | (options_of(variant.features, search) & shadows) |
                sliver_of(variant.features) | points;
     case ShaderKind::mesh:
-        return points;
+        return points | mesh_shadows_of(variant.features);
     default:
         return 0U;
     }
 }
 
+// Whether it draws parts of a picture that may have several samples per pixel.
+bool has_samples(ShaderKind kind) {
+    return kind != ShaderKind::beams && kind != ShaderKind::sky && kind != ShaderKind::average &&
+           kind != ShaderKind::sun_depth;
+}
+
 bool is_multisampled(const ShaderVariant& variant) {
-    const bool has_samples = variant.kind != ShaderKind::beams && variant.kind != ShaderKind::sky &&
-                             variant.kind != ShaderKind::average;
-    return has_samples && (variant.features & feature_hit) == 0 &&
+    return has_samples(variant.kind) && (variant.features & feature_hit) == 0 &&
            (variant.features & feature_multisampled) != 0;
 }
 
@@ -309,7 +327,7 @@ bool counts_work(const ShaderVariant& variant) {
 ShaderVariant counting_variant(ShaderVariant variant) {
     constexpr ShaderFeatures looks = feature_counting | feature_fog | feature_write_depth |
                                      feature_multisampled | feature_overlay | feature_facades |
-                                     feature_point_lights;
+                                     feature_point_lights | feature_mesh_shadows;
     variant = canonical_variant({variant.kind, variant.features & ~looks});
     variant.features |= feature_counting;
     return variant;
@@ -330,7 +348,8 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
     const ShaderFeatures own =
         own_features(variant) | (is_multisampled(variant) ? feature_multisampled : 0U);
     variant.features &= feature_lit | feature_fog | feature_hit;
-    if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average) {
+    if (variant.kind == ShaderKind::beams || variant.kind == ShaderKind::average ||
+        variant.kind == ShaderKind::sun_depth) {
         return {variant.kind, own};
     }
     if (variant.kind == ShaderKind::sky) {

@@ -27,6 +27,7 @@ enum class ShaderKind {
     textured_mesh,
     relief_mesh, ///< with a relief search per pixel
     relief_hull, ///< the same in a hull around the mesh
+    sun_depth,   ///< of a mesh, as the sun sees it
     textured_terrain,
     relief_terrain,
     sky,
@@ -84,6 +85,8 @@ inline constexpr ShaderFeatures feature_overlay = 1ULL << 29U; ///< of a terrain
 inline constexpr ShaderFeatures feature_facades = 1ULL << 30U; ///< of an overlay
 /// Of terrains and meshes: scene::PointLight.
 inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
+/// Of meshes, and of reliefs that cast shadows: meshes hide the sun (render::SunMap).
+inline constexpr ShaderFeatures feature_mesh_shadows = 1ULL << 32U;
 
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;

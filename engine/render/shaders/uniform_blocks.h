@@ -98,6 +98,19 @@ static_assert(sizeof(PointLightBlock) == 33 * 16);
 inline constexpr BlockLayout PointLightBlock::layout{
     "PointLightBlock", bindings::point_light_block_binding, sizeof(PointLightBlock)};
 
+struct MeshShadowBlock {
+    using mat4 = glm::mat4;
+    using vec4 = glm::vec4;
+    static const BlockLayout layout;
+#include "shaders/material/mesh_shadow.inc"
+};
+static_assert(offsetof(MeshShadowBlock, mesh_shadow_numbers) == 0);
+static_assert(offsetof(MeshShadowBlock, mesh_shadow_maps) == 16);
+static_assert(offsetof(MeshShadowBlock, mesh_shadow_texels) == 17 * 16);
+static_assert(sizeof(MeshShadowBlock) == 21 * 16);
+inline constexpr BlockLayout MeshShadowBlock::layout{
+    "MeshShadowBlock", bindings::mesh_shadow_block_binding, sizeof(MeshShadowBlock)};
+
 struct CourseBlock {
     using mat4 = glm::mat4;
     using vec4 = glm::vec4;

@@ -55,6 +55,8 @@ struct Uniforms {
     gl::Uniform<float> begin_height{"begin_height"};
     gl::Uniform<float> beam_lift{"beam_lift"};
 
+    gl::Uniform<glm::mat4> sun_clip_from_local{"sun_clip_from_local"}; // sun_depth.vert
+
     // With a surface shader: surface_shader.glsl.
     gl::Uniform<glm::vec3> eye_place{"eye_place"};
 

@@ -305,9 +305,33 @@ std::optional<Scene::Pick> Scene::pick(const Ray& ray) const {
         if (const auto* terrain = node.get<TerrainNode>()) {
             const auto hit =
                 terrain->surface->pick(transformed(glm::inverse(world_from_local), ray));
-            if (hit && (!first || hit->t < first->hit.t)) {
-                first = Pick{&node, *hit, ray.at(hit->t)};
+            if (hit && (!first || hit->t < first->t)) {
+                first = Pick{&node, hit->t, ray.at(hit->t), *hit};
             }
+        }
+    });
+    const auto on_mesh =
+        pick_mesh(ray, {0.0, first ? first->t : std::numeric_limits<double>::infinity()});
+    return on_mesh ? on_mesh : first;
+}
+
+std::optional<Scene::Pick> Scene::pick_mesh(const Ray& ray, reljef::Interval range) const {
+    std::optional<Pick> first;
+    const Camera camera = this->camera();
+    visit_visible(*root_, [&](const Node& node, const glm::dmat4& world_from_node) {
+        const auto* const mesh = node.get<MeshNode>();
+        if (mesh == nullptr) {
+            return;
+        }
+        const glm::dmat4 world_from_local = faced(mesh->facing, world_from_node, camera);
+        if (glm::determinant(glm::dmat3(world_from_local)) == 0.0) {
+            return; // a plane or a point
+        }
+        const auto hit =
+            trees_->first_hit(mesh->mesh, transformed(glm::inverse(world_from_local), ray), range);
+        if (hit) {
+            range.end = hit->t;
+            first = Pick{&node, hit->t, ray.at(hit->t)};
         }
     });
     return first;
@@ -316,6 +340,14 @@ std::optional<Scene::Pick> Scene::pick(const Ray& ray) const {
 bool Scene::dispatch(const Event& event) const {
     return std::any_of(receivers_.rbegin(), receivers_.rend(),
                        [&](const EventReceiver& receiver) { return receiver(event); });
+}
+
+const std::string& object_name(const Node& node) {
+    const Node* object = &node;
+    while (object->parent() != nullptr && object->parent()->parent() != nullptr) {
+        object = object->parent();
+    }
+    return object->name();
 }
 
 void visit_visible(const Node& root, const NodeVisitor& visit) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/facing.h"
 #include "engine/scene/graph/mesh.h"
+#include "engine/scene/graph/mesh_pick.h"
 #include "engine/scene/graph/point_light.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/scene/streaming/light.h"
@@ -192,12 +194,19 @@ public:
     /// z of the highest visible terrain at world (x, y).
     [[nodiscard]] std::optional<double> height_at(double x, double y) const;
     struct Pick {
-        const Node* node = nullptr;
-        terrain::SurfaceHit hit;
+        const Node* node = nullptr; ///< a terrain or a mesh
+        double t = 0.0;             ///< along the ray
         glm::dvec3 world{0.0};
+        std::optional<terrain::SurfaceHit> ground = {}; ///< of a terrain
     };
-    /// The first visible terrain that a world ray hits.
+    /// The first visible terrain or mesh that a world ray hits, exactly; of a streamed terrain the
+    /// overview (pick_ground() has its tiles).
     [[nodiscard]] std::optional<Pick> pick(const Ray& ray) const;
+    /// The first visible triangle with t in `range` that a world ray meets from outside. Billboards
+    /// face the scene's camera. Detail textures are not searched: the hit lies on the triangle.
+    [[nodiscard]] std::optional<Pick>
+    pick_mesh(const Ray& ray,
+              reljef::Interval range = {0.0, std::numeric_limits<double>::infinity()}) const;
 
     void add_event_receiver(EventReceiver receiver) { receivers_.push_back(std::move(receiver)); }
     /// Offers the event to the receivers, the latest first, until one handles it.
@@ -205,11 +214,16 @@ public:
 
 private:
     std::unique_ptr<Node> root_ = std::make_unique<Node>("root");
+    std::unique_ptr<MeshTrees> trees_ = std::make_unique<MeshTrees>();
     std::optional<Sky> sky_;
     double eye_dome_ = 0.0;
     Node* active_camera_ = nullptr;
     std::vector<EventReceiver> receivers_;
 };
+
+/// The name of the object that a node is a part of: that of the topmost node above it below the
+/// root.
+const std::string& object_name(const Node& node);
 
 /// Visits every visible node of the tree, parents first.
 void visit_visible(const Node& root, const NodeVisitor& visit);

@@ -61,7 +61,8 @@ std::optional<terrain::SurfacePoint> ground_point(const scene::TerrainNode& terr
                  : there;
 }
 
-std::string point_text(const scene::TerrainNode& terrain, glm::dvec3 world) {
+std::string point_text(const scene::TerrainNode& terrain, const PickedPlace& picked) {
+    const glm::dvec3 world = picked.world;
     const auto place = terrain.surface->heightfield().georeference
                            ? terrain.surface->placement().geodetic_from_world(world)
                            : std::nullopt;
@@ -69,6 +70,11 @@ std::string point_text(const scene::TerrainNode& terrain, glm::dvec3 world) {
                                   ? fmt::format("{:.6f}, {:.6f}", place->latitude, place->longitude)
                                   : fmt::format("x {:.2f} m, y {:.2f} m", world.x, world.y);
     const auto point = ground_point(terrain, world);
+    if (!picked.object.empty()) {
+        const double height = height_of(terrain, picked);
+        return where + fmt::format(": height {:.1f} m on '{}'", height, picked.object) +
+               (point ? fmt::format(", {:.1f} m above the ground", height - point->height) : "");
+    }
     if (!point) {
         return where + ": beside the terrain";
     }
@@ -105,14 +111,16 @@ ground_profile(const scene::TerrainNode& terrain, glm::dvec3 from, glm::dvec3 to
     return points;
 }
 
-std::optional<glm::dvec3> hidden_by(const scene::TerrainNode& terrain, glm::dvec3 from,
-                                    glm::dvec3 to, double height) {
-    const terrain::Placement& placement = terrain.surface->placement();
+std::optional<PickedPlace> hidden_by(const TerrainScene& scene, glm::dvec3 from, glm::dvec3 to,
+                                     double height) {
+    const terrain::Placement& placement =
+        scene.terrain->get<scene::TerrainNode>()->surface->placement();
     const double lift = placement.exaggeration() * std::max(height, terrain::sight_tolerance);
     const glm::dvec3 eye = from + lift * placement.up(from);
     const glm::dvec3 target = to + lift * placement.up(to);
-    const auto hit = scene::pick_ground(terrain, {eye, target - eye});
-    return hit && hit->t < 1.0 ? std::optional(hit->world) : std::nullopt;
+    auto hit = pick_place(scene, {eye, target - eye});
+    const bool is_between = hit && glm::distance(eye, hit->world) < glm::distance(eye, target);
+    return is_between ? hit : std::nullopt;
 }
 
 } // namespace reljef::session

@@ -8,6 +8,7 @@
 
 #include "engine/core/result.h"
 #include "engine/scene/graph/terrain_node.h"
+#include "engine/session/ground.h"
 #include "engine/terrain/measure/profile.h"
 #include "engine/terrain/measure/surface_point.h"
 
@@ -21,8 +22,8 @@ std::optional<terrain::SurfacePoint> ground_point(const scene::TerrainNode& terr
                                                   glm::dvec3 world);
 
 /// "46.12345, 8.12345: height 1234.5 m, slope 23.4°, aspect 145°"; x and y without a place on
-/// Earth.
-std::string point_text(const scene::TerrainNode& terrain, glm::dvec3 world);
+/// Earth. On an object: "…: height 1250.0 m on 'tower', 15.5 m above the ground".
+std::string point_text(const scene::TerrainNode& terrain, const PickedPlace& place);
 
 /// The ground between two world places: along the geodesic, or straight over a plane without a
 /// place on Earth. At most `max_points` points, else half a sample apart. NaN in voids and off the
@@ -31,9 +32,10 @@ Result<std::vector<terrain::ProfilePoint>> ground_profile(const scene::TerrainNo
                                                           glm::dvec3 from, glm::dvec3 to,
                                                           int max_points = 20'000);
 
-/// What hides `to` from `from`: the world place where the straight line first enters the ground;
-/// empty if nothing does. Both are world places on the ground; they are lifted by `height` metres.
-std::optional<glm::dvec3> hidden_by(const scene::TerrainNode& terrain, glm::dvec3 from,
-                                    glm::dvec3 to, double height);
+/// What hides `to` from `from`: where the straight line first enters the ground or an object; empty
+/// if nothing does. Both are world places on the ground or on objects; they are lifted by `height`
+/// metres.
+std::optional<PickedPlace> hidden_by(const TerrainScene& scene, glm::dvec3 from, glm::dvec3 to,
+                                     double height);
 
 } // namespace reljef::session

@@ -38,6 +38,10 @@ const scene::TerrainNode& node_of(const session::TerrainScene& scene) {
     return *scene.terrain->get<scene::TerrainNode>();
 }
 
+session::PickedPlace on_ground(double x, double y, double z) {
+    return {{x, y, z}};
+}
+
 std::string text_of(const std::filesystem::path& file) {
     std::ostringstream text;
     text << std::ifstream(file).rdbuf();
@@ -46,8 +50,8 @@ std::string text_of(const std::filesystem::path& file) {
 
 TEST(Measuring, PointTellsHeightSlopeAndAspect) {
     const session::TerrainScene scene = slope_with_wall(0.0);
-    Measuring measuring(node_of(scene));
-    const auto text = measuring.pick(glm::dvec3(50.0, 20.0, -42.0));
+    Measuring measuring(scene);
+    const auto text = measuring.pick(on_ground(50.0, 20.0, -42.0));
     ASSERT_TRUE(text);
     EXPECT_EQ(*text,
               "1  x 50.00 m, y 20.00 m: height -42.0 m, slope 11.3\u00b0, aspect 90\u00b0\n");
@@ -56,9 +60,9 @@ TEST(Measuring, PointTellsHeightSlopeAndAspect) {
 TEST(Measuring, TwoPointsTellTheirDistanceAndSight) {
     for (const double wall : {0.0, 30.0}) {
         const session::TerrainScene scene = slope_with_wall(wall);
-        Measuring measuring(node_of(scene));
-        ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
-        const auto text = measuring.pick(glm::dvec3(100.0, 0.0, -52.0));
+        Measuring measuring(scene);
+        ASSERT_TRUE(measuring.pick(on_ground(-100.0, 0.0, -12.0)));
+        const auto text = measuring.pick(on_ground(100.0, 0.0, -52.0));
         ASSERT_TRUE(text);
         EXPECT_THAT(*text, HasSubstr("distance 200.0 m"));
         EXPECT_THAT(*text, HasSubstr("lower by 40.0 m"));
@@ -72,24 +76,60 @@ TEST(Measuring, TwoPointsTellTheirDistanceAndSight) {
 
 TEST(Measuring, TheSkyIsOneSentenceAndNothingIsLost) {
     const session::TerrainScene scene = slope_with_wall(0.0);
-    Measuring measuring(node_of(scene));
-    ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
+    Measuring measuring(scene);
+    ASSERT_TRUE(measuring.pick(on_ground(-100.0, 0.0, -12.0)));
     const auto sky = measuring.pick(std::nullopt);
     ASSERT_FALSE(sky);
     EXPECT_THAT(sky.error().message, HasSubstr("the sky found"));
     EXPECT_EQ(measuring.points().size(), 1U);
-    EXPECT_THAT(*measuring.pick(glm::dvec3(9000.0, 0.0, 0.0)), HasSubstr("beside the terrain"));
+    EXPECT_THAT(*measuring.pick(on_ground(9000.0, 0.0, 0.0)), HasSubstr("beside the terrain"));
     EXPECT_TRUE(std::isnan(measuring.profile().back().height));
+}
+
+void add_block(session::TerrainScene& scene, glm::dvec3 middle) {
+    scene.scene.root()
+        .add("block",
+             scene::MeshNode{
+                 std::make_shared<const scene::Mesh>(scene::box_mesh({20.0F, 20.0F, 60.0F})), {}})
+        .set_position(middle);
+}
+
+TEST(Measuring, PointsOnObjectsTellNameAndHeight) {
+    session::TerrainScene scene = slope_with_wall(0.0);
+    add_block(scene, {50.0, 0.0, -42.0});
+    const auto place = session::pick_place(scene, {{52.0, 3.0, 500.0}, {0.0, 0.0, -1.0}});
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->object, "block");
+    Measuring measuring(scene);
+    EXPECT_THAT(*measuring.pick(place), testing::StrEq("1  x 52.00 m, y 3.00 m: height -12.0 m on "
+                                                       "'block', 30.4 m above the ground\n"));
+    const auto text = measuring.pick(on_ground(-100.0, 0.0, -12.0));
+    EXPECT_THAT(*text, HasSubstr("higher by 0.0 m"));
+    EXPECT_THAT(*text, HasSubstr("in sight"));
+}
+
+TEST(Measuring, ObjectsHideTheView) {
+    for (const bool has_block : {false, true}) {
+        session::TerrainScene scene = slope_with_wall(0.0);
+        if (has_block) {
+            add_block(scene, {0.0, 0.0, -30.0});
+        }
+        Measuring measuring(scene);
+        ASSERT_TRUE(measuring.pick(on_ground(-100.0, 0.0, -12.0)));
+        EXPECT_THAT(*measuring.pick(on_ground(100.0, 0.0, -52.0)),
+                    HasSubstr(has_block ? "hidden from each other by x -10.00 m, y 0.00 m: height"
+                                        : "in sight"));
+    }
 }
 
 TEST(Measuring, ProfileIsSavedAndAViewshedNeedsAPlaceOnEarth) {
     const test::TemporaryFolder folder;
     const session::TerrainScene scene = slope_with_wall(0.0);
-    Measuring measuring(node_of(scene));
+    Measuring measuring(scene);
     EXPECT_FALSE(measuring.save_profile(folder.path() / "none.csv"));
     EXPECT_FALSE(measuring.begin_viewshed(folder.path() / "none.tif"));
-    ASSERT_TRUE(measuring.pick(glm::dvec3(-100.0, 0.0, -12.0)));
-    ASSERT_TRUE(measuring.pick(glm::dvec3(100.0, 0.0, -52.0)));
+    ASSERT_TRUE(measuring.pick(on_ground(-100.0, 0.0, -12.0)));
+    ASSERT_TRUE(measuring.pick(on_ground(100.0, 0.0, -52.0)));
     ASSERT_TRUE(measuring.save_profile(folder.path() / "profile.csv"));
     const std::string text = text_of(folder.path() / "profile.csv");
     EXPECT_THAT(text, testing::StartsWith("distance,height\n0.000,-12.000\n"));

@@ -121,6 +121,30 @@ TEST_F(NavigationTest, MiddleDragAndLeftDragFromTheSkyTurnInPlace) {
     }
 }
 
+// A tower that hides the hill's top from the eye.
+TEST_F(NavigationTest, GesturesMeetObjectsBeforeTheGround) {
+    scene.scene.root()
+        .add("tower",
+             scene::MeshNode{
+                 std::make_shared<const scene::Mesh>(scene::box_mesh({20.0F, 20.0F, 60.0F})), {}})
+        .set_position({0.0, -100.0, 40.0});
+    const glm::dvec3 on_tower(2.0, -110.0, 55.0);
+    const glm::dvec2 pixel = scene::project(camera(), window_size, on_tower).pixel;
+    const auto picked = viewer.place_at_pixel(pixel);
+    ASSERT_TRUE(picked);
+    EXPECT_EQ(picked->object, "tower");
+    EXPECT_LT(glm::distance(picked->world, on_tower), 1e-9);
+    const double distance = glm::distance(camera().eye, on_tower);
+    drag(MouseButton::left, pixel, pixel + glm::dvec2(60.0, 0.0));
+    EXPECT_LT(pixels_from(on_tower, pixel), 1.0);
+    EXPECT_NEAR(glm::distance(camera().eye, on_tower), distance, 1e-6) << "orbited";
+    button(MouseButton::left, true, pixel, 2);
+    button(MouseButton::left, false, pixel);
+    viewer.advance(tick);
+    viewer.advance(1.0);
+    EXPECT_NEAR(glm::distance(camera().eye, on_tower), 0.25 * distance, 1e-6) << "flown to";
+}
+
 TEST_F(NavigationTest, WheelZoomsAtThePointer) {
     move(low_in_picture);
     const glm::dvec3 point = *ground(low_in_picture);

@@ -23,11 +23,11 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
         return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
                feature_corner_depth | feature_overlay | feature_facades | feature_point_lights;
     case ShaderKind::mesh:
-        return any | feature_multisampled | feature_point_lights;
+        return any | feature_multisampled | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::relief:
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
                feature_curved | feature_counting | feature_overlay | feature_facades |
-               feature_point_lights;
+               feature_point_lights | feature_mesh_shadows;
     case ShaderKind::beams:
         return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:
@@ -35,7 +35,7 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
                feature_point_lights;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
-               feature_warped | feature_multisampled | feature_point_lights;
+               feature_warped | feature_multisampled | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::textured_terrain:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled |
                feature_sliver | feature_corner_depth | feature_point_lights;
@@ -56,7 +56,7 @@ inline std::vector<ShaderVariant> all_variants() {
     std::unordered_set<std::uint64_t> known; // most of millions of subsets are one of few variants
     const auto add = [&](ShaderVariant variant) {
         const auto kind = static_cast<std::uint64_t>(variant.kind);
-        if (known.insert(kind << 32U | variant.features).second) {
+        if (known.insert(kind << 48U | variant.features).second) {
             variants.insert(variant);
         }
     };

@@ -30,8 +30,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 32;
-static_assert(1ULL << (feature_count - 1) == feature_point_lights, "the last feature");
+constexpr std::size_t feature_count = 33;
+static_assert(1ULL << (feature_count - 1) == feature_mesh_shadows, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
@@ -120,6 +120,8 @@ std::string_view glsl_type(GLint type) {
         return "sampler2D";
     case GL_SAMPLER_2D_ARRAY:
         return "sampler2DArray";
+    case GL_SAMPLER_2D_SHADOW:
+        return "sampler2DShadow";
     default:
         return "a type that no uniform has";
     }
@@ -147,6 +149,10 @@ GLuint count_of(GLuint program, GLenum interface) {
     return static_cast<GLuint>(count);
 }
 
+bool is_sampler(GLint type) {
+    return type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY || type == GL_SAMPLER_2D_SHADOW;
+}
+
 CompiledVariant inspect(const gl::Program& program, std::string name) {
     CompiledVariant variant{std::move(name), {}, {}};
     const GLuint id = program.id();
@@ -159,7 +165,7 @@ CompiledVariant inspect(const gl::Program& program, std::string name) {
         uniform.declaration.type = glsl_type(type);
         if (block >= 0) {
             uniform.offset = offset;
-        } else if (type == GL_SAMPLER_2D || type == GL_SAMPLER_2D_ARRAY) {
+        } else if (is_sampler(type)) {
             GLint unit = -1;
             glGetUniformiv(id, location, &unit);
             uniform.unit = unit;
@@ -291,7 +297,8 @@ TEST_F(ShaderLibraryGlTest, BlocksLieAsTheDriverSays) {
         {"DetailBlock", member_offsets("frame/detail_block.inc")},
         {"CourseBlock", member_offsets("frame/course_block.inc")},
         {"OverlayBlock", member_offsets("frame/overlay_block.inc")},
-        {"PointLightBlock", member_offsets("material/point_lights.inc")}};
+        {"PointLightBlock", member_offsets("material/point_lights.inc")},
+        {"MeshShadowBlock", member_offsets("material/mesh_shadow.inc")}};
     std::set<std::string_view> seen;
     for (const CompiledVariant& variant : compiled_variants()) {
         std::map<std::string, int> expected;

@@ -25,7 +25,8 @@ TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
           ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
-          ShaderKind::relief_terrain, ShaderKind::sky, ShaderKind::average}) {
+          ShaderKind::relief_terrain, ShaderKind::sky, ShaderKind::average,
+          ShaderKind::sun_depth}) {
         for (ShaderFeatures features = 0; features < feature_counting << 1U; features += 121U) {
             const ShaderVariant variant = canonical_variant({kind, features});
             ASSERT_EQ(variant.kind, kind);
@@ -49,7 +50,8 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
         EXPECT_FALSE(counts && (hit || is_multisampled || (variant.features & feature_fog) != 0));
         const bool has_color = !hit && !counts && variant.kind != ShaderKind::sky &&
                                variant.kind != ShaderKind::beams &&
-                               variant.kind != ShaderKind::average;
+                               variant.kind != ShaderKind::average &&
+                               variant.kind != ShaderKind::sun_depth;
         multisampled += is_multisampled ? 1U : 0U;
         colors += has_color && !is_multisampled ? 1U : 0U;
     }
@@ -58,15 +60,17 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // with and without fade and depth; of eight searches: these, and as colour three shadows and
     // smooth edges or not.
     // All colours of a terrain but warped ones are there with overlays, too, with façades or not.
-    // Of these, and of meshes, all colours are there with point lights, too.
+    // Of these, and of meshes, all colours are there with point lights, too. Lit meshes, and
+    // reliefs with shadows, are there with shadows of meshes, too; and the depth that these are
+    // made from.
     constexpr std::size_t parallax = 4U * (1U + 2U * 6U) * 4U;
-    constexpr std::size_t searches = 8U * (4U + 2U * 6U * 4U * 6U);
+    constexpr std::size_t searches = 8U * (4U + 2U * 6U * 4U * 10U);
     // All of a relief are there for streams and on the ellipsoid, too.
     // Three of the searches, without fade, are there with beams too; and the beams themselves.
-    constexpr std::size_t beams = 1U + 3U * (2U + 2U * 6U * 2U * 6U);
+    constexpr std::size_t beams = 1U + 3U * (2U + 2U * 6U * 2U * 10U);
     // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
     // lit or not, wrapped or not; one that looks for layers has no smooth edges.
-    constexpr std::size_t textured = 2U * (2U * (4U * 2U + 2U) + 2U);
+    constexpr std::size_t textured = 2U * (2U * (4U * 2U * 2U + 2U) + 2U);
     constexpr std::size_t mesh_parallax = 2U * 4U * (2U * 4U + 1U) * 4U;
     constexpr std::size_t mesh_searches = 2U * 8U * (4U + 2U * 4U * 2U * 2U * (3U + 1U));
     constexpr std::size_t layers = 2U * (4U + 2U * 4U * 2U * (3U + 1U));
@@ -76,7 +80,8 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     constexpr std::size_t textured_ground = 2U * 3U * 2U * (4U + 1U);
     constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * 2U * (1U + 3U));
     constexpr std::size_t ground_searches = 2U * 3U * 2U * (4U * 2U + 8U * (1U + 3U));
-    constexpr std::size_t plain = 3U * 4U + 2U * 2U * 3U + 2U * 3U * 3U + 2U * 4U + 1U + 4U + 1U;
+    constexpr std::size_t plain =
+        3U * 4U + 2U * 2U * 3U + 2U * 3U * 3U + 2U * 4U + 1U + 4U + 1U + 2U * 2U + 1U;
     // What counts is a colour without air and depth: of a terrain, also warped or its two kinds of
     // slivers; of the beams; and of a relief, of four parallaxes with and without fade; of eight
     // searches with these, three shadows, and smooth edges or not; three of them with beams,

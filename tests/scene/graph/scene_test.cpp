@@ -309,6 +309,45 @@ TEST(Scene, AnEmptyOneHasNoHeightAndNothingToPick) {
     EXPECT_FALSE(scene.pick({}));
 }
 
+TEST(Scene, PickMeetsTheFirstOfGroundAndMeshes) {
+    Scene scene;
+    Node& ground = add(scene, test::plane_heightfield(Grid<float>(9, 9, 1.0F)));
+    Node& tower = scene.root().add("tower");
+    const auto box = std::make_shared<const Mesh>(box_mesh(glm::vec3(2.0F)));
+    Node& part = tower.add("part", MeshNode{box, {}});
+    tower.set_position({1.0, 1.0, 4.0});
+    const auto down = [&](double x, double z) {
+        return scene.pick({{x, 1.0, z}, {0.0, 0.0, -2.0}});
+    };
+    EXPECT_EQ(down(0.5, 9.0)->node, &part);
+    EXPECT_EQ(down(0.5, 9.0)->world.z, 5.0);
+    EXPECT_EQ(down(0.5, 9.0)->t, 2.0);
+    EXPECT_FALSE(down(0.5, 9.0)->ground);
+    EXPECT_EQ(object_name(*down(0.5, 9.0)->node), "tower");
+    EXPECT_EQ(down(-1.5, 9.0)->node, &ground);
+    EXPECT_EQ(down(-1.5, 9.0)->ground->sample.z, 1.0);
+    EXPECT_EQ(down(0.5, 2.0)->node, &ground) << "below the box";
+    tower.set_position({1.0, 1.0, -4.0});
+    EXPECT_EQ(down(0.5, 9.0)->node, &ground) << "the box is below";
+    tower.set_position({1.0, 1.0, 4.0});
+    tower.set_visible(false);
+    EXPECT_EQ(down(0.5, 9.0)->node, &ground);
+}
+
+TEST(Scene, PickMeetsABillboardAsTheCameraSeesIt) {
+    Scene scene;
+    scene.add_camera({.eye = {50.0, 0.0, 0.0}, .target = {0.0, 0.0, 0.0}});
+    const auto mesh = std::make_shared<const Mesh>(billboard_mesh({2.0F, 4.0F}));
+    Node& node = scene.root().add("tree", MeshNode{mesh, {}, Facing::upright});
+    const Ray ray{{50.0, 0.5, 1.0}, {-1.0, 0.0, 0.0}};
+    ASSERT_TRUE(scene.pick(ray));
+    EXPECT_NEAR(scene.pick(ray)->t, 50.0, 1e-9);
+    node.get<MeshNode>()->facing = Facing::node;
+    EXPECT_FALSE(scene.pick(ray)) << "seen along its plane";
+    node.set_parent_from_local(glm::scale(glm::dmat4(1.0), {1.0, 1.0, 0.0}));
+    EXPECT_FALSE(scene.pick(ray)) << "without area";
+}
+
 TEST(Scene, ARemovedCameraIsNoLongerLookedThrough) {
     Scene scene;
     Camera camera;

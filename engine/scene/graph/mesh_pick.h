@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "engine/core/geometry.h"
+#include "engine/scene/graph/mesh.h"
+
+namespace reljef::scene {
+
+/// Where a ray enters a mesh.
+struct MeshHit {
+    double t = 0.0;           ///< along the ray
+    std::size_t triangle = 0; ///< its first index
+};
+
+/// A binary tree of boxes around the triangles of a mesh, for rays in local metres. Thread-safe.
+class MeshTree {
+public:
+    /// The mesh outlives the tree.
+    explicit MeshTree(const Mesh& mesh);
+
+    /// The nearest triangle with t in `range` that is seen from outside. No ray passes between two
+    /// triangles that share an edge (Woop et al. 2013, in double precision).
+    [[nodiscard]] std::optional<MeshHit> first_hit(const Ray& ray, reljef::Interval range) const;
+
+private:
+    struct Branch {
+        Box bounds;
+        std::uint32_t first = 0;  // of `order_`
+        std::uint32_t count = 0;  // 0: two branches follow, the next one and `second`
+        std::uint32_t second = 0; // of `branches_`
+    };
+    void grow(const std::vector<Box>& boxes, std::size_t begin, std::size_t end);
+
+    const Mesh& mesh_;
+    std::vector<std::uint32_t> order_; // triangles
+    std::vector<Branch> branches_;
+};
+
+/// The trees of meshes as long as these live: each is made for the first ray that meets the bounds
+/// of its mesh. Thread-safe.
+class MeshTrees {
+public:
+    /// As MeshTree::first_hit().
+    std::optional<MeshHit> first_hit(const std::shared_ptr<const Mesh>& mesh, const Ray& ray,
+                                     reljef::Interval range);
+
+private:
+    struct Entry {
+        Box bounds;
+        std::shared_ptr<const MeshTree> tree; // null: not needed yet
+    };
+    using Key = std::weak_ptr<const Mesh>;
+
+    std::shared_ptr<const MeshTree> tree_for(const std::shared_ptr<const Mesh>& mesh,
+                                             const Ray& ray, reljef::Interval range);
+
+    std::mutex mutex_;
+    std::map<Key, Entry, std::owner_less<Key>> entries_;
+};
+
+} // namespace reljef::scene

@@ -1,0 +1,145 @@
+// Shadows of meshes in OpenGL: those of rays and of the truth.
+#include "engine/render/passes/mesh_shadow.h"
+
+#include <gtest/gtest.h>
+
+#include "engine/session/scene_renderer.h"
+#include "engine/truth/image_error.h"
+#include "engine/view/select.h"
+#include "tests/cast/frame/compared_pictures.h"
+#include "tests/cast/frame/object_stage.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
+#include "tests/session/made_session.h"
+
+namespace reljef::cast {
+namespace {
+
+class MeshShadowGlTest : public test::GlTest {
+protected:
+    // In OpenGL.
+    static Image picture_of(const ObjectStage& stage, glm::ivec2 size = mesh_picture,
+                            int samples = 1) {
+        session::SceneRenderer made = test::must(test::make_renderer(size));
+        made.set_samples(samples);
+        test::must(made.draw(stage.scene));
+        return made.read_color();
+    }
+    static void write_depth(ObjectStage& stage) {
+        stage.terrain->get<scene::TerrainNode>()->material.technique.options.writes_depth = true;
+    }
+    static view::FrameStats stats_of(const ObjectStage& stage) {
+        session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));
+        return test::must(made.draw(stage.scene));
+    }
+};
+
+// Ground hides no sun from meshes there, so the sun is high.
+TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
+    for (const double altitude : {35.0, 50.0}) {
+        ObjectStage stage;
+        write_depth(stage);
+        stage.set_sun(altitude);
+        for (const bool is_map : {false, true}) {
+            is_map ? stage.look_from_above() : stage.look_near();
+            const Image shown = picture_of(stage);
+            const Image rays = stage.drawn();
+            EXPECT_LE(test::share_of_others(shown, rays, 16), 0.003) << altitude << is_map;
+            const Image expected = stage.true_picture(truth::SunShadow::ray);
+            EXPECT_LE(test::share_of_others(shown, expected, 16), 0.008) << altitude << is_map;
+            const Image unshadowed = stage.true_picture(truth::SunShadow::sweep);
+            EXPECT_GE(test::share_of_others(shown, unshadowed, 16), 0.01) << altitude << is_map;
+        }
+    }
+}
+
+TEST_F(MeshShadowGlTest, AreThereWithSamplesAndOverStreams) {
+    ObjectStage stage;
+    write_depth(stage);
+    stage.set_sun(40.0);
+    stage.look_near();
+    const Image one = picture_of(stage);
+    EXPECT_LE(test::share_of_others(picture_of(stage, mesh_picture, 4), one, 48), 0.06);
+    ObjectStage streamed;
+    write_depth(streamed);
+    streamed.set_sun(40.0);
+    test::stream_samples(*streamed.terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
+    streamed.look_near();
+    render::bring_tiles(streamed.scene, mesh_picture);
+    EXPECT_LE(test::share_of_others(picture_of(streamed), one, 24), 0.03);
+}
+
+// Nothing but its own far side hides the sun from a round mesh: no pixel of the near side is dark.
+TEST_F(MeshShadowGlTest, LitFacesHaveNoDarkSpots) {
+    for (const double altitude : {4.0, 30.0, 80.0}) {
+        ObjectStage stage;
+        write_depth(stage);
+        stage.set_sun(altitude);
+        stage.remove_meshes();
+        const glm::dvec3 ball(0.0, -20.0, 80.0);
+        stage.scene.add_mesh(scene::sphere_mesh(20.0F, 96), colored(glm::vec3(0.8F)))
+            .set_position(ball);
+        // From the sun's side: all of the ball that is seen is lit, but for its rim.
+        stage.look(test::camera_at(ball + 90.0 * scene::to_light(stage.sun), ball));
+        const Image shadowed = picture_of(stage);
+        stage.set_shadow(false);
+        write_depth(stage);
+        const Image plain = picture_of(stage);
+        int compared = 0;
+        for (int row = 0; row < mesh_picture.y; ++row) {
+            for (int col = 0; col < mesh_picture.x; ++col) {
+                const double away =
+                    glm::distance(glm::dvec2(col, row) + 0.5, 0.5 * glm::dvec2(mesh_picture));
+                if (away < 40.0) {
+                    ++compared;
+                    ASSERT_NEAR(shadowed(col, row).g, plain(col, row).g, 2)
+                        << col << ' ' << row << ' ' << altitude;
+                }
+            }
+        }
+        EXPECT_GT(compared, 4000);
+    }
+}
+
+// The parts of a picture have the same maps, so all pixels are those of one piece.
+TEST_F(MeshShadowGlTest, PartsOfAPictureHaveNoSeam) {
+    ObjectStage stage;
+    write_depth(stage);
+    stage.set_sun(40.0);
+    stage.look_near();
+    const Image whole = picture_of(stage);
+    const scene::Camera camera = *stage.camera->get<scene::Camera>();
+    const glm::ivec2 part_size = mesh_picture / 2;
+    for (const glm::ivec2 first : {glm::ivec2(0), part_size}) {
+        *stage.camera->get<scene::Camera>() =
+            scene::part_camera(camera, mesh_picture, {first, part_size});
+        const Image part = picture_of(stage, part_size);
+        int others = 0;
+        for (int row = 0; row < part_size.y; ++row) {
+            for (int col = 0; col < part_size.x; ++col) {
+                others += std::abs(part(col, row).g - whole(first.x + col, first.y + row).g) > 2;
+            }
+        }
+        EXPECT_LE(others, part_size.x * part_size.y / 1000);
+    }
+}
+
+TEST_F(MeshShadowGlTest, WithoutMeshesOrTheOptionTheyCostNothing) {
+    ObjectStage stage;
+    write_depth(stage);
+    stage.look_near();
+    const auto with = stats_of(stage);
+    stage.set_shadow(false);
+    write_depth(stage);
+    const auto without = stats_of(stage);
+    EXPECT_GT(with.draws, without.draws) << "the maps";
+    EXPECT_EQ(with.triangles, without.triangles);
+    EXPECT_EQ(without.draws, 7) << "ground, its beams, four meshes, and the sky";
+    stage.set_shadow(true);
+    stage.remove_meshes();
+    EXPECT_EQ(stats_of(stage).draws, 3) << "ground, its beams, and the sky";
+}
+
+} // namespace
+} // namespace reljef::cast
