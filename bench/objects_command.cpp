@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "app/cli/parsed_option.h"
-#include "app/cli/usage_error.h"
 #include "bench/commands.h"
 #include "bench/objects/objects_suite.h"
 #include "bench/options/output_options.h"
@@ -81,17 +80,12 @@ cli::Command add_objects_command(CLI::App& program, cli::Interrupt& interrupt) {
         "objects", "buildings as heights of the terrain and as meshes: time, memory and error");
     auto choice = std::make_shared<ObjectsChoice>();
     add_objects_options(*arguments, *choice);
-    arguments->callback([choice] {
-        if (choice->options.suite.context == session::BackendKind::cpu) {
-            cli::fail_usage("--context: cpu found, but the suite measures OpenGL; osmesa, egl or "
-                            "glfw was expected");
-        }
-    });
     arguments->footer(
         "The same city is drawn as heights (texture, parallax, relief, exact rays, polygons), as\n"
         "meshes on the bare ground, and as meshes on a level plane. Errors are those against the\n"
         "exact picture of the meshes. A city without buildings, and a view from inside one, are\n"
-        "left out with a note.\n"
+        "left out with a note. With --context cpu, rays on the CPU draw exact, polygons, auto and\n"
+        "meshes beside OpenGL.\n"
         "Examples:\n"
         "  reljef-bench objects --quick\n"
         "  reljef-bench objects --city 1024 --distance 500 --json objects.json --html report\n"

@@ -45,7 +45,7 @@ struct PieceTechniques {
     scene::Technique buildings; ///< of pieces with buildings
     scene::Technique level;     ///< of the others
 };
-/// The pieces where they belong, with a sun.
+/// A scene of the pieces, side by side as in the whole, with a sun.
 scene::Scene scene_of_pieces(const CutCity& city, const std::vector<CityPiece>& pieces,
                              const PieceTechniques& techniques, const scene::Camera& camera);
 

@@ -10,7 +10,8 @@ struct ResultsSource {
     std::string name; ///< the file is NAME.json
     std::string what; ///< it measures, one sentence
     std::string command;
-    bool quiet = true; ///< nothing else ran beside it, so that its times hold
+    /// Its times hold: nothing else ran beside it, or its noise floors bound what that changed.
+    bool quiet = true;
 
     [[nodiscard]] std::string file() const { return name + ".json"; }
 };

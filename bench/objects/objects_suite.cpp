@@ -79,23 +79,39 @@ std::vector<ObjectsView> views_of(const ObjectsOptions& options) {
     return views;
 }
 
+struct FormTechnique {
+    CityForm form = CityForm::heights;
+    scene::Technique technique;
+    bool by_rays = false; // on the CPU
+};
+
+std::vector<FormTechnique> with_rays_beside(const std::vector<FormTechnique>& chosen) {
+    std::vector<FormTechnique> all;
+    for (const FormTechnique& each : chosen) {
+        all.push_back(each);
+        if (session::rays_draw(each.technique)) {
+            all.push_back({each.form, each.technique, true});
+        }
+    }
+    return all;
+}
+
 // The first is texture, to which ratios refer.
-std::vector<std::pair<CityForm, scene::Technique>> techniques_in(const CityForms& city) {
+std::vector<FormTechnique> techniques_in(const CityForms& city, bool has_rays) {
     scene::Polygons bounded;
     bounded.error = session::default_max_error;
-    std::vector<std::pair<CityForm, scene::Technique>> found{
-        {CityForm::heights, scene::Technique{scene::Texture{}}},
-        {CityForm::heights, scene::Technique{scene::Parallax{}}},
-        {CityForm::heights, scene::Technique{scene::Relief{}}},
-        {CityForm::heights, scene::Technique{scene::Exact{}}},
-        {CityForm::heights, scene::Technique{bounded}},
-        {CityForm::heights,
-         scene::Technique{scene::Automatic{.error = session::default_max_error}}},
-        {CityForm::meshes, scene::Technique{bounded}}};
+    std::vector<FormTechnique> found{{CityForm::heights, scene::Technique{scene::Texture{}}},
+                                     {CityForm::heights, scene::Technique{scene::Parallax{}}},
+                                     {CityForm::heights, scene::Technique{scene::Relief{}}},
+                                     {CityForm::heights, scene::Technique{scene::Exact{}}},
+                                     {CityForm::heights, scene::Technique{bounded}},
+                                     {CityForm::heights, scene::Technique{scene::Automatic{
+                                                             .error = session::default_max_error}}},
+                                     {CityForm::meshes, scene::Technique{bounded}}};
     if (city.has(CityForm::meshes_only)) {
-        found.emplace_back(CityForm::meshes_only, scene::Technique{bounded});
+        found.push_back({CityForm::meshes_only, scene::Technique{bounded}});
     }
-    return found;
+    return has_rays ? with_rays_beside(found) : found;
 }
 
 class ObjectsRun {
@@ -139,27 +155,42 @@ public:
 private:
     void note(const std::string& text) { results_.notes.push_back(text); }
 
-    [[nodiscard]] Result<ObjectsVariant> variant_of(const CityForms& city, const ObjectsView& view,
-                                                    CityForm form,
-                                                    const scene::Technique& technique) const {
+    [[nodiscard]] Result<session::SceneRenderer> make_renderer(bool by_rays) const {
         session::SceneRendererOptions drivers;
-        drivers.opengl.emplace();
-        drivers.opengl->size = options_.suite.size;
-        drivers.opengl->shader_dir = options_.suite.shader_dir;
-        drivers.opengl->software = is_software_;
-        auto renderer = session::SceneRenderer::create(drivers);
+        if (by_rays) {
+            const auto target = session::simd_target_of(options_.suite.simd);
+            if (!target) {
+                return target.error();
+            }
+            drivers.rays.emplace();
+            drivers.rays->size = options_.suite.size;
+            drivers.rays->threads = static_cast<unsigned>(options_.suite.threads);
+            drivers.rays->target = *target;
+        } else {
+            drivers.opengl.emplace();
+            drivers.opengl->size = options_.suite.size;
+            drivers.opengl->shader_dir = options_.suite.shader_dir;
+            drivers.opengl->software = is_software_;
+        }
+        return session::SceneRenderer::create(drivers);
+    }
+
+    [[nodiscard]] Result<ObjectsVariant> variant_of(const CityForms& city, const ObjectsView& view,
+                                                    const FormTechnique& chosen) const {
+        auto renderer = make_renderer(chosen.by_rays);
         if (!renderer) {
             return renderer.error();
         }
         ObjectsVariant made;
-        made.form = form;
-        made.technique = technique;
+        made.form = chosen.form;
+        made.technique = chosen.technique;
         made.row.suite = "objects";
         made.row.test = test_name(view);
         made.row.scene = city.name();
-        made.row.setting = setting_of(technique);
-        const auto form_name = building::city_form_names[static_cast<std::size_t>(form)];
-        made.row.setting.label = fmt::format("{}: {}", form_name, made.row.setting.label);
+        made.row.setting = setting_of(chosen.technique);
+        const auto form_name = building::city_form_names[static_cast<std::size_t>(chosen.form)];
+        made.row.setting.label = fmt::format("{}: {}{}", form_name, made.row.setting.label,
+                                             chosen.by_rays ? " on cpu" : "");
         made.row.size = options_.suite.size;
         made.row.objects =
             RowObjects{std::string(form_name), city.buildings(), view.distance, view.down, 0};
@@ -174,10 +205,10 @@ private:
             return {};
         }
         std::vector<ObjectsVariant> variants;
-        auto chosen = techniques_in(city);
+        auto chosen = techniques_in(city, options_.suite.context == session::BackendKind::cpu);
         chosen.push_back(chosen.front());
-        for (const auto& [form, technique] : chosen) {
-            auto made = variant_of(city, view, form, technique);
+        for (const FormTechnique& each : chosen) {
+            auto made = variant_of(city, view, each);
             if (!made) {
                 return made.error();
             }

@@ -22,7 +22,9 @@ struct ObjectsOptions {
 /// the bare ground, and as meshes alone, over the distance, the angle and the number of buildings:
 /// time, memory, and the error against the exact picture of the meshes. The last row of each test
 /// draws the first again, for the noise floor. Cities without buildings and views from inside them
-/// are left out with a note.
+/// are left out with a note. With session::BackendKind::cpu, rays on the CPU draw beside OpenGL
+/// what is exact or keeps an error bound; their labels say so. Their memory is what they
+/// prepare for the first frame.
 Results run_objects(const ObjectsOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

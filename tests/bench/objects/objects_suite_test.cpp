@@ -54,6 +54,23 @@ TEST(ObjectsSuite, MeshesAreTheTruthAndHeightsAreBesideIt) {
     EXPECT_GT(meshes.timing.stats.triangles, 100U);
 }
 
+TEST(ObjectsSuite, RaysOnTheCpuAreMeasuredBesideOpenGl) {
+    ObjectsOptions options = small_city();
+    options.suite.context = session::BackendKind::cpu;
+    const Results results = run_objects(options, {});
+    ASSERT_FALSE(results.stopped) << results.stopped->message;
+    for (const char* const label : {"heights: exact", "meshes: polygons:error=1"}) {
+        const Row& by_opengl = row_of(results, label);
+        const Row& by_rays = row_of(results, std::string(label) + " on cpu");
+        EXPECT_GT(by_rays.timing.stats.rays, 0U) << label;
+        EXPECT_EQ(by_opengl.timing.stats.rays, 0U) << label;
+        EXPECT_LE(by_rays.error->wrong_percent, by_opengl.error->wrong_percent + 0.5) << label;
+    }
+    const auto cpu = [](const Row& row) { return row.setting.label.ends_with(" on cpu"); };
+    EXPECT_EQ(std::count_if(results.rows.begin(), results.rows.end(), cpu), 5)
+        << "exact, triangles, auto, meshes, meshes alone";
+}
+
 TEST(ObjectsSuite, IsWrittenInTheOneSchemaAndReadAgain) {
     const Results results = run_objects(small_city(), {});
     const test::TemporaryFolder folder;
