@@ -1,5 +1,4 @@
 #include "frame/pixel_ray.glsl"
-#include "frame/surface_shader.glsl"
 
 // The 8th power of the cosine of the angle to the sun: forward scattering.
 // 0 without a sun.

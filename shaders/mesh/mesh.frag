@@ -1,6 +1,7 @@
 #include "frame/frame_block.glsl"
 #include "frame/surface_light.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "frame/fragment.glsl"
 #include "frame/distance.glsl"
 #ifdef POINT_LIGHTS

@@ -1,5 +1,6 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "relief/relief_surface.glsl"
 #include "material/tile_surface.glsl"
 #ifndef HIT

@@ -2,6 +2,7 @@
 #include "frame/frame_block.glsl"
 #include "frame/fragment.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "relief/relief_surface.glsl"
 #include "relief/relief_cell.glsl"
 #if defined(EXACT) && defined(STREAMED)

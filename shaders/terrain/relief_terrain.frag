@@ -5,6 +5,7 @@
 #define PER_SAMPLE
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "relief/relief_surface.glsl"
 #include "material/tile_surface.glsl"
 #include "material/tile_search.glsl"

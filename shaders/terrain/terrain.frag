@@ -1,5 +1,6 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "frame/fragment.glsl"
 #include "frame/count.glsl"
 #ifdef SLIVER

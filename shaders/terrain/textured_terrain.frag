@@ -2,6 +2,7 @@
 #define GROUND
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
+#include "material/surface_shader.glsl"
 #include "relief/relief_surface.glsl"
 #include "material/tile_surface.glsl"
 #include "frame/surface_light.glsl"

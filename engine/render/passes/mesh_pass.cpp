@@ -2,10 +2,10 @@
 
 #include <glm/matrix.hpp>
 
-#include "engine/render/passes/surface_pass.h"
 #include "engine/render/passes/tile_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/surface_constants.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 #include "engine/scene/graph/mesh.h"

@@ -8,9 +8,9 @@
 #include "engine/core/geometry.h"
 #include "engine/render/passes/beams.h"
 #include "engine/render/passes/overlay_pass.h"
-#include "engine/render/passes/surface_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
+#include "engine/render/shaders/surface_constants.h"
 #include "engine/render/shaders/uniforms.h"
 #include "engine/render/shaders/view_values.h"
 

@@ -169,7 +169,7 @@ Result<gl::Program> compile(const ShaderVariant& variant, const std::filesystem:
 Result<void> check_surface(const scene::SurfaceShader& surface) {
     const auto shaders = embedded_shaders();
     const auto declared = std::find_if(shaders.begin(), shaders.end(), [](const auto& shader) {
-        return shader.name == "frame/surface.glsl";
+        return shader.name == "material/surface.glsl";
     });
     check(declared != shaders.end(), "the declaration of Surface was expected");
     return gl::Program::check({gl::Stage::fragment, surface.name(),

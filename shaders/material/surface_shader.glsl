@@ -1,6 +1,6 @@
 // What a material's own shader makes of the light that a surface reflects.
 #ifdef SURFACE_SHADER
-#include "frame/surface.glsl"
+#include "material/surface.glsl"
 
 uniform vec3 eye_place; // world metres
 

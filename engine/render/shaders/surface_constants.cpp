@@ -1,4 +1,4 @@
-#include "engine/render/passes/surface_pass.h"
+#include "engine/render/shaders/surface_constants.h"
 
 #include <cstddef>
 #include <span>
