@@ -5,6 +5,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/render/shaders/uniforms.h"
 
 namespace reljef::render {

@@ -11,6 +11,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/core/check.h"
+#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/render/shaders/view_values.h"
 
 namespace reljef::render {

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
 
 #include "engine/core/geometry.h"
-#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::render {
+
+struct MeshShadowBlock;
 
 /// A part of the picture's depths, seen from the sun in parallel: an orthographic depth map of the
 /// meshes that may shade what is seen there.

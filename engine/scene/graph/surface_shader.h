@@ -21,9 +21,9 @@ struct ShaderConstant {
 /// no hit. Only OpenGL draws it.
 ///
 /// The text has the function `vec3 surface_color(Surface surface)`, which returns linear light;
-/// `Surface` is declared in shaders/material/surface.glsl. Terrains with `prewarp` have albedo 1 and a
-/// vertical normal. It may have other functions, and constants
-/// `uniform float|vec2|vec3|vec4 NAME;`, with or without a value, each in a declaration of its own.
+/// `Surface` is declared in shaders/material/surface.glsl. Terrains with `prewarp` have albedo 1
+/// and a vertical normal. It may have other functions, and constants `uniform float|vec2|vec3|vec4
+/// NAME;`, with or without a value, each in a declaration of its own.
 class SurfaceShader {
 public:
     struct Declaration {
