@@ -129,6 +129,21 @@ glm::dvec3 place_of(const CutCity& city, const CityPiece& piece) {
     return city.whole.surface->placement().world_from_sample(glm::dvec3(middle, 0.0));
 }
 
+// The hit as one on the whole, by the piece that puts it nearest to a sample of the whole.
+Hit nearest_hit(const Hit& hit, const std::vector<CityPiece>& pieces, glm::dvec2 sample) {
+    Hit moved = hit;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const CityPiece& piece : pieces) {
+        const glm::dvec2 place = hit.place() + glm::dvec2(piece.begin);
+        const double distance = glm::distance(place, sample);
+        if (distance < nearest) {
+            nearest = distance;
+            moved = hit_at(place, static_cast<double>(hit.height), static_cast<double>(hit.depth));
+        }
+    }
+    return moved;
+}
+
 } // namespace
 
 Result<CutCity> repeated_city(int tile, int copies, unsigned threads) {
@@ -214,16 +229,7 @@ HitBuffer hits_on_whole(const CutCity& city, const std::vector<CityPiece>& piece
             }
             const Ray ray = scene::view_ray(camera, size, glm::dvec2(x, y) + 0.5);
             const auto seen = city.whole.surface->placement().sample_from_world(ray.at(hit.depth));
-            double nearest = std::numeric_limits<double>::infinity();
-            for (const CityPiece& piece : pieces) {
-                const glm::dvec2 place = hit.place() + glm::dvec2(piece.begin);
-                const double distance = seen ? glm::distance(place, glm::dvec2(*seen)) : 0.0;
-                if (distance < nearest) {
-                    nearest = distance;
-                    moved(x, y) = hit_at(place, static_cast<double>(hit.height),
-                                         static_cast<double>(hit.depth));
-                }
-            }
+            moved(x, y) = seen ? nearest_hit(hit, pieces, glm::dvec2(*seen)) : hit;
         }
     }
     return moved;
