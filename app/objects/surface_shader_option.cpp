@@ -1,5 +1,8 @@
 #include "app/objects/surface_shader_option.h"
 
+#include <cmath>
+#include <string_view>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,9 +25,10 @@ Result<std::vector<double>> numbers_of(const Assignment& assignment) {
         const auto number = cli::number_from<double>(rest.substr(0, comma));
         if (!number || !(std::abs(*number) <= io::max_shader_constant) ||
             numbers.size() == max_numbers) {
-            return Error{fmt::format("--surface-shader: {}: '{}' found, 1 to {} numbers were "
-                                     "expected",
-                                     assignment.key, assignment.value, max_numbers)};
+            return Error{fmt::format("--surface-shader: {}: '{}' found, 1 to {} numbers of at most "
+                                     "{} were expected",
+                                     assignment.key, assignment.value, max_numbers,
+                                     io::max_shader_constant)};
         }
         numbers.push_back(*number);
         rest = is_last ? rest : rest.substr(comma + 1);

@@ -22,7 +22,7 @@
 namespace reljef::bench {
 namespace {
 
-constexpr double megabyte = 1e6;
+constexpr double bytes_a_megabyte = 1e6;
 
 // What draws a city.
 struct ClaimVariant {
@@ -87,7 +87,7 @@ scene::Camera camera_over(const CutCity& city, scene::Pose pose) {
     });
 }
 
-FigureJson rms_of(const std::optional<RowError::Geometric>& error) {
+FigureJson rms_figure(const std::optional<RowError::Geometric>& error) {
     return error ? FigureJson(error->distribution.rms) : FigureJson();
 }
 
@@ -333,8 +333,9 @@ FigureTable figure_table(const ClaimResults& results) {
              row.timing.ms.median, json_or_null(row.timing.noise_floor), row.timing.frames,
              row.nodes, row.timing.stats.triangles,
              has_bytes ? FigureJson(row.bytes) : FigureJson(),
-             has_bytes ? FigureJson(static_cast<double>(row.bytes) / megabyte) : FigureJson(),
-             json_or_null(row.taps), row.error.wrong_percent, rms_of(row.error.reprojection_px),
+             has_bytes ? FigureJson(static_cast<double>(row.bytes) / bytes_a_megabyte)
+                       : FigureJson(),
+             json_or_null(row.taps), row.error.wrong_percent, rms_figure(row.error.reprojection_px),
              row.error.flip});
     }
     return table;

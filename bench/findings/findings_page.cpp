@@ -170,12 +170,13 @@ std::string counts_text(const std::vector<Finding>& verdicts) {
     const auto count = [&](Finding verdict) {
         return std::count(verdicts.begin(), verdicts.end(), verdict);
     };
+    const auto missing = count(Finding::not_measured);
     return fmt::format(
         "\nOf {} conclusions, {} are confirmed, {} are refuted, and {} depend on the "
-        "scene or the view;\n{} answer what a source leaves open, and {} are not "
-        "measured yet.\n",
+        "scene or the view;\n{} answer what a source leaves open{}.\n",
         verdicts.size(), count(Finding::confirmed), count(Finding::refuted),
-        count(Finding::depends), count(Finding::answered), count(Finding::not_measured));
+        count(Finding::depends), count(Finding::answered),
+        missing == 0 ? "" : fmt::format(", and {} are not measured yet", missing));
 }
 
 std::string machines_text(const PageContext& context) {

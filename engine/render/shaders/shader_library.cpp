@@ -172,9 +172,14 @@ Result<void> check_surface(const scene::SurfaceShader& surface) {
         return shader.name == "material/surface.glsl";
     });
     check(declared != shaders.end(), "the declaration of Surface was expected");
-    return gl::Program::check({gl::Stage::fragment, surface.name(),
-                               fmt::format("{}{}#line 1 0\n{}\nvoid main() {{}}\n", header_of(0),
-                                           declared->text, surface.text())});
+    constexpr std::string_view call =
+        "void main() {\n    vec3 zero = vec3(0.0);\n"
+        "    vec3 color = surface_color(Surface(zero, zero, zero, zero, zero));\n}\n";
+    return gl::Program::check({gl::Stage::fragment,
+                               surface.name(),
+                               fmt::format("{}{}#line 1 0\n{}\n#line 1 1\n{}", header_of(0),
+                                           declared->text, surface.text(), call),
+                               {"its call as vec3 surface_color(Surface)"}});
 }
 
 // One search method with its modifiers.
@@ -362,6 +367,7 @@ ShaderVariant canonical_variant(ShaderVariant variant) {
     variant.features |= own;
     if (variant.kind == ShaderKind::sky || (variant.features & feature_hit) != 0) {
         variant.surface = nullptr;
+        variant.constants.clear();
     }
     return variant;
 }
@@ -378,6 +384,10 @@ Result<gl::Program*> ShaderLibrary::program(ShaderVariant variant) {
         }
     }
     auto program = compile(variant, folder_);
+    if (!program && variant.surface) {
+        return Error{fmt::format("{}: does not fit the shaders of the technique: {}",
+                                 variant.surface->name(), program.error().message)};
+    }
     if (!program) {
         return program.error();
     }

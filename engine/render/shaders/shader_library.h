@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "engine/core/result.h"
@@ -92,6 +93,7 @@ struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;
     ShaderFeatures features = 0;
     std::shared_ptr<const scene::SurfaceShader> surface = {}; ///< of a material, for colours
+    std::string constants = {}; ///< names of those that the material sets: others keep their values
 
     friend auto operator<=>(const ShaderVariant&, const ShaderVariant&) = default;
 };

@@ -38,7 +38,13 @@ void set_constant(gl::Program& program, const scene::ShaderConstant& constant) {
 } // namespace
 
 ShaderVariant with_surface(ShaderVariant variant, const scene::Material& material) {
+    if (material.shader == nullptr) {
+        return variant;
+    }
     variant.surface = material.shader;
+    for (const scene::ShaderConstant& constant : material.constants) {
+        variant.constants += constant.name + ' ';
+    }
     return variant;
 }
 

@@ -75,6 +75,13 @@ Result<SurfaceShader> SurfaceShader::create(std::string name, std::string text) 
         return Error{fmt::format("{}: {} bytes found, at most {} were expected", name, text.size(),
                                  max_bytes)};
     }
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (text.starts_with(byte_order_mark)) {
+        text.erase(0, byte_order_mark.size());
+    }
+    if (text.find('\0') != std::string::npos) {
+        return Error{fmt::format("{}: a zero byte found, a text was expected", name)};
+    }
     SurfaceShader shader(std::move(name), std::move(text));
     Words words(shader.text_);
     bool has_function = false;
@@ -92,6 +99,11 @@ Result<SurfaceShader> SurfaceShader::create(std::string name, std::string text) 
                             shader.name_, type)};
         }
         shader.constants_.push_back({std::string(words.next()), *size});
+        const std::string_view end = words.next();
+        if (end != ";" && end != "=") {
+            return Error{fmt::format("{}: '{}' behind uniform {} {} found, ';' or '=' was expected",
+                                     shader.name_, end, type, shader.constants_.back().name)};
+        }
     }
     if (!has_function) {
         return Error{fmt::format(

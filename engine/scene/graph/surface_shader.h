@@ -31,8 +31,9 @@ public:
         std::size_t size = 0; ///< numbers
     };
 
-    /// `name`: the file, for errors. Fails without that function, with other types of uniforms, and
-    /// with more than max_bytes bytes. Other errors are found when it is compiled.
+    /// `name`: the file, for errors. Fails without that name, with other uniforms, with a zero
+    /// byte, and with more than max_bytes bytes. A byte order mark is left out. Other errors are
+    /// found when it is compiled.
     static Result<SurfaceShader> create(std::string name, std::string text);
 
     [[nodiscard]] const std::string& name() const { return name_; }

@@ -117,6 +117,16 @@ TEST_F(SurfaceShaderGlTest, HasConstants) {
     EXPECT_TRUE(is_everywhere({0.0F, 1.0F, 1.0F}));
     stage.node().material.constants = {{"red", {0.0F}}, {"rest", {0.0F, 0.0F, 1.0F}}};
     EXPECT_TRUE(is_everywhere({0.0F, 0.0F, 1.0F}));
+    session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
+    const auto drawn = [&] {
+        test::must(opengl.draw(stage.scene));
+        return opengl.read_color()(160, 200);
+    };
+    EXPECT_EQ(drawn(), rgba8_from_linear({0.0F, 0.0F, 1.0F}));
+    stage.node().material.constants = {{"red", {0.0F}}};
+    EXPECT_EQ(drawn(), rgba8_from_linear({0.0F, 1.0F, 1.0F})) << "the rest is the shader's again";
+    stage.node().material.constants.clear();
+    EXPECT_EQ(drawn(), rgba8_from_linear({1.0F, 1.0F, 1.0F}));
 }
 
 TEST_F(SurfaceShaderGlTest, ChangesMeshesAndTilesOfStreams) {
@@ -147,6 +157,21 @@ TEST_F(SurfaceShaderGlTest, NamesTheLineThatDoesNotCompile) {
     EXPECT_FALSE(take_problems().empty());
     stage.node().material.shader = nullptr;
     EXPECT_TRUE(opengl.draw(stage.scene)) << "and draws on without it";
+}
+
+TEST_F(SurfaceShaderGlTest, IsNamedWhereItDoesNotFit) {
+    session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
+    for (const std::string& text :
+         {std::string("uniform vec3 eye_place;\n") + returning("eye_place"),
+          std::string("vec3 surface_color(vec3 light) { return light; }\n"),
+          std::string("vec3 surface_color(Surface surface);\n")}) {
+        ShadedStage stage(text);
+        stage.node().material.technique = {scene::Relief{}};
+        const auto drawn = opengl.draw(stage.scene);
+        ASSERT_FALSE(drawn) << text;
+        EXPECT_THAT(drawn.error().message, testing::HasSubstr("test.glsl")) << text;
+    }
+    take_problems();
 }
 
 TEST_F(SurfaceShaderGlTest, IsNotForRaysAndChangesNoHit) {

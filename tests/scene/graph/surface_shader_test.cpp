@@ -50,6 +50,11 @@ TEST(SurfaceShader, RefusesWhatCannotBeOne) {
          "uniform of type 'sampler2D' found"},
         {std::string("uniform int count;\n") + light_as_it_is, "uniform of type 'int' found"},
         {std::string(light_as_it_is) + "uniform", "uniform of type '' found"},
+        {std::string("uniform float a, b;\n") + light_as_it_is, "',' behind uniform float a found"},
+        {std::string("uniform vec2 a[3];\n") + light_as_it_is, "'[' behind uniform vec2 a found"},
+        {std::string("uniform highp float a;\n") + light_as_it_is, "uniform of type 'highp' found"},
+        {light_as_it_is + std::string(1, '\0'), "a zero byte found"},
+        {std::string("\xEF\xBB\xBF") + light_as_it_is, ""},
         {std::string(light_as_it_is) + "/* without an end uniform int", ""},
         {light_as_it_is + std::string(SurfaceShader::max_bytes, ' '),
          "bytes found, at most 65536"}};
