@@ -43,8 +43,8 @@ private:
     std::vector<Branch> branches_;
 };
 
-/// The trees of meshes as long as these live: each is made for the first ray that meets the bounds
-/// of its mesh. Thread-safe.
+/// The trees of meshes: each is made for the first ray that meets the bounds of its mesh, and goes
+/// with the first one that is made after its mesh is gone. Thread-safe.
 class MeshTrees {
 public:
     /// As MeshTree::first_hit().
