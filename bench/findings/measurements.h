@@ -10,8 +10,7 @@ struct ResultsSource {
     std::string name; ///< the file is NAME.json
     std::string what; ///< it measures, one sentence
     std::string command;
-    /// Its times hold: nothing else ran beside it, or its noise floors bound what that changed.
-    bool quiet = true;
+    bool quiet = true; ///< nothing else ran beside it, so that its times hold
 
     [[nodiscard]] std::string file() const { return name + ".json"; }
 };
