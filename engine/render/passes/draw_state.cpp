@@ -1,11 +1,15 @@
 #include "engine/render/passes/draw_state.h"
 
+#include <utility>
+
 namespace reljef::render {
 namespace {
 
 // A software renderer keeps about 230 bytes for each triangle until it is drawn (measured with four
 // samples per pixel).
 constexpr std::size_t max_awaited = 1U << 16U; // 15 MB
+// While it draws one part of them, the vertices of the next are computed.
+constexpr std::size_t awaited_part = max_awaited / 2;
 
 } // namespace
 
@@ -80,8 +84,10 @@ void DrawState::count_draw(std::size_t triangles) {
     ++stats_.draws;
     ++stats_.state_changes;
     awaited_ += triangles;
-    if (software_ && awaited_ >= max_awaited) {
-        gl::wait_until_drawn();
+    if (software_ && awaited_ >= awaited_part) {
+        gl::Fence drawn = gl::Fence::after_commands();
+        last_part_.wait();
+        last_part_ = std::move(drawn);
         awaited_ = 0;
     }
 }

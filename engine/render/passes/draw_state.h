@@ -5,6 +5,7 @@
 
 #include "engine/core/result.h"
 #include "engine/gl/draw.h"
+#include "engine/gl/fence.h"
 #include "engine/gl/program.h"
 #include "engine/gl/state.h"
 #include "engine/render/residency/block_buffers.h"
@@ -49,7 +50,8 @@ private:
     BlockBuffers& blocks_;
     bool software_;
     view::FrameStats& stats_;
-    std::size_t awaited_ = 0; // triangles
+    std::size_t awaited_ = 0; // triangles after last_part_
+    gl::Fence last_part_;
 };
 
 } // namespace reljef::render
