@@ -7,6 +7,7 @@
 #include "engine/cast/frame/driver.h"
 #include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
+#include "engine/scene/levels/mesh_levels.h"
 
 namespace reljef::session {
 namespace {
@@ -94,6 +95,35 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     return std::move(cached->value);
 }
 
+Result<std::shared_ptr<const scene::MeshLevels>> levels_of(const scene::Mesh& mesh,
+                                                           scene::Seams seams, int threads,
+                                                           Log& log, const std::stop_token& stop) {
+    const auto task = log.start("making levels of detail of a mesh");
+    auto levels =
+        scene::mesh_levels(mesh, seams, {static_cast<unsigned>(threads), stop, task->callback()});
+    if (!levels) {
+        return Error{"stopped while levels of detail of a mesh were made"};
+    }
+    return std::make_shared<const scene::MeshLevels>(std::move(*levels));
+}
+
+// Buildings are few triangles each: boxes have no levels.
+std::map<MissingMaps::SharedMesh, scene::Seams> meshes_without_levels(const TerrainScene& scene) {
+    std::map<MissingMaps::SharedMesh, scene::Seams> meshes;
+    for (const PlacedObject& object : scene.objects) {
+        for (const auto& part : object.node->children()) {
+            const auto* const mesh = part->get<scene::MeshNode>();
+            if (mesh != nullptr && mesh->levels == nullptr &&
+                mesh->mesh->indices.size() / 3 >= scene::min_triangles_with_levels) {
+                meshes.emplace(mesh->mesh, mesh->material.detail.set == nullptr
+                                               ? scene::Seams::joined
+                                               : scene::Seams::kept);
+            }
+        }
+    }
+    return meshes;
+}
+
 } // namespace
 
 MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique& shown,
@@ -114,11 +144,16 @@ MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique&
 
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique) {
+    MissingMaps missing;
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        return missing_maps(node, technique.value_or(node.material.technique), scene.rays);
+        const scene::Technique& shown = technique ? *technique : node.material.technique;
+        missing = missing_maps(node, shown, scene.rays);
+        if (scene::error_bound(shown) > 0.0) {
+            missing.meshes = meshes_without_levels(scene);
+        }
+        return missing;
     }
-    MissingMaps missing;
     for (const scene::Material* const material : scene.materials()) {
         const MissingMaps::Set& set = material->detail.set;
         const scene::Technique& shown = technique ? *technique : material->technique;
@@ -180,6 +215,13 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
         made.sets.emplace(set,
                           std::make_shared<const material::ReliefMaterial>(std::move(with_cones)));
     }
+    for (const auto& [mesh, seams] : missing.meshes) {
+        auto levels = levels_of(*mesh, seams, threads, log, stop);
+        if (!levels) {
+            return levels.error();
+        }
+        made.mesh_levels.emplace(mesh, std::move(*levels));
+    }
     if (missing.light && !stop.stop_requested()) {
         const auto task = log.start("lighting " + missing.light->surface->terrain().name);
         made.light =
@@ -194,6 +236,16 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
     if (maps.surface == node.surface) {
         node.cones = maps.cones != nullptr ? maps.cones : node.cones;
         node.bisection = maps.bisection != nullptr ? maps.bisection : node.bisection;
+    }
+    for (const PlacedObject& object : scene.objects) {
+        for (const auto& part : object.node->children()) {
+            auto* const mesh = part->get<scene::MeshNode>();
+            const auto levels =
+                mesh == nullptr ? maps.mesh_levels.end() : maps.mesh_levels.find(mesh->mesh);
+            if (levels != maps.mesh_levels.end()) {
+                mesh->levels = levels->second;
+            }
+        }
     }
     for (scene::Material* const material : scene.materials()) {
         const auto found = maps.sets.find(material->detail.set);

@@ -8,6 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/relief_material.h"
+#include "engine/scene/levels/simplified_mesh.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
@@ -19,14 +20,18 @@ namespace reljef::session {
 /// The slow maps that a technique lacks. Shares their inputs, so that making them needs no scene.
 struct MissingMaps {
     using Set = std::shared_ptr<const material::ReliefMaterial>;
+    using SharedMesh = std::shared_ptr<const scene::Mesh>;
 
     std::shared_ptr<const scene::TerrainSurface> surface; ///< null: it lacks no maps
     bool bisection = false;                               ///< for polygons with an error bound
     bool cones = false;                                   ///< for the technique cone
     std::map<Set, std::vector<material::KnownCones>> set_cones; ///< sides of detail textures
-    std::optional<view::LightRequest> light;                    ///< missing_maps() leaves it empty
+    std::map<SharedMesh, scene::Seams> meshes; ///< objects' that lack levels of detail
+    std::optional<view::LightRequest> light;   ///< missing_maps() leaves it empty
 
-    [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty() && !light; }
+    [[nodiscard]] bool empty() const {
+        return surface == nullptr && set_cones.empty() && meshes.empty() && !light;
+    }
 };
 
 /// The maps that the scene lacks for a technique; absent: for those of its materials. Otherwise the
@@ -50,7 +55,8 @@ struct PreparedMaps {
     std::shared_ptr<const terrain::Bisection> bisection;
     std::shared_ptr<const material::ConeMaps> cones;
     std::map<MissingMaps::Set, MissingMaps::Set> sets; ///< detail textures, and the same with cones
-    std::shared_ptr<const view::PreparedLight> light;  ///< for SceneRenderer::add_light()
+    std::map<MissingMaps::SharedMesh, std::shared_ptr<const scene::MeshLevels>> mesh_levels;
+    std::shared_ptr<const view::PreparedLight> light; ///< for SceneRenderer::add_light()
 };
 
 /// Makes the maps or reads them from the cache, on any thread. `threads` 0: as many as the machine

@@ -226,6 +226,9 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     const view::FrameView& frame = selector_.selected();
     auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
     if (stats) {
+        if (stats->kept_error && stats->mesh_error) {
+            stats->kept_error = std::max(*stats->kept_error, *stats->mesh_error);
+        }
         if (auto drawn = draw_over(*stats); !drawn) {
             return drawn.error();
         }

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/view/error_view.h"
+
 namespace reljef::view {
 namespace {
 
@@ -24,6 +26,31 @@ double brightness_at(glm::dvec3 eye, const scene::PlacedPointLight& light) {
 }
 
 } // namespace
+
+const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
+    return draw.level == 0 ? draw.mesh->mesh : (*draw.mesh->levels)[draw.level - 1].mesh;
+}
+
+MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
+    const scene::MeshNode& mesh = *draw.mesh;
+    const bool is_picture = mesh.material.detail.set == nullptr ||
+                            mesh.material.technique.id() == scene::TechniqueId::texture;
+    if (mesh.levels == nullptr || !(max_error > 0.0) || !is_picture) {
+        return draw;
+    }
+    const BoundLeft left = left_of_bound(list.camera, list.size, std::max(max_error, min_error));
+    const PictureError seen(list.camera, list.size, draw.world_from_local);
+    for (std::size_t level = mesh.levels->size(); level > 0; --level) {
+        const double error =
+            seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].error);
+        if (error <= left.error) {
+            draw.level = level;
+            draw.error = error + left.vertex_rounding + rasterizer_error;
+            break;
+        }
+    }
+    return draw;
+}
 
 std::vector<const TerrainDraw*> searched_terrains(const DrawList& list) {
     std::vector<const TerrainDraw*> searched;

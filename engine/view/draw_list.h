@@ -81,7 +81,18 @@ struct MeshDraw {
     glm::dmat4 world_from_local{1.0};
     bool from_behind = false; ///< its inner side
     Box local_bounds = {};    ///< metres; empty for a base
+    std::size_t level = 0;    ///< 0: all triangles; else one more than its index in the levels
+    double error = 0.0;       ///< how far places of the level are off at most, pixels
 };
+
+/// The mesh, or its level.
+const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw);
+
+struct DrawList;
+/// With the coarsest level that keeps an error bound (pixels; 0: none) in the list's picture,
+/// rounding included. All triangles if none does, and of meshes whose detail is more than a
+/// picture.
+MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error);
 
 /// What to draw in a frame: pure data. Valid as long as the scene is unchanged.
 struct DrawList {

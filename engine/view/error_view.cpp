@@ -176,6 +176,22 @@ PictureError::PictureError(const scene::Camera& camera, glm::ivec2 size,
     pixels_per_metre_ = 0.5 * size.y / half_height;
 }
 
+PictureError::Seen PictureError::seen(const Box& box) const {
+    const Box bounds = transformed(world_from_local_, box);
+    Seen seen{bounds.center() - eye_, 0.5 * glm::length(bounds.size()), corner_angle_, near_};
+    const double distance_of_middle = glm::length(seen.to_middle);
+    if (seen.radius < distance_of_middle) {
+        const double cosine = glm::dot(axes_.forward, seen.to_middle) / distance_of_middle;
+        seen.angle = std::min(seen.angle, std::acos(std::clamp(cosine, -1.0, 1.0)) +
+                                              std::asin(seen.radius / distance_of_middle));
+    }
+    const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
+    const double depth_of_box = glm::dot(axes_.forward, seen.to_middle) -
+                                0.5 * glm::dot(glm::abs(axes_.forward), bounds.size());
+    seen.depth = std::max({distance * std::cos(seen.angle), depth_of_box, near_});
+    return seen;
+}
+
 // As above, with a visible A in the box and D = error · u. Over Az, the numerator is
 //   |(ux, uy) - uz (Ax, Ay) / Az|,
 // at most |(ux, uy)| + |uz| tan(a), where a is A's angle from the middle of the picture. With the
@@ -187,38 +203,38 @@ double PictureError::of(const Places& places) const {
     if (error == 0.0 || corner_angle_ == 0.0) {
         return pixels_per_metre_ * error;
     }
-    const Box bounds = transformed(world_from_local_, places.box);
-    const glm::dvec3 to_middle = bounds.center() - eye_;
-    const double radius = 0.5 * glm::length(bounds.size());
-    const double distance_of_middle = glm::length(to_middle);
-    double angle = corner_angle_;
-    if (radius < distance_of_middle) {
-        const double cosine = glm::dot(axes_.forward, to_middle) / distance_of_middle;
-        angle = std::min(angle, std::acos(std::clamp(cosine, -1.0, 1.0)) +
-                                    std::asin(radius / distance_of_middle));
-    }
+    const auto [to_middle, radius, angle, depth] = seen(places.box);
     const glm::dvec3 up = glm::normalize(glm::dmat3(world_from_local_) * places.up);
     const glm::dvec2 across(glm::dot(axes_.right, up), glm::dot(axes_.up, up));
     const double along = glm::dot(axes_.forward, up);
-    const double distance = glm::distance(eye_, glm::clamp(eye_, bounds.low, bounds.high));
-    const double depth_of_middle = glm::dot(axes_.forward, to_middle);
-    const double depth_of_box =
-        depth_of_middle - 0.5 * glm::dot(glm::abs(axes_.forward), bounds.size());
-    const double depth = std::max({distance * std::cos(angle), depth_of_box, near_});
     const double depth_of_true_place = depth - error * (std::abs(along) + places.turn);
     if (!(depth_of_true_place > 0.0)) {
         return std::numeric_limits<double>::infinity();
     }
     double moved = glm::length(across) + std::abs(along) * std::tan(angle);
+    const double depth_of_middle = glm::dot(axes_.forward, to_middle);
     if (depth_of_middle > 0.0) {
         const glm::dvec2 middle =
             glm::dvec2(glm::dot(axes_.right, to_middle), glm::dot(axes_.up, to_middle)) /
             depth_of_middle;
-        const double beside = radius / depth * (distance_of_middle / depth_of_middle);
+        const double beside = radius / depth * (glm::length(to_middle) / depth_of_middle);
         moved = std::min(moved, glm::length(across - along * middle) + std::abs(along) * beside);
     }
     return pixels_per_metre_ * error / depth_of_true_place *
            (moved + places.turn / std::cos(angle));
+}
+
+// |D x A| is at most |D| |A|, and |A| / Az at most 1 / cos(a).
+double PictureError::of_any_direction(const Box& box, double error) const {
+    const double in_world = stretch_ * error;
+    if (in_world == 0.0 || corner_angle_ == 0.0) {
+        return pixels_per_metre_ * in_world;
+    }
+    const Seen places = seen(box);
+    const double depth_of_true_place = places.depth - in_world;
+    return depth_of_true_place > 0.0
+               ? pixels_per_metre_ * in_world / depth_of_true_place / std::cos(places.angle)
+               : std::numeric_limits<double>::infinity();
 }
 
 std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,

@@ -78,7 +78,19 @@ public:
     /// true places may be at the eye.
     [[nodiscard]] double of(const Places& places) const;
 
+    /// The same for places in a box (local metres) that are off in any direction, by local metres.
+    [[nodiscard]] double of_any_direction(const Box& box, double error) const;
+
 private:
+    // Of a box in the picture.
+    struct Seen {
+        glm::dvec3 to_middle{0.0}; // from the eye, world metres
+        double radius = 0.0;
+        double angle = 0.0; // of visible places from the middle of the picture at most, radians
+        double depth = 0.0; // of visible places at least, metres
+    };
+    [[nodiscard]] Seen seen(const Box& box) const;
+
     glm::dmat4 world_from_local_;
     scene::ViewAxes axes_;
     glm::dvec3 eye_;

@@ -43,6 +43,7 @@ FrameStats together(const FrameStats& a, const FrameStats& b) {
                    &FrameStats::upload_bytes});
     add(sum, b, std::array{&FrameStats::cpu_ms, &FrameStats::gpu_ms});
     sum.kept_error = larger(a.kept_error, b.kept_error);
+    sum.mesh_error = larger(a.mesh_error, b.mesh_error);
     sum.lacks_triangles = a.lacks_triangles || b.lacks_triangles;
     sum.exceeded_by_rounding = a.exceeded_by_rounding || b.exceeded_by_rounding;
     sum.skipped = together(a.skipped, b.skipped);

@@ -50,6 +50,9 @@ struct FrameStats {
     /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound, or no
     /// other tile.
     std::optional<double> kept_error;
+    /// How far meshes that are drawn with fewer triangles are off at most, pixels; absent: all are
+    /// drawn whole.
+    std::optional<double> mesh_error;
     /// Whether triangles had larger errors than the bound leaves them, to fit their number, or rays
     /// that miss the bound were drawn instead.
     bool lacks_triangles = false;
@@ -68,7 +71,7 @@ struct FrameStats {
         int tiles_outside_frustum = 0;
         int tiles_occluded = 0; ///< behind nearer ground of the same terrain
         std::size_t triangles_outside_frustum = 0;
-        std::size_t triangles_under_error = 0; ///< triangles of the samples that were not drawn
+        std::size_t triangles_under_error = 0; ///< of the samples and meshes, not drawn
         int selections_unchanged = 0;          ///< 1: the last frame's selection was drawn again
         int details_too_small = 0;             ///< terrain tiles too far away for their detail tile
         int cuts_unchanged = 0;                ///< tiles with the triangles of the last frame

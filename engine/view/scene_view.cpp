@@ -1,5 +1,8 @@
 #include "engine/view/scene_view.h"
 
+#include <algorithm>
+#include <optional>
+
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::view {
@@ -75,6 +78,17 @@ bool SceneView::look_at_nodes(const scene::Scene& scene) {
     is_new = set_value(visible_count_, visible) || nodes_.size() != shown || is_new;
     nodes_.resize(shown);
     return is_new;
+}
+
+double SceneView::error_bound() const {
+    std::optional<double> smallest;
+    for (const SeenNode& seen : nodes_) {
+        if (const auto* const terrain = seen.node->get<scene::TerrainNode>()) {
+            const double bound = scene::error_bound(terrain->material.technique);
+            smallest = std::min(smallest.value_or(bound), bound);
+        }
+    }
+    return smallest.value_or(0.0);
 }
 
 Box SceneView::bounds() const {

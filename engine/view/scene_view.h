@@ -44,6 +44,10 @@ public:
     /// Of all nodes, world metres.
     [[nodiscard]] Box bounds() const;
 
+    /// The smallest error bound of the terrains' techniques, pixels; 0 if one has none, and without
+    /// terrain.
+    [[nodiscard]] double error_bound() const;
+
 private:
     bool look_at_nodes(const scene::Scene& scene);
 

@@ -137,8 +137,10 @@ with_coarser(const scene::TerrainNode& terrain, std::span<const TileSelection::D
 
 class Selector {
 public:
-    Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options)
-        : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options) {}
+    Selector(FrameView& frame, const Frustum& frustum, const SelectOptions& options,
+             double mesh_bound)
+        : list_(frame.list), requests_(frame.requests), frustum_(frustum), options_(options),
+          mesh_bound_(mesh_bound) {}
 
     void add(const SeenNode& seen) {
         if (const auto* mesh = seen.node->get<scene::MeshNode>()) {
@@ -185,14 +187,26 @@ private:
     void add_mesh(const scene::MeshNode& mesh, const glm::dmat4& world_from_local,
                   const Box& local_bounds) {
         if (!options_.frustum || frustum_.may_see(transformed(world_from_local, local_bounds))) {
+            MeshDraw draw =
+                with_level({&mesh, world_from_local, true, local_bounds}, list_, mesh_bound_);
+            count_level(draw);
             if (scene::is_seen_from_behind(mesh.material)) {
-                list_.meshes.push_back({&mesh, world_from_local, true, local_bounds});
+                list_.meshes.push_back(draw);
             }
-            list_.meshes.push_back({&mesh, world_from_local, false, local_bounds});
+            draw.from_behind = false;
+            list_.meshes.push_back(draw);
         } else {
             list_.meshes_beside.push_back({&mesh, world_from_local, false, local_bounds});
             ++list_.stats.skipped.nodes_outside_frustum;
             list_.stats.skipped.triangles_outside_frustum += mesh.mesh->indices.size() / 3;
+        }
+    }
+
+    void count_level(const MeshDraw& draw) {
+        if (draw.level > 0) {
+            list_.stats.mesh_error = std::max(list_.stats.mesh_error.value_or(0.0), draw.error);
+            list_.stats.skipped.triangles_under_error +=
+                (draw.mesh->mesh->indices.size() - drawn_mesh(draw)->indices.size()) / 3;
         }
     }
 
@@ -372,6 +386,7 @@ private:
     std::vector<TileRequests>& requests_;
     const Frustum& frustum_;
     const SelectOptions& options_;
+    double mesh_bound_; // pixels; 0: none
     std::vector<SeenTile> seen_;
     std::vector<TileDraw> draws_;
 };
@@ -423,7 +438,7 @@ FrameView select(const SceneView& view, const SelectOptions& options) {
                                                   scene::whole_picture(list.camera, list.size)));
     list.point_lights =
         seen_point_lights(view.point_lights(), list.camera, of_whole, list.stats.skipped);
-    Selector selector(frame, frustum, options);
+    Selector selector(frame, frustum, options, view.error_bound());
     for (const SeenNode& seen : view.nodes()) {
         selector.add(seen);
     }

@@ -87,6 +87,7 @@ const std::vector<Library>& guarded_libraries() {
         {"libtiff", {"tiff"}, {"engine/io/codec/", "tests/io/"}},
         {"CLI11", {"CLI/"}, {"app/", "bench/", "tests/"}},
         {"Highway", {"hwy/"}, {"engine/cast/", "engine/terrain/light/"}},
+        {"meshoptimizer", {"meshoptimizer"}, {"engine/scene/levels/"}},
         {"Embree", {"embree"}, {"engine/cast/mesh/", "bench/baselines/embree/", "tests/truth/"}},
         {"Dear ImGui", {"imgui", "backends/imgui"}, {"app/viewer/panels/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},

@@ -153,8 +153,10 @@ PlacedMesh placed_at(const view::MeshDraw& draw, const glm::dmat4& relative_from
     const glm::dmat3 linear(relative_from_local);
     const double largest =
         std::max({glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2])});
-    return {*draw.mesh, glm::inverse(relative_from_local), glm::inverseTranspose(linear), bounds,
-            largest * extent_of(bounds)};
+    PlacedMesh placed{*draw.mesh, glm::inverse(relative_from_local), glm::inverseTranspose(linear),
+                      bounds, largest * extent_of(bounds)};
+    placed.node.mesh = view::drawn_mesh(draw);
+    return placed;
 }
 
 RTCRay float_ray(glm::vec3 origin, glm::vec3 direction, float begin, float end) {
@@ -242,7 +244,7 @@ Result<PlacedMeshes> MeshTrees::place(std::span<const view::MeshDraw> seen,
     PlacedMeshes placed;
     for (const auto& draws : {seen, beside}) {
         for (const view::MeshDraw& draw : draws) {
-            const auto tree = tree_of(draw.mesh->mesh);
+            const auto tree = tree_of(view::drawn_mesh(draw));
             if (!tree) {
                 return tree.error();
             }

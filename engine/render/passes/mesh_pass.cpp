@@ -23,7 +23,7 @@ float mesh_height(const view::MeshDraw& draw) {
 // Maps the tile's coordinates on the mesh to the warp's, which go from 0 to 1.
 void bind_warp(gl::Program& program, const view::MeshDraw& draw, const gl::Texture2D& warp) {
     warp.bind(bindings::warped_map_unit);
-    const auto plane = scene::texture_plane(*draw.mesh->mesh);
+    const auto plane = scene::texture_plane(*view::drawn_mesh(draw));
     const glm::dvec2 size = plane->high - plane->low;
     const glm::dvec2 per_tile = 1.0 / (size * glm::dvec2(draw.mesh->material.detail.repeats));
     program.set(uniforms.warp_from_tile, glm::vec4(per_tile, -plane->low / size));
@@ -52,7 +52,7 @@ ShaderVariant mesh_variant(const scene::Material& material, const FrameContext& 
 
 DetailBlock mesh_detail(const view::MeshDraw& draw, const MeshResidency& residency) {
     const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
-    const double lift = scene::relief_height(*draw.mesh->mesh, detail);
+    const double lift = scene::relief_height(*view::drawn_mesh(draw), detail);
     DetailBlock block = detail_block(*detail.set, residency.surface(draw), static_cast<float>(lift),
                                      mesh_height(draw));
     const bool bounded = detail.border == material::WrapMode::discard;
@@ -146,7 +146,7 @@ Result<void> draw_meshes(const FrameContext& frame) {
         frame.hits || frame.list.point_lights.empty() ? 0U : feature_point_lights;
     const ShaderFeatures more_features = points | frame.mesh_shadows;
     for (const view::MeshDraw& draw : frame.list.meshes) {
-        if (draw.mesh->mesh->indices.empty()) {
+        if (view::drawn_mesh(draw)->indices.empty()) {
             continue;
         }
         if (auto drawn = draw_mesh(frame, draw, more_features); !drawn) {

@@ -156,7 +156,7 @@ Result<ResidentHull> resident_hull(const std::vector<HullPart>& parts, view::Fra
 
 template <class Resident>
 bool MeshResidency::Derived<Resident>::is_for(const view::MeshDraw& draw) const {
-    return owner.lock() == draw.mesh->mesh &&
+    return owner.lock() == view::drawn_mesh(draw) &&
            detail == scene::visible_detail(draw.mesh->material) && texels == max_texels(draw);
 }
 
@@ -164,7 +164,7 @@ Result<void> MeshResidency::prepare(const std::vector<view::MeshDraw>& draws,
                                     const scene::Camera& camera, view::FrameStats& stats) {
     forget_unused(draws);
     for (const view::MeshDraw& draw : draws) {
-        const scene::Mesh& mesh = *draw.mesh->mesh;
+        const scene::Mesh& mesh = *view::drawn_mesh(draw);
         if (mesh.indices.empty()) {
             continue;
         }
@@ -207,16 +207,16 @@ Result<void> MeshResidency::prepare_hull(const view::MeshDraw& draw, view::Frame
         return {};
     }
     const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
-    auto hull = resident_hull(hull_parts(*draw.mesh->mesh, detail), stats);
+    auto hull = resident_hull(hull_parts(*view::drawn_mesh(draw), detail), stats);
     if (!hull) {
         return hull.error();
     }
-    hulls_.push_back({draw.mesh->mesh, detail, max_texels(draw), std::move(*hull)});
+    hulls_.push_back({view::drawn_mesh(draw), detail, max_texels(draw), std::move(*hull)});
     return {};
 }
 
 Result<void> MeshResidency::prepare_triangles(const view::MeshDraw& draw, view::FrameStats& stats) {
-    const scene::Mesh& mesh = *draw.mesh->mesh;
+    const scene::Mesh& mesh = *view::drawn_mesh(draw);
     const std::pair key{&mesh, has_tile(draw) ? Look::textured : Look::plain};
     if (triangles_.contains(key)) {
         ++stats.skipped.uploads_unchanged;
@@ -229,7 +229,7 @@ Result<void> MeshResidency::prepare_triangles(const view::MeshDraw& draw, view::
     if (!made) {
         return made.error();
     }
-    triangles_.emplace(key, Triangles{draw.mesh->mesh, std::move(*made)});
+    triangles_.emplace(key, Triangles{view::drawn_mesh(draw), std::move(*made)});
     return {};
 }
 
@@ -240,14 +240,14 @@ Result<void> MeshResidency::prepare_displaced(const view::MeshDraw& draw, view::
     }
     const double texels = max_texels(draw);
     const scene::SurfaceDetail detail = scene::visible_detail(draw.mesh->material);
-    const scene::Mesh fine =
-        scene::tessellated(*draw.mesh->mesh, scene::cuts_for(*draw.mesh->mesh, detail, texels));
+    const scene::Mesh fine = scene::tessellated(
+        *view::drawn_mesh(draw), scene::cuts_for(*view::drawn_mesh(draw), detail, texels));
     auto made = upload_mesh(textured_vertices(fine, scene::displaced_positions(fine, detail)),
                             fine.indices, textured_attributes, stats);
     if (!made) {
         return made.error();
     }
-    displaced_.push_back({draw.mesh->mesh, detail, texels, std::move(*made)});
+    displaced_.push_back({view::drawn_mesh(draw), detail, texels, std::move(*made)});
     return {};
 }
 
@@ -259,11 +259,11 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
         if (!has_tile(draw) || material.technique.id() != scene::TechniqueId::prewarp) {
             continue;
         }
-        const auto plane = scene::texture_plane(*draw.mesh->mesh);
+        const auto plane = scene::texture_plane(*view::drawn_mesh(draw));
         check(plane.has_value(), "a warp of a mesh that is not flat");
         const scene::SurfaceDetail detail = scene::visible_detail(material);
         const Grid<glm::vec4> shown =
-            warped_tile(*plane, detail, scene::relief_height(*draw.mesh->mesh, detail),
+            warped_tile(*plane, detail, scene::relief_height(*view::drawn_mesh(draw), detail),
                         warp_eye(camera, draw.world_from_local));
         auto texture = upload_places(shown, last[draw.mesh], stats);
         if (!texture) {
@@ -286,7 +286,8 @@ const ResidentMesh& MeshResidency::mesh(const view::MeshDraw& draw) const {
         check(entry != nullptr, "a displaced mesh that was not prepared");
         return entry->resident;
     }
-    return triangles_.at({draw.mesh->mesh.get(), has_tile(draw) ? Look::textured : Look::plain})
+    return triangles_
+        .at({view::drawn_mesh(draw).get(), has_tile(draw) ? Look::textured : Look::plain})
         .resident;
 }
 

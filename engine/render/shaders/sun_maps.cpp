@@ -222,7 +222,8 @@ std::vector<view::MeshDraw> shadow_casters(const view::DrawList& list) {
                          const scene::Material& material = draw.mesh->material;
                          const bool is_hull = material.detail.set != nullptr &&
                                               material.technique.options.true_silhouettes;
-                         return !draw.from_behind && !is_hull && !draw.mesh->mesh->indices.empty();
+                         return !draw.from_behind && !is_hull &&
+                                !view::drawn_mesh(draw)->indices.empty();
                      });
     }
     return casters;

@@ -96,6 +96,14 @@ bool lies_on(const TexturePlane& plane, const Mesh& mesh, std::size_t vertex, do
     return glm::distance(expected, glm::dvec3(mesh.positions[vertex])) <= tolerance;
 }
 
+// For what rounding leaves of lines and points.
+glm::dvec3 nearest_corner(const std::array<glm::dvec3, 3>& triangle, glm::dvec3 point) {
+    return *std::min_element(triangle.begin(), triangle.end(),
+                             [&](const glm::dvec3& one, const glm::dvec3& other) {
+                                 return glm::distance(one, point) < glm::distance(other, point);
+                             });
+}
+
 } // namespace
 
 Box bounds_of(const Mesh& mesh) {
@@ -134,6 +142,52 @@ TriangleEdges triangle_edges(const Mesh& mesh, std::size_t first) {
     edges.s = glm::dvec2(mesh.texture_coordinates[b]) - edges.coordinate;
     edges.t = glm::dvec2(mesh.texture_coordinates[c]) - edges.coordinate;
     return edges;
+}
+
+std::array<glm::dvec3, 3> triangle_corners(const Mesh& mesh, std::size_t first) {
+    return {glm::dvec3(mesh.positions[mesh.indices[first]]),
+            glm::dvec3(mesh.positions[mesh.indices[first + 1]]),
+            glm::dvec3(mesh.positions[mesh.indices[first + 2]])};
+}
+
+// By the part of the plane over which a point lies (Ericson 2005, "Real-Time Collision Detection",
+// 5.1.5).
+glm::dvec3 nearest_point(const std::array<glm::dvec3, 3>& triangle, glm::dvec3 point) {
+    const auto& [a, b, c] = triangle;
+    const glm::dvec3 ab = b - a;
+    const glm::dvec3 ac = c - a;
+    const double ab_from_a = glm::dot(ab, point - a);
+    const double ac_from_a = glm::dot(ac, point - a);
+    if (ab_from_a <= 0.0 && ac_from_a <= 0.0) {
+        return a;
+    }
+    const double ab_from_b = glm::dot(ab, point - b);
+    const double ac_from_b = glm::dot(ac, point - b);
+    if (ab_from_b >= 0.0 && ac_from_b <= ab_from_b) {
+        return b;
+    }
+    const double ab_from_c = glm::dot(ab, point - c);
+    const double ac_from_c = glm::dot(ac, point - c);
+    if (ac_from_c >= 0.0 && ab_from_c <= ac_from_c) {
+        return c;
+    }
+    const double over_c = ab_from_a * ac_from_b - ab_from_b * ac_from_a;
+    if (over_c <= 0.0 && ab_from_a > 0.0 && ab_from_b <= 0.0) {
+        return a + ab_from_a / (ab_from_a - ab_from_b) * ab;
+    }
+    const double over_b = ab_from_c * ac_from_a - ab_from_a * ac_from_c;
+    if (over_b <= 0.0 && ac_from_a > 0.0 && ac_from_c <= 0.0) {
+        return a + ac_from_a / (ac_from_a - ac_from_c) * ac;
+    }
+    const double over_a = ab_from_b * ac_from_c - ab_from_c * ac_from_b;
+    const double to_b = ab_from_c - ac_from_c; // along the edge from b to c
+    const double to_c = ac_from_b - ab_from_b;
+    if (over_a <= 0.0 && to_c >= 0.0 && to_b >= 0.0 && to_b + to_c > 0.0) {
+        return b + to_c / (to_b + to_c) * (c - b);
+    }
+    const double area = over_a + over_b + over_c;
+    return area > 0.0 ? a + over_b / area * ab + over_c / area * ac
+                      : nearest_corner(triangle, point);
 }
 
 Mesh plane_mesh(glm::vec2 size) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +36,21 @@ struct TriangleEdges {
 };
 /// `first`: the first of the triangle's indices.
 TriangleEdges triangle_edges(const Mesh& mesh, std::size_t first);
+
+/// The corners of a triangle, `first`: the first of its indices; metres.
+std::array<glm::dvec3, 3> triangle_corners(const Mesh& mesh, std::size_t first);
+
+/// The point of a triangle that is nearest to another point. The triangle may be a line or a point.
+glm::dvec3 nearest_point(const std::array<glm::dvec3, 3>& triangle, glm::dvec3 point);
+
+/// A mesh that may be drawn instead of another one.
+struct MeshLevel {
+    std::shared_ptr<const Mesh> mesh;
+    /// No point of either mesh is farther from the other one, local metres; proven.
+    double error = 0.0;
+};
+/// From fine to coarse, with growing errors.
+using MeshLevels = std::vector<MeshLevel>;
 
 /// The plane of a flat mesh with its texture coordinates: local metres.
 struct TexturePlane {

@@ -1,7 +1,9 @@
 #include "engine/scene/graph/mesh_pick.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -145,6 +147,51 @@ std::optional<MeshHit> MeshTree::first_hit(const Ray& ray, reljef::Interval rang
             if (t && *t >= range.begin && *t <= range.end) {
                 range.end = *t;
                 nearest = MeshHit{*t, triangle};
+            }
+        }
+    }
+    return nearest;
+}
+
+std::size_t MeshTree::nearest_triangle(glm::dvec3 point, std::size_t guess) const {
+    const auto squared_to_box = [&](std::uint32_t branch) {
+        const Box& box = branches_[branch].bounds;
+        const glm::dvec3 away = point - glm::clamp(point, box.low, box.high);
+        return glm::dot(away, away);
+    };
+    const auto squared_to_triangle = [&](std::size_t triangle) {
+        const glm::dvec3 away = point - nearest_point(triangle_corners(mesh_, triangle), point);
+        return glm::dot(away, away);
+    };
+    struct Open {
+        std::uint32_t branch;
+        double squared;
+    };
+    std::array<Open, 64> open; // one for each level, and one
+    std::size_t count = 1;
+    open[0] = {0, 0.0};
+    std::size_t nearest = guess;
+    double squared = squared_to_triangle(guess);
+    while (count > 0) {
+        const Open next = open[--count];
+        if (!(next.squared < squared)) {
+            continue;
+        }
+        const Branch& branch = branches_[next.branch];
+        if (branch.count == 0) {
+            Open near{next.branch + 1, squared_to_box(next.branch + 1)};
+            Open far{branch.second, squared_to_box(branch.second)};
+            if (far.squared < near.squared) {
+                std::swap(near, far);
+            }
+            open[count++] = far;
+            open[count++] = near;
+        }
+        for (std::uint32_t i = 0; i < branch.count; ++i) {
+            const std::size_t triangle = std::size_t{3} * order_[branch.first + i];
+            if (const double found = squared_to_triangle(triangle); found < squared) {
+                squared = found;
+                nearest = triangle;
             }
         }
     }

@@ -29,6 +29,12 @@ public:
     /// triangles that share an edge (Woop et al. 2013, in double precision).
     [[nodiscard]] std::optional<MeshHit> first_hit(const Ray& ray, reljef::Interval range) const;
 
+    /// The first index of a triangle that no other one is nearer to a point than. `guess`: the
+    /// first index of any triangle; a near one makes it fast. Precondition: the mesh has triangles.
+    [[nodiscard]] std::size_t nearest_triangle(glm::dvec3 point, std::size_t guess = 0) const;
+
+    [[nodiscard]] const Mesh& mesh() const { return mesh_; }
+
 private:
     struct Branch {
         Box bounds;

@@ -81,6 +81,9 @@ struct MeshNode {
     /// Towards the scene's camera: drawn turned by faced(). Children of the node do not turn with
     /// it.
     Facing facing = Facing::node;
+    /// Meshes that may be drawn instead, where the view keeps an error bound; null: none. Never by
+    /// the truth.
+    std::shared_ptr<const MeshLevels> levels = nullptr;
 
     friend bool operator==(const MeshNode&, const MeshNode&) = default;
 };
