@@ -88,6 +88,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     session::SceneOptions view = choice.view;
     view.rays = maker->rays;
     view.prepares_maps = !choice.truth;
+    view.mesh_levels = choice.view.frames > 1;
     const bool has_camera_of_file =
         description->eye && !choice.view.eye && !choice.view.geodetic && !choice.view.pose;
     auto scene =

@@ -131,6 +131,7 @@ struct SceneOptions {
     std::vector<io::FootprintsDescription> footprints;   ///< besides the scene file's
     std::vector<io::PointLightDescription> point_lights; ///< besides the scene file's
     std::vector<io::LightDescription> lights;            ///< besides the sun and the scene file's
+    bool mesh_levels = true;   ///< of objects; they pay off over several frames
     bool prepares_maps = true; ///< open_scene() makes the technique's maps (prepared_maps.h)
     /// Without a named technique, rays draw a terrain in memory on a plane as `exact`; with
     /// RayUse::only, georeferenced terrain is on a plane, too.

@@ -149,7 +149,7 @@ MissingMaps missing_maps(const TerrainScene& scene,
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
         const scene::Technique& shown = technique ? *technique : node.material.technique;
         missing = missing_maps(node, shown, scene.rays);
-        if (scene::error_bound(shown) > 0.0) {
+        if (scene.mesh_levels && scene::error_bound(shown) > 0.0) {
             missing.meshes = meshes_without_levels(scene);
         }
         return missing;

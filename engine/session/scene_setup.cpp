@@ -360,6 +360,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
     result.rays = view.rays;
+    result.mesh_levels = view.mesh_levels;
     auto detail = open_detail(source.description, terrain, view, log, stop);
     if (!detail) {
         return detail.error();

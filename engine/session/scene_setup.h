@@ -40,6 +40,7 @@ struct TerrainScene {
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
     RayUse rays = RayUse::none;
+    bool mesh_levels = true; ///< SceneOptions::mesh_levels
     /// Of a streamed terrain, without its overview; else null.
     std::shared_ptr<const TerrainSource> source;
 

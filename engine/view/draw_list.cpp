@@ -31,6 +31,10 @@ const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
     return draw.level == 0 ? draw.mesh->mesh : (*draw.mesh->levels)[draw.level - 1].mesh;
 }
 
+// Of the error bound: a level's normals are coarser than the mesh's, too, which shows before its
+// places are a pixel off.
+constexpr double mesh_share = 0.25;
+
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     const scene::MeshNode& mesh = *draw.mesh;
     const bool is_picture = mesh.material.detail.set == nullptr ||
@@ -43,7 +47,7 @@ MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     for (std::size_t level = mesh.levels->size(); level > 0; --level) {
         const double error =
             seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].error);
-        if (error <= left.error) {
+        if (error <= mesh_share * left.error) {
             draw.level = level;
             draw.error = error + left.vertex_rounding + rasterizer_error;
             break;

@@ -1,0 +1,83 @@
+// Objects with many triangles have levels of detail where the ground keeps an error bound.
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "engine/session/prepared_maps.h"
+#include "tests/session/made_session.h"
+#include "tests/support/temporary_folder.h"
+
+namespace reljef::session {
+namespace {
+
+// 10 m wide, with 4 · rings² triangles, as an OBJ file.
+std::string ball_obj(int rings) {
+    const int around = 2 * rings;
+    std::string text;
+    for (int row = 0; row <= rings; ++row) {
+        const double down = std::numbers::pi * row / rings;
+        for (int col = 0; col < around; ++col) {
+            const double turn = std::numbers::pi * col / rings;
+            text += fmt::format("v {} {} {}\n", 5.0 * std::sin(down) * std::cos(turn),
+                                5.0 * std::cos(down), 5.0 * std::sin(down) * std::sin(turn));
+        }
+    }
+    for (int row = 0; row < rings; ++row) {
+        for (int col = 0; col < around; ++col) {
+            const int a = row * around + col + 1;
+            const int b = row * around + (col + 1) % around + 1;
+            text += fmt::format("f {0} {1} {2} {3}\n", a, b, b + around, a + around);
+        }
+    }
+    return text;
+}
+
+class ObjectLevels : public testing::Test {
+protected:
+    Result<TerrainScene> open(const std::string& technique, int rings, bool mesh_levels = true) {
+        SourceOptions source;
+        source.terrain = folder_
+                             .write("dem.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\n"
+                                               "cellsize 900\n0 0 0\n0 0 0\n0 0 0\n")
+                             .string();
+        SceneOptions view;
+        view.technique = scene::parse_technique(technique).value();
+        view.mesh_levels = mesh_levels;
+        view.objects = {{folder_.write("ball.obj", ball_obj(rings)), glm::dvec2(1.0, 2.0)}};
+        Log silent;
+        return open_scene(source, view, silent);
+    }
+    static const scene::MeshNode& part_of(const TerrainScene& scene) {
+        return *scene.objects.front().node->children().front()->get<scene::MeshNode>();
+    }
+
+    test::TemporaryFolder folder_;
+};
+
+TEST_F(ObjectLevels, AreMadeForTechniquesWithAnErrorBound) {
+    const auto scene = open("polygons:error=1", 40);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const scene::MeshNode& part = part_of(*scene);
+    ASSERT_NE(part.levels, nullptr);
+    ASSERT_GE(part.levels->size(), 2U);
+    EXPECT_TRUE(missing_maps(*scene).empty()) << "once";
+}
+
+TEST_F(ObjectLevels, AreNotPaidForWithoutABoundOrForFewTriangles) {
+    const auto exact = open("exact", 40);
+    ASSERT_TRUE(exact) << exact.error().message;
+    EXPECT_EQ(part_of(*exact).levels, nullptr);
+    const auto bounded = scene::parse_technique("polygons:error=1").value();
+    EXPECT_EQ(missing_maps(*exact, bounded).meshes.size(), 1U) << "of a technique chosen later";
+    const auto small = open("polygons:error=1", 20);
+    ASSERT_TRUE(small) << small.error().message;
+    EXPECT_EQ(part_of(*small).levels, nullptr);
+    const auto one_picture = open("polygons:error=1", 40, false);
+    ASSERT_TRUE(one_picture) << one_picture.error().message;
+    EXPECT_EQ(part_of(*one_picture).levels, nullptr);
+}
+
+} // namespace
+} // namespace reljef::session
