@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -218,13 +219,20 @@ std::optional<double> largest_of(std::size_t count, const Measure& measure,
     return blocks == 0 ? 0.0 : *std::max_element(largest.begin(), largest.end());
 }
 
-// Of the vertices only: a lower bound.
-std::optional<double> max_distance_of_vertices(const Mesh& from, const MeshTree& to,
-                                               const ParallelOptions& options) {
+// Of the corners of triangles only: a lower bound.
+std::optional<double> max_distance_of_corners(const Mesh& from, const MeshTree& to,
+                                              const ParallelOptions& options) {
+    std::vector<bool> is_corner(from.positions.size());
+    for (const std::uint32_t index : from.indices) {
+        is_corner[index] = true;
+    }
     const auto measure = [&](std::size_t begin, std::size_t end) {
         double largest = 0.0;
         std::size_t nearest = 0;
         for (std::size_t i = begin; i < end; ++i) {
+            if (!is_corner[i]) {
+                continue;
+            }
             const glm::dvec3 place(from.positions[i]);
             nearest = to.nearest_triangle(place, nearest);
             largest = std::max(largest, distance_to(triangle_corners(to.mesh(), nearest), place));
@@ -258,11 +266,11 @@ std::optional<double> max_distance_between(const Mesh& a, const Mesh& b,
                                            const ParallelOptions& options) {
     const MeshTree tree_of_a(a);
     const MeshTree tree_of_b(b);
-    const auto of_vertices = max_distance_of_vertices(a, tree_of_b, options);
-    if (!of_vertices) {
+    const auto of_corners = max_distance_of_corners(a, tree_of_b, options);
+    if (!of_corners) {
         return std::nullopt;
     }
-    const double enough = accuracy * *of_vertices;
+    const double enough = accuracy * *of_corners;
     const auto there = max_distance(a, tree_of_b, enough, options);
     const auto back = there ? max_distance(b, tree_of_a, std::max(enough, *there), options) : there;
     return back ? std::optional(std::max(*there, *back)) : back;

@@ -122,6 +122,16 @@ TEST(MeshDistance, OfPointsBetweenVerticesCounts) {
     EXPECT_GE(*only_from_level, 10.0 / std::sqrt(29.0) - 1e-9); // the middle, to a face
 }
 
+TEST(MeshDistance, OfVerticesWithoutTrianglesDoesNotCount) {
+    const Mesh level = plane_mesh(glm::vec2(10.0F));
+    Mesh other = level;
+    other.positions.emplace_back(0.0F, 0.0F, 1000.0F);
+    other.positions.front().z = 0.5F; // a corner
+    const auto distance = max_distance_between(other, level);
+    ASSERT_TRUE(distance);
+    EXPECT_LT(*distance, 0.6);
+}
+
 TEST(MeshDistance, OfEqualPlanesInOtherTrianglesIsRounding) {
     const Mesh level = plane_mesh(glm::vec2(10.0F));
     Mesh other = level;
