@@ -107,7 +107,7 @@ void add_object_options(CLI::App& command, std::vector<io::ObjectDescription>& o
             "georeferenced; height: of its lowest point above the ground, metres (0); heading: "
             "degrees clockwise from north (0); scale (1). With an error bound (auto, "
             "polygons:error=PX), "
-            "view and pictures of a path draw far ones with fewer triangles, within it. In the "
+            "view and pictures of a path draw far objects with fewer triangles, within it. In the "
             "gallery, FILE alone is shown "
             "with every technique")
         ->allow_extra_args(false)

@@ -87,7 +87,7 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
                const ViewerOptions& options)
     : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       switch_(scene, options.maps), techniques_(scene, switch_, material().technique),
-      surface_switch_(scene, options.maps.threads, options.maps.largest_side),
+      surface_switch_(scene, options.maps.threads, options.maps.largest_side), levels_(scene),
       flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)), measuring_(scene),
       comparison_(scene, options.maps), terrain_(options.terrain) {
@@ -192,6 +192,7 @@ void Viewer::update_appearance() {
     bool& hides_overlay = scene_.terrain->get<scene::TerrainNode>()->hides_overlay;
     redraw_ = std::exchange(hides_overlay, comparison_.is_on()) != comparison_.is_on() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
+    redraw_ = levels_.update() || redraw_;
     if (surface_switch_.update(switch_.technique(), switch_.light())) {
         if (!measuring_.points().empty()) { // they are no longer on the ground
             measuring_.clear();
@@ -260,6 +261,7 @@ void Viewer::relay_to(session::Log& log) {
     switch_.relay_to(log);
     surface_switch_.relay_to(log);
     comparison_.relay_to(log);
+    levels_.relay_to(log);
     if (proofs_) {
         proofs_->relay_to(log);
     }

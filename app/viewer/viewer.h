@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance/appearance_switch.h"
+#include "app/viewer/appearance/level_switch.h"
 #include "app/viewer/appearance/proof_switch.h"
 #include "app/viewer/appearance/surface_switch.h"
 #include "app/viewer/appearance/technique_editor.h"
@@ -248,6 +249,7 @@ private:
     AppearanceSwitch switch_;
     TechniqueEditor techniques_; // uses the switch
     SurfaceSwitch surface_switch_;
+    LevelSwitch levels_;
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     Navigation navigation_;

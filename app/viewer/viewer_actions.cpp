@@ -368,6 +368,7 @@ session::RelayedLog::TaskProgress Viewer::progress() const {
     }
     auto preparing = surface_switch_.is_preparing() || !proofs_ ? surface_switch_.progress()
                                                                 : proofs_->progress();
+    preparing = preparing.label.empty() ? levels_.progress() : preparing;
     return preparing.label.empty() ? measuring_.progress() : preparing;
 }
 

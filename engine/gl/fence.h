@@ -8,11 +8,11 @@ namespace reljef::gl {
 /// destroyed.
 class Fence {
 public:
-    Fence() = default; ///< is passed
+    Fence() = default; ///< wait() returns at once
     /// After all commands so far, whose work begins without waiting for further ones.
     static Fence after_commands();
 
-    /// Until the commands before it are done.
+    /// Waits until the commands before it are done, or the context has failed.
     void wait() const;
 
 private:

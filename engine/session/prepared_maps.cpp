@@ -7,7 +7,7 @@
 #include "engine/cast/frame/driver.h"
 #include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
-#include "engine/scene/levels/mesh_levels.h"
+#include "engine/session/objects/object_levels.h"
 
 namespace reljef::session {
 namespace {
@@ -95,35 +95,6 @@ Result<std::shared_ptr<const terrain::Bisection>> bisection_of(const scene::Terr
     return std::move(cached->value);
 }
 
-Result<std::shared_ptr<const scene::MeshLevels>> levels_of(const scene::Mesh& mesh,
-                                                           scene::Seams seams, int threads,
-                                                           Log& log, const std::stop_token& stop) {
-    const auto task = log.start("making levels of detail of a mesh");
-    auto levels =
-        scene::mesh_levels(mesh, seams, {static_cast<unsigned>(threads), stop, task->callback()});
-    if (!levels) {
-        return Error{"stopped while levels of detail of a mesh were made"};
-    }
-    return std::make_shared<const scene::MeshLevels>(std::move(*levels));
-}
-
-// Buildings are few triangles each: boxes have no levels.
-std::map<MissingMaps::SharedMesh, scene::Seams> meshes_without_levels(const TerrainScene& scene) {
-    std::map<MissingMaps::SharedMesh, scene::Seams> meshes;
-    for (const PlacedObject& object : scene.objects) {
-        for (const auto& part : object.node->children()) {
-            const auto* const mesh = part->get<scene::MeshNode>();
-            if (mesh != nullptr && mesh->levels == nullptr &&
-                mesh->mesh->indices.size() / 3 >= scene::min_triangles_with_levels) {
-                meshes.emplace(mesh->mesh, mesh->material.detail.set == nullptr
-                                               ? scene::Seams::joined
-                                               : scene::Seams::kept);
-            }
-        }
-    }
-    return meshes;
-}
-
 } // namespace
 
 MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique& shown,
@@ -144,16 +115,11 @@ MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique&
 
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique) {
-    MissingMaps missing;
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        const scene::Technique& shown = technique ? *technique : node.material.technique;
-        missing = missing_maps(node, shown, scene.rays);
-        if (scene.mesh_levels && scene::error_bound(shown) > 0.0) {
-            missing.meshes = meshes_without_levels(scene);
-        }
-        return missing;
+        return missing_maps(node, technique.value_or(node.material.technique), scene.rays);
     }
+    MissingMaps missing;
     for (const scene::Material* const material : scene.materials()) {
         const MissingMaps::Set& set = material->detail.set;
         const scene::Technique& shown = technique ? *technique : material->technique;
@@ -215,13 +181,6 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
         made.sets.emplace(set,
                           std::make_shared<const material::ReliefMaterial>(std::move(with_cones)));
     }
-    for (const auto& [mesh, seams] : missing.meshes) {
-        auto levels = levels_of(*mesh, seams, threads, log, stop);
-        if (!levels) {
-            return levels.error();
-        }
-        made.mesh_levels.emplace(mesh, std::move(*levels));
-    }
     if (missing.light && !stop.stop_requested()) {
         const auto task = log.start("lighting " + missing.light->surface->terrain().name);
         made.light =
@@ -237,22 +196,30 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
         node.cones = maps.cones != nullptr ? maps.cones : node.cones;
         node.bisection = maps.bisection != nullptr ? maps.bisection : node.bisection;
     }
-    for (const PlacedObject& object : scene.objects) {
-        for (const auto& part : object.node->children()) {
-            auto* const mesh = part->get<scene::MeshNode>();
-            const auto levels =
-                mesh == nullptr ? maps.mesh_levels.end() : maps.mesh_levels.find(mesh->mesh);
-            if (levels != maps.mesh_levels.end()) {
-                mesh->levels = levels->second;
-            }
-        }
-    }
     for (scene::Material* const material : scene.materials()) {
         const auto found = maps.sets.find(material->detail.set);
         if (found != maps.sets.end()) {
             material->detail.set = found->second;
         }
     }
+}
+
+Result<void> add_levels(const TerrainScene& scene, int threads, Log& log,
+                        const std::stop_token& stop) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const bool is_bounded = scene::error_bound(terrain.material.technique) > 0.0;
+    const auto meshes = scene.mesh_levels && is_bounded ? meshes_without_levels(scene.objects)
+                                                        : std::vector<ObjectMesh>();
+    if (meshes.empty()) {
+        return {};
+    }
+    const auto task = log.start("making levels of detail of objects");
+    const auto made = make_levels(meshes, {static_cast<unsigned>(threads), stop, task->callback()});
+    if (!made) {
+        return made.error();
+    }
+    set_levels(scene.objects, *made);
+    return {};
 }
 
 Result<void> add_cones(material::ReliefMaterial& set, const scene::Technique& technique,

@@ -8,7 +8,6 @@
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/relief_material.h"
-#include "engine/scene/levels/simplified_mesh.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
 #include "engine/session/scene_setup.h"
@@ -20,18 +19,14 @@ namespace reljef::session {
 /// The slow maps that a technique lacks. Shares their inputs, so that making them needs no scene.
 struct MissingMaps {
     using Set = std::shared_ptr<const material::ReliefMaterial>;
-    using SharedMesh = std::shared_ptr<const scene::Mesh>;
 
     std::shared_ptr<const scene::TerrainSurface> surface; ///< null: it lacks no maps
     bool bisection = false;                               ///< for polygons with an error bound
     bool cones = false;                                   ///< for the technique cone
     std::map<Set, std::vector<material::KnownCones>> set_cones; ///< sides of detail textures
-    std::map<SharedMesh, scene::Seams> meshes; ///< objects' that lack levels of detail
-    std::optional<view::LightRequest> light;   ///< missing_maps() leaves it empty
+    std::optional<view::LightRequest> light;                    ///< missing_maps() leaves it empty
 
-    [[nodiscard]] bool empty() const {
-        return surface == nullptr && set_cones.empty() && meshes.empty() && !light;
-    }
+    [[nodiscard]] bool empty() const { return surface == nullptr && set_cones.empty() && !light; }
 };
 
 /// The maps that the scene lacks for a technique; absent: for those of its materials. Otherwise the
@@ -55,8 +50,7 @@ struct PreparedMaps {
     std::shared_ptr<const terrain::Bisection> bisection;
     std::shared_ptr<const material::ConeMaps> cones;
     std::map<MissingMaps::Set, MissingMaps::Set> sets; ///< detail textures, and the same with cones
-    std::map<MissingMaps::SharedMesh, std::shared_ptr<const scene::MeshLevels>> mesh_levels;
-    std::shared_ptr<const view::PreparedLight> light; ///< for SceneRenderer::add_light()
+    std::shared_ptr<const view::PreparedLight> light;  ///< for SceneRenderer::add_light()
 };
 
 /// Makes the maps or reads them from the cache, on any thread. `threads` 0: as many as the machine
@@ -66,6 +60,11 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
 
 /// Puts the maps, except the light, into the scene they were made for.
 void apply_maps(TerrainScene& scene, const PreparedMaps& maps);
+
+/// Makes the levels of detail that objects lack, if the ground keeps an error bound. Fails after a
+/// stop request.
+Result<void> add_levels(const TerrainScene& scene, int threads, Log& log,
+                        const std::stop_token& stop);
 
 /// Adds the missing cones of a detail texture for `cone`; other techniques need none. Fails after a
 /// stop request.

@@ -149,8 +149,12 @@ Result<view::DrawnHits> SceneRenderer::draw_selected_hits() {
     if (!by_rays) {
         return by_rays.error();
     }
-    return *by_rays ? rays_->draw_hits(selector_.selected())
-                    : opengl_->draw_hits(selector_.selected());
+    auto drawn = *by_rays ? rays_->draw_hits(selector_.selected())
+                          : opengl_->draw_hits(selector_.selected());
+    if (drawn) {
+        view::add_mesh_error(drawn->stats);
+    }
+    return drawn;
 }
 
 Image SceneRenderer::read_color() const {
@@ -226,9 +230,7 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     const view::FrameView& frame = selector_.selected();
     auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
     if (stats) {
-        if (stats->kept_error && stats->mesh_error) {
-            stats->kept_error = std::max(*stats->kept_error, *stats->mesh_error);
-        }
+        view::add_mesh_error(*stats);
         if (auto drawn = draw_over(*stats); !drawn) {
             return drawn.error();
         }

@@ -479,7 +479,8 @@ Result<TerrainScene> open_scene(TerrainSource source, const SourceOptions& terra
         return maps.error();
     }
     apply_maps(*scene, *maps);
-    return scene;
+    auto added = add_levels(*scene, terrain.threads, log, stop);
+    return added ? std::move(scene) : added.error();
 }
 
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,

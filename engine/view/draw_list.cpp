@@ -12,6 +12,11 @@
 namespace reljef::view {
 namespace {
 
+// Of the error bound: silhouettes of levels change rarely, but all at once.
+constexpr double mesh_share = 0.25;
+// Of triangles that are shaded otherwise than the mesh: too small to show it.
+constexpr double max_shaded_pixels = 3.0;
+
 // Squared metres to the nearest point of a box.
 double squared_distance(glm::dvec3 place, const Box& box) {
     const glm::dvec3 way = place - glm::clamp(place, box.low, box.high);
@@ -31,23 +36,24 @@ const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
     return draw.level == 0 ? draw.mesh->mesh : (*draw.mesh->levels)[draw.level - 1].mesh;
 }
 
-// Of the error bound: a level's normals are coarser than the mesh's, too, which shows before its
-// places are a pixel off.
-constexpr double mesh_share = 0.25;
-
+// The corners of triangles beside the picture are rounded more than what is seen.
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     const scene::MeshNode& mesh = *draw.mesh;
-    const bool is_picture = mesh.material.detail.set == nullptr ||
-                            mesh.material.technique.id() == scene::TechniqueId::texture;
-    if (mesh.levels == nullptr || !(max_error > 0.0) || !is_picture) {
+    if (mesh.levels == nullptr || mesh.material.detail.set != nullptr || !(max_error > 0.0)) {
         return draw;
     }
     const BoundLeft left = left_of_bound(list.camera, list.size, std::max(max_error, min_error));
+    if (left.exceeded_by_rounding) {
+        return draw;
+    }
     const PictureError seen(list.camera, list.size, draw.world_from_local);
+    const double of_corners = left.of_operations * (seen.depth_ratio(draw.local_bounds) - 1.0);
     for (std::size_t level = mesh.levels->size(); level > 0; --level) {
         const double error =
-            seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].error);
-        if (error <= mesh_share * left.error) {
+            of_corners + seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].error);
+        const double shaded =
+            seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].shaded_width);
+        if (error <= mesh_share * left.error && shaded <= max_shaded_pixels) {
             draw.level = level;
             draw.error = error + left.vertex_rounding + rasterizer_error;
             break;

@@ -82,16 +82,17 @@ struct MeshDraw {
     bool from_behind = false; ///< its inner side
     Box local_bounds = {};    ///< metres; empty for a base
     std::size_t level = 0;    ///< 0: all triangles; else one more than its index in the levels
-    double error = 0.0;       ///< how far places of the level are off at most, pixels
+    /// How far places of the level are off at most, rounding included, pixels; 0 for all triangles.
+    double error = 0.0;
 };
 
 /// The mesh, or its level.
 const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw);
 
 struct DrawList;
-/// With the coarsest level that keeps an error bound (pixels; 0: none) in the list's picture,
-/// rounding included. All triangles if none does, and of meshes whose detail is more than a
-/// picture.
+/// The draw with the coarsest level that keeps a quarter of an error bound (pixels; 0: no bound) in
+/// the list's picture, and whose normals look like those of the mesh. It has all triangles if no
+/// level does, and if the mesh has a detail texture.
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error);
 
 /// What to draw in a frame: pure data. Valid as long as the scene is unchanged.

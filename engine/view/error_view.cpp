@@ -99,12 +99,14 @@ BoundLeft left_of_bound(const scene::Camera& camera, glm::ivec2 size, double max
     check(max_error > rasterizer_error, "an error that no rasterizer can keep");
     const double interpolation = interpolation_share * max_error;
     const double corners = is_perspective(camera) ? corner_share * max_error : 0.0;
-    const double rounding = rounding_of_vertices(camera, size) + interpolation + corners;
+    const double of_operations = rounding_of_vertices(camera, size);
+    const double rounding = of_operations + interpolation + corners;
     const double min_error_left = min_left * (max_error - rasterizer_error);
     const double left = max_error - rasterizer_error - rounding;
     // The sum of all parts, rounded, is within the bound, too.
     return {.error = std::max(left, min_error_left) * (1.0 - 0x1p-50),
             .vertex_rounding = rounding,
+            .of_operations = of_operations,
             .corner_rounding = corners,
             .interpolation = interpolation_error + interpolation,
             .exceeded_by_rounding = left < min_error_left};
@@ -235,6 +237,14 @@ double PictureError::of_any_direction(const Box& box, double error) const {
     return depth_of_true_place > 0.0
                ? pixels_per_metre_ * in_world / depth_of_true_place / std::cos(places.angle)
                : std::numeric_limits<double>::infinity();
+}
+
+double PictureError::depth_ratio(const Box& box) const {
+    if (corner_angle_ == 0.0) {
+        return 1.0;
+    }
+    const Seen places = seen(box);
+    return std::max((glm::length(places.to_middle) + places.radius) / places.depth, 1.0);
 }
 
 std::optional<terrain::HorizonView> horizon_view(const scene::Camera& camera, glm::ivec2 size,

@@ -41,6 +41,7 @@ terrain::ErrorView error_view(const scene::Camera& camera, glm::ivec2 size,
 struct BoundLeft {
     double error = 0.0;                ///< for tiles and triangles, pixels
     double vertex_rounding = 0.0;      ///< of each place by floats, pixels, at most
+    double of_operations = 0.0;        ///< its part for places as far away as what is seen
     double corner_rounding = 0.0;      ///< its part for corners farther away than what is seen
     double interpolation = 0.0;        ///< allowed to places within triangles, pixels
     bool exceeded_by_rounding = false; ///< `error` is larger than what rounding leaves
@@ -80,6 +81,10 @@ public:
 
     /// The same for places in a box (local metres) that are off in any direction, by local metres.
     [[nodiscard]] double of_any_direction(const Box& box, double error) const;
+
+    /// How many times as far from the eye as its visible places a box's other places may be, at
+    /// most; 1 without perspective.
+    [[nodiscard]] double depth_ratio(const Box& box) const;
 
 private:
     // Of a box in the picture.

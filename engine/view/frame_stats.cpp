@@ -56,6 +56,10 @@ FrameStats together(const FrameStats& a, const FrameStats& b) {
     return sum;
 }
 
+void add_mesh_error(FrameStats& stats) {
+    stats.kept_error = larger(stats.kept_error, stats.mesh_error);
+}
+
 WorkTotals totals_of(const PictureWork& work) {
     WorkTotals totals{.taps = work.beam_taps};
     for (const PixelWork& pixel : work.pixels.samples()) {

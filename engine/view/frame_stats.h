@@ -47,8 +47,8 @@ struct FrameStats {
     /// pixels, and those of walls beside them, may be farther off than `kept_error`. Coarse tiles
     /// with voids count, and all tiles of a terrain whose samples are averages.
     int tiles_unproven = 0;
-    /// No pixel of the other tiles is farther off, pixels; absent: there is no error bound, or no
-    /// other tile.
+    /// No pixel of the other tiles and of meshes is farther off, pixels; absent: there is no error
+    /// bound, or no other tile.
     std::optional<double> kept_error;
     /// How far meshes that are drawn with fewer triangles are off at most, pixels; absent: all are
     /// drawn whole.
@@ -84,6 +84,9 @@ struct FrameStats {
     double cpu_ms = 0.0; ///< uploads and submission; with the selection if the caller adds it
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
 };
+
+/// Counts `mesh_error` in `kept_error`, too.
+void add_mesh_error(FrameStats& stats);
 
 /// Of two parts of one picture: what was drawn, skipped and spent in both, and the larger kept
 /// error. Tiles that both show count twice; what holds for the scene or the whole picture is a's.

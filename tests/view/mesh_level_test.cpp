@@ -29,8 +29,7 @@ struct StatueScene {
         terrain = &test::add_terrain(scene, test::plane_heightfield(test::hills(17, 17, 5.0)));
         statue = &scene.add_mesh(std::move(mesh));
         auto& node = *statue->get<scene::MeshNode>();
-        node.levels = std::make_shared<const scene::MeshLevels>(
-            *scene::mesh_levels(*node.mesh, scene::Seams::joined));
+        node.levels = std::make_shared<const scene::MeshLevels>(*scene::mesh_levels(*node.mesh));
         camera = &scene.add_camera({});
         set_bound(1.0);
     }
@@ -131,6 +130,37 @@ TEST(MeshLevelsInViews, AreNeverDrawnWithoutABound) {
 TEST(MeshLevelsInViews, AreWholeWhereTheEyeIsWithin) {
     StatueScene world;
     EXPECT_EQ(world.seen_from(3.0).list.meshes.front().level, 0U);
+}
+
+// Floats round the corners of large triangles that reach far behind what is seen of them.
+TEST(MeshLevelsInViews, OfLargeFlatObjectsAreNotDrawnNearTheEye) {
+    StatueScene world;
+    auto& node = *world.statue->get<scene::MeshNode>();
+    const auto flat = std::make_shared<const scene::Mesh>(scene::plane_mesh(glm::vec2(2000.0F)));
+    node.mesh = flat;
+    node.levels = std::make_shared<const scene::MeshLevels>(
+        scene::MeshLevels{{.mesh = flat, .error = 0.0, .shaded_width = 0.0}});
+    auto& camera = *world.camera->get<scene::Camera>();
+    const auto level_at = [&](double height) {
+        camera.eye = {0.0, 0.0, height};
+        camera.target = {1.0, 0.0, 0.0};
+        return select(world.scene, level_picture).list.meshes.front().level;
+    };
+    EXPECT_EQ(level_at(1.0), 0U);
+    EXPECT_EQ(level_at(5000.0), 1U);
+}
+
+TEST(MeshLevelsInViews, ThatAreShadedOtherwiseAreDrawnSmallOnly) {
+    StatueScene world;
+    auto& node = *world.statue->get<scene::MeshNode>();
+    scene::MeshLevels levels = *node.levels;
+    for (scene::MeshLevel& level : levels) {
+        level.error = 0.0;
+        level.shaded_width = 5.0;
+    }
+    node.levels = std::make_shared<const scene::MeshLevels>(levels);
+    EXPECT_EQ(world.seen_from(100.0).list.meshes.front().level, 0U) << "10 pixels";
+    EXPECT_EQ(world.seen_from(1000.0).list.meshes.front().level, levels.size());
 }
 
 TEST(MeshLevelsInViews, OfAnOrthographicCameraDependOnItsScaleOnly) {

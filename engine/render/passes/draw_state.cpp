@@ -87,6 +87,9 @@ void DrawState::count_draw(std::size_t triangles) {
     if (software_ && awaited_ >= awaited_part) {
         gl::Fence drawn = gl::Fence::after_commands();
         last_part_.wait();
+        if (awaited_ > max_awaited) { // one large draw
+            drawn.wait();
+        }
         last_part_ = std::move(drawn);
         awaited_ = 0;
     }

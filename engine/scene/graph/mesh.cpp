@@ -186,8 +186,12 @@ glm::dvec3 nearest_point(const std::array<glm::dvec3, 3>& triangle, glm::dvec3 p
         return b + to_c / (to_b + to_c) * (c - b);
     }
     const double area = over_a + over_b + over_c;
-    return area > 0.0 ? a + over_b / area * ab + over_c / area * ac
-                      : nearest_corner(triangle, point);
+    if (!(area > 0.0)) {
+        return nearest_corner(triangle, point);
+    }
+    const double to_corner_b = glm::clamp(over_b / area, 0.0, 1.0); // rounding leaves needles
+    const double to_corner_c = glm::clamp(over_c / area, 0.0, 1.0 - to_corner_b);
+    return a + to_corner_b * ab + to_corner_c * ac;
 }
 
 Mesh plane_mesh(glm::vec2 size) {

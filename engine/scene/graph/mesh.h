@@ -46,8 +46,10 @@ glm::dvec3 nearest_point(const std::array<glm::dvec3, 3>& triangle, glm::dvec3 p
 /// A mesh that may be drawn instead of another one.
 struct MeshLevel {
     std::shared_ptr<const Mesh> mesh;
-    /// No point of either mesh is farther from the other one, local metres; proven.
+    /// No point of either mesh is farther from some point of the other one, local metres; proven.
     double error = 0.0;
+    /// Longest edge of its triangles whose normals differ visibly from the mesh's, local metres.
+    double shaded_width = 0.0;
 };
 /// From fine to coarse, with growing errors.
 using MeshLevels = std::vector<MeshLevel>;

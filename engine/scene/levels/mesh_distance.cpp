@@ -23,6 +23,7 @@ constexpr double accuracy = 1.125;
 // Of a triangle; beyond them, pieces are not divided again. The bound is looser then.
 constexpr int max_pieces = 4096;
 constexpr int block_triangles = 512;
+const double min_cosine = std::cos(0.2); // of normals that look alike
 
 using Corners = std::array<glm::dvec3, 3>;
 
@@ -202,6 +203,25 @@ double resolution_of(const Mesh& mesh) {
     return std::max({largest.x, largest.y, largest.z}) * 0x1p-24;
 }
 
+double longest_edge(const Corners& triangle) {
+    return std::max({glm::distance(triangle[0], triangle[1]),
+                     glm::distance(triangle[1], triangle[2]),
+                     glm::distance(triangle[2], triangle[0])});
+}
+
+// Between those of the corners, unit length; `place` is in the triangle.
+glm::dvec3 normal_at(const Mesh& mesh, std::size_t first, const Corners& corners,
+                     glm::dvec3 place) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double share =
+            glm::length(glm::cross(corners[(i + 1) % 3] - place, corners[(i + 2) % 3] - place));
+        sum += share * glm::dvec3(mesh.normals[mesh.indices[first + i]]);
+    }
+    const double length = glm::length(sum);
+    return length > 0.0 ? sum / length : glm::dvec3(mesh.normals[mesh.indices[first]]);
+}
+
 // The largest result of `measure(i)`, i < count. Empty if stopped.
 template <class Measure>
 std::optional<double> largest_of(std::size_t count, const Measure& measure,
@@ -274,6 +294,29 @@ std::optional<double> max_distance_between(const Mesh& a, const Mesh& b,
     const auto there = max_distance(a, tree_of_b, enough, options);
     const auto back = there ? max_distance(b, tree_of_a, std::max(enough, *there), options) : there;
     return back ? std::optional(std::max(*there, *back)) : back;
+}
+
+std::optional<double> width_of_other_normals(const Mesh& fine, const Mesh& coarse,
+                                             const ParallelOptions& options) {
+    const MeshTree tree(coarse);
+    const auto measure = [&](std::size_t begin, std::size_t end) {
+        double widest = 0.0;
+        std::size_t nearest = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Corners corners = triangle_corners(fine, 3 * i);
+            const glm::dvec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+            nearest = tree.nearest_triangle(middle, nearest);
+            const Corners other = triangle_corners(coarse, nearest);
+            const double width = longest_edge(other);
+            if (width > widest && glm::dot(normal_at(fine, 3 * i, corners, middle),
+                                           normal_at(coarse, nearest, other,
+                                                     nearest_point(other, middle))) < min_cosine) {
+                widest = width;
+            }
+        }
+        return widest;
+    };
+    return largest_of(fine.indices.size() / 3, measure, options);
 }
 
 } // namespace reljef::scene

@@ -111,12 +111,9 @@ Mesh with_used_vertices(const Mesh& mesh, Indices indices) {
 
 } // namespace
 
-Mesh simplified_mesh(const Mesh& mesh, std::size_t triangles, Seams seams) {
+Mesh simplified_mesh(const Mesh& mesh, std::size_t triangles) {
     if (mesh.indices.empty()) {
         return mesh;
-    }
-    if (seams == Seams::kept) {
-        return with_used_vertices(mesh, collapsed(mesh, mesh.indices, triangles));
     }
     const Indices first = first_at_place(mesh);
     Indices joined = mesh.indices;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <stop_token>
 
 #include <gtest/gtest.h>
 
@@ -143,7 +145,7 @@ TEST(MeshDistance, OfEqualPlanesInOtherTrianglesIsRounding) {
 
 TEST(MeshLevels, HaveAQuarterOfTheTrianglesAndGrowingErrors) {
     const Mesh mesh = bumpy_sphere(128);
-    const auto levels = mesh_levels(mesh, Seams::joined);
+    const auto levels = mesh_levels(mesh);
     ASSERT_TRUE(levels);
     ASSERT_GE(levels->size(), 3U);
     double before = triangles_in(mesh);
@@ -165,8 +167,8 @@ TEST(MeshLevels, HaveAQuarterOfTheTrianglesAndGrowingErrors) {
 
 TEST(MeshLevels, AreTheSameOnAnyNumberOfThreads) {
     const Mesh mesh = bumpy_sphere(64);
-    const auto one = mesh_levels(mesh, Seams::kept, {1U, {}, {}});
-    const auto four = mesh_levels(mesh, Seams::kept, {4U, {}, {}});
+    const auto one = mesh_levels(mesh, {1U, {}, {}});
+    const auto four = mesh_levels(mesh, {4U, {}, {}});
     ASSERT_TRUE(one && four);
     ASSERT_EQ(one->size(), four->size());
     ASSERT_FALSE(one->empty());
@@ -205,7 +207,7 @@ TEST(MeshLevels, OfFlatShadedMeshesKeepTheirSharpEdges) {
             }
         }
     }
-    const auto levels = mesh_levels(mesh, Seams::joined);
+    const auto levels = mesh_levels(mesh);
     ASSERT_TRUE(levels);
     ASSERT_GE(levels->size(), 2U);
     const MeshLevel& last = levels->back();
@@ -223,15 +225,30 @@ TEST(MeshLevels, OfFlatShadedMeshesKeepTheirSharpEdges) {
     }
 }
 
+// Smooth normals on flat faces: levels have the places of the mesh, and other light.
+TEST(MeshLevels, KnowWhereTheirNormalsLookOtherwise) {
+    Mesh mesh = bumpy_sphere(128);
+    for (glm::vec3& place : mesh.positions) {
+        place.z = 0.0F; // two discs
+    }
+    const auto levels = mesh_levels(mesh);
+    ASSERT_TRUE(levels && levels->size() >= 2U);
+    EXPECT_LT(levels->front().error, 1.0);
+    EXPECT_GT(levels->back().shaded_width, 1.0);
+    const auto of_ball = mesh_levels(sphere_mesh(10.0F, 128));
+    ASSERT_TRUE(of_ball && !of_ball->empty());
+    EXPECT_LT(of_ball->front().shaded_width, 1.0);
+}
+
 TEST(MeshLevels, OfSmallAndEmptyMeshesAreNone) {
-    EXPECT_TRUE(mesh_levels(Mesh{}, Seams::joined)->empty());
-    EXPECT_TRUE(mesh_levels(sphere_mesh(1.0F, 32), Seams::joined)->empty());
+    EXPECT_TRUE(mesh_levels(Mesh{})->empty());
+    EXPECT_TRUE(mesh_levels(sphere_mesh(1.0F, 32))->empty());
 }
 
 // Open borders meet those of other parts of an object.
 TEST(MeshLevels, KeepOpenBorders) {
     const Mesh mesh = bowl_mesh(5.0F, 256);
-    const auto levels = mesh_levels(mesh, Seams::joined);
+    const auto levels = mesh_levels(mesh);
     ASSERT_TRUE(levels && !levels->empty());
     for (const MeshLevel& level : *levels) {
         const auto rim = std::ranges::count_if(level.mesh->positions,
@@ -243,7 +260,7 @@ TEST(MeshLevels, KeepOpenBorders) {
 TEST(MeshLevels, EndWhenTheyAreStopped) {
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_FALSE(mesh_levels(bumpy_sphere(128), Seams::joined, {0U, stop.get_token(), {}}));
+    EXPECT_FALSE(mesh_levels(bumpy_sphere(128), {0U, stop.get_token(), {}}));
 }
 
 } // namespace

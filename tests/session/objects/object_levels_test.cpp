@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "engine/session/prepared_maps.h"
+#include "engine/session/objects/object_levels.h"
 #include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -62,15 +62,14 @@ TEST_F(ObjectLevels, AreMadeForTechniquesWithAnErrorBound) {
     const scene::MeshNode& part = part_of(*scene);
     ASSERT_NE(part.levels, nullptr);
     ASSERT_GE(part.levels->size(), 2U);
-    EXPECT_TRUE(missing_maps(*scene).empty()) << "once";
+    EXPECT_TRUE(meshes_without_levels(scene->objects).empty()) << "once";
 }
 
 TEST_F(ObjectLevels, AreNotPaidForWithoutABoundOrForFewTriangles) {
     const auto exact = open("exact", 40);
     ASSERT_TRUE(exact) << exact.error().message;
     EXPECT_EQ(part_of(*exact).levels, nullptr);
-    const auto bounded = scene::parse_technique("polygons:error=1").value();
-    EXPECT_EQ(missing_maps(*exact, bounded).meshes.size(), 1U) << "of a technique chosen later";
+    EXPECT_EQ(meshes_without_levels(exact->objects).size(), 1U) << "of a technique chosen later";
     const auto small = open("polygons:error=1", 20);
     ASSERT_TRUE(small) << small.error().message;
     EXPECT_EQ(part_of(*small).levels, nullptr);

@@ -1,0 +1,41 @@
+#include "app/viewer/appearance/level_switch.h"
+
+#include <utility>
+
+namespace reljef::app {
+namespace {
+
+constexpr unsigned making_threads = 1; // drawing has the others
+
+} // namespace
+
+bool LevelSwitch::update() {
+    const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
+    const bool is_wanted = scene_.mesh_levels && !has_failed_ && !scene_.objects.empty() &&
+                           scene::error_bound(terrain.material.technique) > 0.0;
+    if (making_) {
+        if (!making_->is_done()) {
+            return false;
+        }
+        auto made = making_->take();
+        making_.reset();
+        has_failed_ = !made;
+        if (!made) {
+            log_.note(made.error().message);
+            return false;
+        }
+        session::set_levels(scene_.objects, *made);
+        return true;
+    }
+    auto meshes = is_wanted ? session::meshes_without_levels(scene_.objects)
+                            : std::vector<session::ObjectMesh>();
+    if (!meshes.empty()) {
+        making_.emplace([meshes = std::move(meshes), this](const std::stop_token& stop) {
+            const auto task = log_.start("making levels of detail of objects");
+            return session::make_levels(meshes, {making_threads, stop, task->callback()});
+        });
+    }
+    return false;
+}
+
+} // namespace reljef::app
