@@ -116,6 +116,28 @@ TEST_F(MeshShadowGlTest, PartsOfAPictureHaveNoSeam) {
     }
 }
 
+// A mesh beside the view, whose shadow falls into it or not.
+TEST_F(MeshShadowGlTest, OnlyShadowsThatMayBeSeenUploadTheirMeshes) {
+    const auto uploads_with = [](std::optional<glm::dvec3> place, bool has_shadows) {
+        ObjectStage stage(has_shadows);
+        stage.set_sun(40.0);
+        stage.look_near();
+        if (place) {
+            stage.scene.add_mesh(scene::sphere_mesh(9.0F)).set_position(*place);
+            EXPECT_EQ(view::select(stage.scene, mesh_picture).list.meshes_beside.size(), 1U);
+        }
+        return stats_of(stage).uploads;
+    };
+    ObjectStage stage;
+    stage.set_sun(40.0);
+    const glm::dvec3 sunwards = glm::dvec3(0.0, -40.0, 10.0) + 130.0 * scene::to_light(stage.sun);
+    const glm::dvec3 behind(60.0, -260.0, 20.0);
+    const auto uploads = uploads_with(std::nullopt, true);
+    EXPECT_EQ(uploads_with(sunwards, true), uploads + 2) << "vertices and indices";
+    EXPECT_EQ(uploads_with(behind, true), uploads);
+    EXPECT_EQ(uploads_with(sunwards, false), uploads_with(std::nullopt, false));
+}
+
 TEST_F(MeshShadowGlTest, WithoutMeshesOrTheOptionTheyCostNothing) {
     ObjectStage stage;
     stage.look_near();
