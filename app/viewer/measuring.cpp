@@ -33,21 +33,21 @@ Result<std::string> Measuring::pick(const std::optional<session::PickedPlace>& p
     }
     const double height = session::height_of(terrain(), *place);
     const double rise = height - std::exchange(last_height_, height);
+    const session::PickedPlace from = std::exchange(last_, *place);
     points_.push_back(place->world);
     texts_.push_back(session::point_text(terrain(), *place));
     std::string text = fmt::format("{}  {}\n", points_.size(), texts_.back());
     if (points_.size() < 2) {
         return text;
     }
-    const glm::dvec3 from = points_[points_.size() - 2];
-    auto profile = session::ground_profile(terrain(), from, place->world);
+    auto profile = session::ground_profile(terrain(), from.world, place->world);
     if (!profile) {
         return profile.error();
     }
     profile_ = std::move(*profile);
     const bool is_over_ground = std::isfinite(profile_.back().height - profile_.front().height);
     text += distance_text(profile_, is_over_ground ? std::optional(rise) : std::nullopt);
-    const auto hidden = session::hidden_by(scene_, from, place->world, eye_height);
+    const auto hidden = session::hidden_by(scene_, from, *place, eye_height);
     is_in_sight_ = !hidden;
     return text +
            (hidden ? fmt::format("  hidden from each other by {}\n",

@@ -69,6 +69,7 @@ private:
     const session::TerrainScene& scene_;
     bool is_on_ = false;
     std::vector<glm::dvec3> points_; // world metres
+    session::PickedPlace last_;
     double last_height_ = 0.0;       // of the last point, true metres
     std::vector<std::string> texts_; // of the points
     bool is_in_sight_ = false;

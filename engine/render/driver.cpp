@@ -275,12 +275,14 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     if (auto prepared = beam_target_.prepare(list); !prepared) {
         return prepared;
     }
-    if (auto prepared =
-            hits ? Result<void>() : mesh_shadow_.prepare(list, limits_.max_texture_size);
-        !prepared) {
-        return prepared;
+    std::vector<view::MeshDraw> casters;
+    if (!hits) {
+        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size); !prepared) {
+            return prepared;
+        }
+        casters = mesh_shadow_.casters_beside(list);
     }
-    return residency_.prepare(list, !hits, stats);
+    return residency_.prepare(list, !hits, casters, stats);
 }
 
 void Driver::write_frame_block(const view::DrawList& list, view::FrameStats& stats) {

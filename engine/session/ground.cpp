@@ -114,7 +114,7 @@ std::optional<PickedPlace> pick_place(const TerrainScene& scene, const Ray& ray)
     const auto ground = scene::pick_ground(*scene.terrain->get<scene::TerrainNode>(), ray);
     const double end = ground ? ground->t : std::numeric_limits<double>::infinity();
     if (const auto on_mesh = scene.scene.pick_mesh(ray, {0.0, end})) {
-        return PickedPlace{on_mesh->world, scene::object_name(*on_mesh->node)};
+        return PickedPlace{on_mesh->world, scene::object_name(*on_mesh->node), on_mesh->normal};
     }
     return ground ? std::optional(PickedPlace{ground->world}) : std::nullopt;
 }

@@ -24,6 +24,7 @@ glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, doubl
 struct PickedPlace {
     glm::dvec3 world{0.0};
     std::string object = {}; ///< its name; empty: the ground
+    glm::dvec3 normal{0.0};  ///< of an object's face: outwards, unit
 };
 /// The ground, or an object or model before it; empty: the sky.
 std::optional<PickedPlace> pick_place(const TerrainScene& scene, const Ray& ray);

@@ -14,7 +14,7 @@ namespace reljef::cast {
 
 bool draws_technique(const scene::Technique& technique) {
     scene::TechniqueOptions drawn;
-    drawn.writes_depth = technique.options.writes_depth; // rays always order by depth
+    drawn.depth = technique.options.depth; // rays always order by depth
     if (technique.options.shadow) {
         drawn.shadow = scene::Shadow{.depth = 0.0};
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -49,6 +50,17 @@ Result<void> MeshShadow::prepare(const view::DrawList& list, int max_side) {
     }
     depth_ = std::move(*made);
     return {};
+}
+
+std::vector<view::MeshDraw> MeshShadow::casters_beside(const view::DrawList& list) const {
+    std::vector<view::MeshDraw> casters;
+    std::ranges::copy_if(
+        list.meshes_beside, std::back_inserter(casters), [&](const view::MeshDraw& draw) {
+            return is_shadow_caster(draw) && std::ranges::any_of(maps_, [&](const SunMap& map) {
+                       return is_in_map(map, draw, list.camera.eye);
+                   });
+        });
+    return casters;
 }
 
 Result<void> MeshShadow::draw(const view::DrawList& list, const Residency& residency,

@@ -21,7 +21,11 @@ public:
     /// program reads the maps.
     [[nodiscard]] bool is_cast() const { return !maps_.empty(); }
 
-    /// Draws the casters into the maps. Precondition: prepared, and `residency` for the same list.
+    /// The meshes beside the picture that are drawn into the maps. Precondition: prepared.
+    [[nodiscard]] std::vector<view::MeshDraw> casters_beside(const view::DrawList& list) const;
+
+    /// Draws the casters into the maps. Precondition: prepared, and `residency` for the same list
+    /// with casters_beside().
     Result<void> draw(const view::DrawList& list, const Residency& residency,
                       DrawState& state) const;
 

@@ -328,6 +328,13 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     return frame.state.set(technique_block(technique, reference_height(technique)));
 }
 
+// Meshes are tested against the depth of the box unless the hit's is written.
+ShaderFeatures depth_features(const FrameContext& frame, const scene::Technique& technique) {
+    const bool is_needed = technique.options.depth == scene::HitDepth::objects &&
+                           !frame.list.meshes.empty() && !frame.counts();
+    return is_needed ? feature_write_depth : 0U;
+}
+
 Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& draw) {
     const scene::Technique& technique = draw.search->technique;
     DrawState& state = frame.state;
@@ -339,7 +346,7 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     }
     const ShaderFeatures unused = uses_beams(frame, technique) ? 0U : feature_beams;
     const ShaderFeatures features = frame.features | (technique_features(technique) & ~unused) |
-                                    surface_features(draw) |
+                                    depth_features(frame, technique) | surface_features(draw) |
                                     overlay_features(frame, *draw.terrain) |
                                     point_light_features(frame, draw) | frame.mesh_shadows;
     const scene::Material& material = draw.terrain->material;

@@ -11,7 +11,6 @@
 #include "engine/render/residency/prewarp.h"
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/relief_options.h"
-#include "engine/render/shaders/sun_maps.h"
 #include "engine/scene/streaming/certain_sun.h"
 #include "engine/view/terrain_maps.h"
 
@@ -74,7 +73,7 @@ Result<gl::Texture2D> cone_texture(const std::shared_ptr<const material::ConeMap
 } // namespace
 
 Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
-                                view::FrameStats& stats) {
+                                std::span<const view::MeshDraw> casters, view::FrameStats& stats) {
     forget_unused();
     auto done = terrain_meshes_.prepare(list, stats);
     done = done && with_maps ? prepare_colors(list, stats) : done;
@@ -83,9 +82,7 @@ Result<void> Residency::prepare(const view::DrawList& list, bool with_maps,
     done = done ? prepare_reliefs(list, with_maps, stats) : done;
     std::vector<view::MeshDraw> meshes = list.meshes;
     meshes.insert(meshes.end(), list.bases.begin(), list.bases.end());
-    if (with_maps && casts_mesh_shadows(list)) {
-        meshes.insert(meshes.end(), list.meshes_beside.begin(), list.meshes_beside.end());
-    }
+    meshes.insert(meshes.end(), casters.begin(), casters.end());
     return done ? meshes_.prepare(meshes, list.camera, stats) : done;
 }
 

@@ -42,8 +42,10 @@ struct ResidentRelief {
 /// its surface.
 class Residency {
 public:
-    /// Uploads the list's content and counts it in `stats`. Fails without GL memory.
-    Result<void> prepare(const view::DrawList& list, bool with_maps, view::FrameStats& stats);
+    /// Uploads the list's content and counts it in `stats`. `casters`: meshes beside the picture
+    /// whose shadows are in it. Fails without GL memory.
+    Result<void> prepare(const view::DrawList& list, bool with_maps,
+                         std::span<const view::MeshDraw> casters, view::FrameStats& stats);
 
     /// Tiles get new triangles in the next frame.
     void forget_cuts() { terrain_meshes_.forget_cuts(); }

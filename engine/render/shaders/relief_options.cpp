@@ -115,7 +115,7 @@ ShaderFeatures option_features(const scene::TechniqueOptions& options) {
     features |= options.steps ? feature_view_steps : 0U;
     features |= options.fade ? feature_fade : 0U;
     features |= options.smooth_edges ? feature_smooth_edges : 0U;
-    features |= options.writes_depth ? feature_write_depth : 0U;
+    features |= options.depth == scene::HitDepth::write ? feature_write_depth : 0U;
     if (options.shadow) {
         features |= options.shadow->depth > 0.0 ? feature_soft_shadow : feature_hard_shadow;
     }

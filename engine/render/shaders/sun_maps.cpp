@@ -214,17 +214,17 @@ bool casts_mesh_shadows(const view::DrawList& list) {
     return is_requested && list.sun && scene::to_light(*list.sun).z > min_sine;
 }
 
+bool is_shadow_caster(const view::MeshDraw& draw) {
+    const scene::Material& material = draw.mesh->material;
+    const bool is_hull =
+        material.detail.set != nullptr && material.technique.options.true_silhouettes;
+    return !draw.from_behind && !is_hull && !view::drawn_mesh(draw)->indices.empty();
+}
+
 std::vector<view::MeshDraw> shadow_casters(const view::DrawList& list) {
     std::vector<view::MeshDraw> casters;
     for (const auto* const draws : {&list.meshes, &list.meshes_beside}) {
-        std::copy_if(draws->begin(), draws->end(), std::back_inserter(casters),
-                     [](const view::MeshDraw& draw) {
-                         const scene::Material& material = draw.mesh->material;
-                         const bool is_hull = material.detail.set != nullptr &&
-                                              material.technique.options.true_silhouettes;
-                         return !draw.from_behind && !is_hull &&
-                                !view::drawn_mesh(draw)->indices.empty();
-                     });
+        std::ranges::copy_if(*draws, std::back_inserter(casters), is_shadow_caster);
     }
     return casters;
 }

@@ -34,8 +34,10 @@ bool casts_mesh_shadows(const view::DrawList& list);
 /// have the same maps. `side`: of a map, texels.
 std::vector<SunMap> sun_maps(const view::DrawList& list, int side);
 
-/// The list's meshes that cast shadows, also those beside the picture. Hulls of detail and inner
-/// sides cast none.
+/// Whether a mesh casts a shadow: hulls of detail and inner sides do not.
+bool is_shadow_caster(const view::MeshDraw& draw);
+
+/// The list's meshes that cast shadows, also those beside the picture.
 std::vector<view::MeshDraw> shadow_casters(const view::DrawList& list);
 
 /// Of the maps. Precondition: at most max_sun_maps.

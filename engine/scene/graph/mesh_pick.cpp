@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,17 +15,28 @@ namespace {
 
 constexpr std::size_t leaf_triangles = 4;
 
-// Part of the largest coordinate by which boxes are larger than their triangles: what rounds where
-// a ray meets a side.
+// Part of the largest coordinate, of the mesh and of the ray's origin, by which boxes are larger
+// than their triangles: what rounds where a ray meets a side.
 constexpr double box_margin = 1e-12;
+
+// Larger meshes get their tree in the background: a tree takes several milliseconds.
+constexpr std::size_t max_triangles_at_once = 10'000;
 
 glm::dvec3 corner_of(const Mesh& mesh, std::size_t index) {
     return glm::dvec3(mesh.positions[mesh.indices[index]]);
 }
 
+double margin_at(glm::dvec3 place) {
+    const glm::dvec3 size = glm::abs(place);
+    return box_margin * std::max({size.x, size.y, size.z});
+}
+
 double margin_of(const Box& bounds) {
-    const glm::dvec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-    return bounds.empty() ? 0.0 : box_margin * std::max({largest.x, largest.y, largest.z});
+    return bounds.empty() ? 0.0 : std::max(margin_at(bounds.low), margin_at(bounds.high));
+}
+
+Box widened(const Box& box, double margin) {
+    return box.empty() ? box : Box{box.low - margin, box.high + margin};
 }
 
 std::vector<Box> boxes_of(const Mesh& mesh) {
@@ -35,7 +47,7 @@ std::vector<Box> boxes_of(const Mesh& mesh) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             box.add(corner_of(mesh, 3 * triangle + corner));
         }
-        box = {box.low - margin, box.high + margin};
+        box = widened(box, margin);
     }
     return boxes;
 }
@@ -86,46 +98,99 @@ private:
     int z_ = 0;
 };
 
-} // namespace
+// Keeps the nearest of the triangles that it is given.
+class NearestHit {
+public:
+    NearestHit(const Mesh& mesh, const Ray& ray, reljef::Interval range)
+        : mesh_(mesh), ray_(ray), range_(range) {}
 
-MeshTree::MeshTree(const Mesh& mesh) : mesh_(mesh), order_(mesh.indices.size() / 3) {
-    std::iota(order_.begin(), order_.end(), 0U);
-    if (!order_.empty()) {
-        grow(boxes_of(mesh_), 0, order_.size());
+    void test(std::size_t triangle) {
+        const auto t = ray_.hit(mesh_, triangle);
+        if (t && *t >= range_.begin && *t <= range_.end) {
+            range_.end = *t;
+            nearest_ = MeshHit{*t, triangle};
+        }
     }
+    [[nodiscard]] reljef::Interval range() const { return range_; }
+    [[nodiscard]] std::optional<MeshHit> nearest() const { return nearest_; }
+
+private:
+    const Mesh& mesh_;
+    ShearedRay ray_;
+    reljef::Interval range_;
+    std::optional<MeshHit> nearest_;
+};
+
+bool may_hit(const Ray& ray) {
+    return is_finite(ray) && ray.direction != glm::dvec3(0.0);
 }
 
-// Halves of the triangles by their middles along the widest axis: the depth is a logarithm.
-void MeshTree::grow(const std::vector<Box>& boxes, std::size_t begin, std::size_t end) {
-    const std::size_t index = branches_.size();
-    Branch& branch = branches_.emplace_back();
-    Box middles;
-    for (std::size_t i = begin; i < end; ++i) {
-        branch.bounds.add(boxes[order_[i]]);
-        middles.add(boxes[order_[i]].center());
+} // namespace
+
+std::optional<MeshHit> first_hit(const Mesh& mesh, const Ray& ray, reljef::Interval range) {
+    if (!may_hit(ray)) {
+        return std::nullopt;
     }
-    if (end - begin <= leaf_triangles) {
-        branch.first = static_cast<std::uint32_t>(begin);
-        branch.count = static_cast<std::uint32_t>(end - begin);
-        return;
+    NearestHit hit(mesh, ray, range);
+    for (std::size_t triangle = 0; triangle + 2 < mesh.indices.size(); triangle += 3) {
+        hit.test(triangle);
     }
-    const int axis = widest_axis(middles.size());
-    const std::size_t middle = (begin + end) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
-        return boxes[a].center()[axis] < boxes[b].center()[axis];
-    });
-    grow(boxes, begin, middle);
-    branches_[index].second = static_cast<std::uint32_t>(branches_.size());
-    grow(boxes, middle, end);
+    return hit.nearest();
+}
+
+class MeshTree::Growth {
+public:
+    Growth(MeshTree& tree, const std::stop_token& stop)
+        : tree_(tree), boxes_(boxes_of(tree.mesh_)), stop_(stop) {}
+
+    // Halves of the triangles by their middles along the widest axis: the depth is a logarithm.
+    void grow(std::size_t begin, std::size_t end) {
+        auto& order = tree_.order_;
+        const std::size_t index = tree_.branches_.size();
+        Branch& branch = tree_.branches_.emplace_back();
+        Box middles;
+        for (std::size_t i = begin; i < end; ++i) {
+            branch.bounds.add(boxes_[order[i]]);
+            middles.add(boxes_[order[i]].center());
+        }
+        if (end - begin <= leaf_triangles || stop_.stop_requested()) {
+            branch.first = static_cast<std::uint32_t>(begin);
+            branch.count = static_cast<std::uint32_t>(end - begin);
+            return;
+        }
+        const int axis = widest_axis(middles.size());
+        const std::size_t middle = (begin + end) / 2;
+        const auto at = [&](std::size_t i) {
+            return order.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
+            return boxes_[a].center()[axis] < boxes_[b].center()[axis];
+        });
+        grow(begin, middle);
+        tree_.branches_[index].second = static_cast<std::uint32_t>(tree_.branches_.size());
+        grow(middle, end);
+    }
+
+private:
+    MeshTree& tree_;
+    std::vector<Box> boxes_; // of the triangles
+    const std::stop_token& stop_;
+};
+
+MeshTree::MeshTree(const Mesh& mesh, const std::stop_token& stop)
+    : mesh_(mesh), order_(mesh.indices.size() / 3) {
+    std::iota(order_.begin(), order_.end(), 0U);
+    if (!order_.empty()) {
+        Growth(*this, stop).grow(0, order_.size());
+    }
 }
 
 std::optional<MeshHit> MeshTree::first_hit(const Ray& ray, reljef::Interval range) const {
-    if (!is_finite(ray) || ray.direction == glm::dvec3(0.0)) {
+    if (!may_hit(ray)) {
         return std::nullopt;
     }
-    const ShearedRay sheared(ray);
-    std::optional<MeshHit> nearest;
+    const double margin = margin_at(ray.origin);
+    NearestHit hit(mesh_, ray, range);
     std::vector<std::uint32_t> open;
     if (!branches_.empty()) {
         open.push_back(0);
@@ -134,7 +199,7 @@ std::optional<MeshHit> MeshTree::first_hit(const Ray& ray, reljef::Interval rang
         const std::uint32_t index = open.back();
         const Branch& branch = branches_[index];
         open.pop_back();
-        if (!intersect(ray, branch.bounds, range)) {
+        if (!intersect(ray, widened(branch.bounds, margin), hit.range())) {
             continue;
         }
         if (branch.count == 0) {
@@ -142,15 +207,10 @@ std::optional<MeshHit> MeshTree::first_hit(const Ray& ray, reljef::Interval rang
             open.push_back(index + 1);
         }
         for (std::uint32_t i = 0; i < branch.count; ++i) {
-            const std::size_t triangle = std::size_t{3} * order_[branch.first + i];
-            const auto t = sheared.hit(mesh_, triangle);
-            if (t && *t >= range.begin && *t <= range.end) {
-                range.end = *t;
-                nearest = MeshHit{*t, triangle};
-            }
+            hit.test(std::size_t{3} * order_[branch.first + i]);
         }
     }
-    return nearest;
+    return hit.nearest();
 }
 
 std::size_t MeshTree::nearest_triangle(glm::dvec3 point, std::size_t guess) const {
@@ -198,32 +258,48 @@ std::size_t MeshTree::nearest_triangle(glm::dvec3 point, std::size_t guess) cons
     return nearest;
 }
 
-// Null if the ray misses the mesh's bounds.
-std::shared_ptr<const MeshTree> MeshTrees::tree_for(const std::shared_ptr<const Mesh>& mesh,
-                                                    const Ray& ray, reljef::Interval range) {
-    const std::scoped_lock lock(mutex_);
+MeshTrees::Entry& MeshTrees::entry_for(const std::shared_ptr<const Mesh>& mesh) {
     auto found = entries_.find(mesh);
     if (found == entries_.end()) {
         std::erase_if(entries_, [](const auto& entry) { return entry.first.expired(); });
         const Box bounds = bounds_of(*mesh);
-        const double margin = margin_of(bounds);
-        found = entries_.emplace(mesh, Entry{{bounds.low - margin, bounds.high + margin}, nullptr})
-                    .first;
+        found = entries_.emplace(mesh, Entry{.bounds = widened(bounds, margin_of(bounds))}).first;
     }
-    Entry& entry = found->second;
-    if (!intersect(ray, entry.bounds, range)) {
-        return nullptr;
-    }
-    if (entry.tree == nullptr) {
+    return found->second;
+}
+
+void MeshTrees::make(const std::shared_ptr<const Mesh>& mesh, Entry& entry) {
+    if (mesh->indices.size() / 3 <= max_triangles_at_once) {
         entry.tree = std::make_shared<const MeshTree>(*mesh);
+    } else if (!entry.making.valid()) {
+        entry.making =
+            std::async(std::launch::async, [kept = mesh, stop = stop_.get_token()]() mutable {
+                const auto made_of = std::move(kept); // until it is made
+                return std::make_shared<const MeshTree>(*made_of, stop);
+            });
+    } else if (entry.making.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        entry.tree = entry.making.get();
     }
-    return entry.tree;
 }
 
 std::optional<MeshHit> MeshTrees::first_hit(const std::shared_ptr<const Mesh>& mesh, const Ray& ray,
                                             reljef::Interval range) {
-    const auto tree = is_finite(ray) ? tree_for(mesh, ray, range) : nullptr;
-    return tree != nullptr ? tree->first_hit(ray, range) : std::nullopt;
+    if (!may_hit(ray)) {
+        return std::nullopt;
+    }
+    Tree tree;
+    {
+        const std::scoped_lock lock(mutex_);
+        Entry& entry = entry_for(mesh);
+        if (!intersect(ray, widened(entry.bounds, margin_at(ray.origin)), range)) {
+            return std::nullopt;
+        }
+        if (entry.tree == nullptr) {
+            make(mesh, entry);
+        }
+        tree = entry.tree;
+    }
+    return tree != nullptr ? tree->first_hit(ray, range) : scene::first_hit(*mesh, ray, range);
 }
 
 } // namespace reljef::scene

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
@@ -315,6 +316,18 @@ std::optional<Scene::Pick> Scene::pick(const Ray& ray) const {
     return on_mesh ? on_mesh : first;
 }
 
+namespace {
+
+// Precondition: the triangle has an area, and the matrix an inverse.
+glm::dvec3 world_normal(const Mesh& mesh, std::size_t triangle,
+                        const glm::dmat4& world_from_local) {
+    const TriangleEdges edges = triangle_edges(mesh, triangle);
+    return glm::normalize(glm::inverseTranspose(glm::dmat3(world_from_local)) *
+                          glm::normalize(glm::cross(edges.p, edges.q)));
+}
+
+} // namespace
+
 std::optional<Scene::Pick> Scene::pick_mesh(const Ray& ray, reljef::Interval range) const {
     std::optional<Pick> first;
     const Camera camera = this->camera();
@@ -331,7 +344,11 @@ std::optional<Scene::Pick> Scene::pick_mesh(const Ray& ray, reljef::Interval ran
             trees_->first_hit(mesh->mesh, transformed(glm::inverse(world_from_local), ray), range);
         if (hit) {
             range.end = hit->t;
-            first = Pick{&node, hit->t, ray.at(hit->t)};
+            first = Pick{.node = &node,
+                         .t = hit->t,
+                         .world = ray.at(hit->t),
+                         .ground = {},
+                         .normal = world_normal(*mesh->mesh, hit->triangle, world_from_local)};
         }
     });
     return first;

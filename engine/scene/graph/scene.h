@@ -201,6 +201,7 @@ public:
         double t = 0.0;             ///< along the ray
         glm::dvec3 world{0.0};
         std::optional<terrain::SurfaceHit> ground = {}; ///< of a terrain
+        glm::dvec3 normal{0.0};                         ///< of a mesh's face: outwards, unit
     };
     /// The first visible terrain or mesh that a world ray hits, exactly; of a streamed terrain the
     /// overview (pick_ground() has its tiles).

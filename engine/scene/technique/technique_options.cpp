@@ -60,7 +60,7 @@ constexpr std::array<std::string_view, 3> shadow_words{"none", "hard", "soft"};
 constexpr std::array<std::string_view, 2> edges_words{"none", "smooth"};
 constexpr std::array<std::string_view, 2> sides_words{"one", "two"};
 constexpr std::array<std::string_view, 3> border_words{"wrap", "clamp", "discard"};
-constexpr std::array<std::string_view, 2> depth_words{"none", "write"};
+constexpr std::array<std::string_view, 3> depth_words{"objects", "none", "write"};
 constexpr std::array<std::string_view, 2> silhouettes_words{"none", "true"};
 
 // For an option that is off by default and on with the word at `place`.
@@ -101,6 +101,16 @@ void choose_shadow(TechniqueOptions& options, std::optional<std::size_t> word) {
 // The words of `border` are in the order of WrapMode.
 std::optional<std::size_t> chosen_border(const TechniqueOptions& options) {
     return options.border ? std::optional(static_cast<std::size_t>(*options.border)) : std::nullopt;
+}
+
+// The words of `depth` are in the order of HitDepth, the first is the default.
+std::optional<std::size_t> chosen_depth(const TechniqueOptions& options) {
+    const auto word = static_cast<std::size_t>(options.depth);
+    return word > 0 ? std::optional(word) : std::nullopt;
+}
+
+void choose_depth(TechniqueOptions& options, std::optional<std::size_t> word) {
+    options.depth = static_cast<HitDepth>(word.value_or(0));
 }
 
 void choose_border(TechniqueOptions& options, std::optional<std::size_t> word) {
@@ -212,11 +222,12 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .choose = choose_border,
       .reason_against = reason_against_border},
      {.name = "depth",
-      .default_value = "none",
-      .meaning = "write: writes the depth of the hit, so that meshes intersect the visible relief",
+      .default_value = "objects",
+      .meaning = "write: writes the depth of the hit, so that ground hides objects behind it; "
+                 "objects: on a terrain, if objects are in the view",
       .words = depth_words,
-      .chosen = chosen_if_on<&TechniqueOptions::writes_depth, 1>,
-      .choose = switch_on<&TechniqueOptions::writes_depth, 1>,
+      .chosen = chosen_depth,
+      .choose = choose_depth,
       .reason_against = reason_without_ray},
      {.name = "silhouettes",
       .default_value = "none",

@@ -43,6 +43,14 @@ struct SmoothEdges {
     friend bool operator==(const SmoothEdges&, const SmoothEdges&) = default;
 };
 
+/// When a search writes the depth of its hits. Otherwise the depth of a terrain is that of the box
+/// around it, so objects behind the ground are drawn over it.
+enum class HitDepth {
+    objects, ///< on a terrain, if objects are in the view
+    none,
+    write
+};
+
 /// What a technique does in addition to its search for the surface; by default nothing.
 struct TechniqueOptions {
     std::optional<StepRange> steps;
@@ -51,8 +59,8 @@ struct TechniqueOptions {
     std::optional<SmoothEdges> smooth_edges;
     bool two_sided = false;                   ///< seen from behind, too
     std::optional<material::WrapMode> border; ///< of a detail tile; absent: its material's
-    bool writes_depth = false;                ///< the depth of the hit
-    bool true_silhouettes = false;            ///< draws a mesh by a hull around its relief
+    HitDepth depth = HitDepth::objects;
+    bool true_silhouettes = false; ///< draws a mesh by a hull around its relief
     friend bool operator==(const TechniqueOptions&, const TechniqueOptions&) = default;
 };
 

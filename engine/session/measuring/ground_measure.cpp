@@ -41,6 +41,14 @@ std::vector<terrain::ProfilePoint> straight_profile(const scene::TerrainNode& te
     return points;
 }
 
+// Upwards, and outwards too where that is not out of the face: of walls, leaning ones, and
+// ceilings.
+glm::dvec3 lifted(const terrain::Placement& placement, const PickedPlace& place, double lift) {
+    const glm::dvec3 way = lift * placement.up(place.world);
+    const double missing = terrain::sight_tolerance - glm::dot(way, place.normal);
+    return place.world + way + std::max(0.0, missing) * place.normal;
+}
+
 } // namespace
 
 std::optional<terrain::SurfacePoint> ground_point(const scene::TerrainNode& terrain,
@@ -111,13 +119,13 @@ ground_profile(const scene::TerrainNode& terrain, glm::dvec3 from, glm::dvec3 to
     return points;
 }
 
-std::optional<PickedPlace> hidden_by(const TerrainScene& scene, glm::dvec3 from, glm::dvec3 to,
-                                     double height) {
+std::optional<PickedPlace> hidden_by(const TerrainScene& scene, const PickedPlace& from,
+                                     const PickedPlace& to, double height) {
     const terrain::Placement& placement =
         scene.terrain->get<scene::TerrainNode>()->surface->placement();
     const double lift = placement.exaggeration() * std::max(height, terrain::sight_tolerance);
-    const glm::dvec3 eye = from + lift * placement.up(from);
-    const glm::dvec3 target = to + lift * placement.up(to);
+    const glm::dvec3 eye = lifted(placement, from, lift);
+    const glm::dvec3 target = lifted(placement, to, lift);
     auto hit = pick_place(scene, {eye, target - eye});
     const bool is_between = hit && glm::distance(eye, hit->world) < glm::distance(eye, target);
     return is_between ? hit : std::nullopt;

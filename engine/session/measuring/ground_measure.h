@@ -33,9 +33,9 @@ Result<std::vector<terrain::ProfilePoint>> ground_profile(const scene::TerrainNo
                                                           int max_points = 20'000);
 
 /// What hides `to` from `from`: where the straight line first enters the ground or an object; empty
-/// if nothing does. Both are world places on the ground or on objects; they are lifted by `height`
-/// metres.
-std::optional<PickedPlace> hidden_by(const TerrainScene& scene, glm::dvec3 from, glm::dvec3 to,
-                                     double height);
+/// if nothing does. Both are lifted by `height` metres, and moved out of the face of the object
+/// that they are on, so that a wall does not hide its own points from those before it.
+std::optional<PickedPlace> hidden_by(const TerrainScene& scene, const PickedPlace& from,
+                                     const PickedPlace& to, double height);
 
 } // namespace reljef::session

@@ -1,5 +1,6 @@
 #include "app/viewer/measuring.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <thread>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,6 +121,35 @@ TEST(Measuring, ObjectsHideTheView) {
         EXPECT_THAT(*measuring.pick(on_ground(100.0, 0.0, -52.0)),
                     HasSubstr(has_block ? "hidden from each other by x -10.00 m, y 0.00 m: height"
                                         : "in sight"));
+    }
+}
+
+// A point on a wall is on either side of it by what rounds, and the way up is along the wall, or
+// into one that leans over it.
+TEST(Measuring, AWallHidesItsPointsFromBehindOnly) {
+    for (const double lean : {-0.1, 0.0, 0.1}) {
+        session::TerrainScene scene = slope_with_wall(0.0);
+        add_block(scene, {50.0, 0.0, -42.0});
+        scene.scene.root().children().back()->set_parent_from_local(
+            glm::rotate(glm::rotate(glm::translate(glm::dmat4(1.0), {50.0, 0.0, -42.0}), 0.3,
+                                    glm::dvec3(0.0, 0.0, 1.0)),
+                        lean, glm::dvec3(0.0, 1.0, 0.0)));
+        const std::array ground{on_ground(-100.0, 7.0, -12.0), on_ground(150.0, -3.0, -62.0)};
+        for (int i = 0; i < 200; ++i) {
+            const glm::dvec3 on_wall(50.0, -5.0 + 0.05 * i, -34.0 + 0.08 * i);
+            for (const auto& before : ground) {
+                const glm::dvec3 eye = before.world + glm::dvec3(0.0, 0.0, 40.0);
+                const auto picked = session::pick_place(scene, {eye, on_wall - eye});
+                ASSERT_TRUE(picked && picked->object == "block") << i;
+                for (const auto& other : ground) {
+                    const bool is_before = &other == &before;
+                    const auto there = session::hidden_by(scene, other, *picked, 2.0);
+                    const auto back = session::hidden_by(scene, *picked, other, 2.0);
+                    ASSERT_EQ(there.has_value(), !is_before) << i << ' ' << lean;
+                    ASSERT_EQ(back.has_value(), !is_before) << i << ' ' << lean;
+                }
+            }
+        }
     }
 }
 

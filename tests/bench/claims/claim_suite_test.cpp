@@ -1,5 +1,7 @@
 #include "bench/claims/claim_suite.h"
 
+#include <map>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -49,7 +51,10 @@ TEST_F(ClaimSuite, CopiesOfATileShowTheSamePlacesWithoutItsMemory) {
         EXPECT_GT(row("repeat", form, "texture").error.wrong_percent, 20.0) << form;
         EXPECT_LT(row("repeat", form, "relief").error.wrong_percent, 10.0) << form;
     }
+    EXPECT_EQ(row("repeat", "one terrain", "relief").nodes, 1U);
     EXPECT_EQ(row("repeat", "one tile", "relief").nodes, 9U);
+    EXPECT_GT(row("repeat", "one tile", "relief").bytes, 64U * 64U * sizeof(float))
+        << "its heights";
     EXPECT_LT(row("repeat", "one tile", "relief").bytes,
               row("repeat", "one terrain", "relief").bytes / 4);
 }
@@ -57,6 +62,8 @@ TEST_F(ClaimSuite, CopiesOfATileShowTheSamePlacesWithoutItsMemory) {
 TEST_F(ClaimSuite, ATextureOnLevelGroundShowsItExactlyWithFewerTaps) {
     const ClaimRow& everywhere = row("city only", "pieces", "exact");
     const ClaimRow& city_only = row("city only", "city only", "exact");
+    EXPECT_EQ(everywhere.nodes, 36U);
+    EXPECT_EQ(city_only.nodes, 36U);
     EXPECT_EQ(everywhere.error.wrong_percent, 0.0);
     EXPECT_EQ(city_only.error.wrong_percent, 0.0);
     EXPECT_LT(*city_only.taps, *everywhere.taps);
@@ -71,6 +78,18 @@ TEST_F(ClaimSuite, FourLayersShowBricksAsWellAsOne) {
     EXPECT_LT(row("layers", "detail texture", "multi").error.wrong_percent, 10.0);
 }
 
+// The second drawing of the first form is for the noise alone.
+TEST_F(ClaimSuite, EachFormOfATestHasOneRow) {
+    std::map<std::string, int> count;
+    for (const ClaimRow& row : results().rows) {
+        ++count[row.test];
+        EXPECT_GT(row.timing.ms.median, 0.0) << row.label;
+    }
+    EXPECT_THAT(count,
+                testing::ElementsAre(testing::Pair("city only", 8), testing::Pair("layers", 3),
+                                     testing::Pair("repeat", 8)));
+}
+
 TEST_F(ClaimSuite, ItsTableHasWhatFindingsRead) {
     const auto json = nlohmann::json::parse(figure_json(figure_table(results())));
     ASSERT_EQ(json["rows"].size(), results().rows.size());
@@ -80,7 +99,16 @@ TEST_F(ClaimSuite, ItsTableHasWhatFindingsRead) {
     EXPECT_EQ(first["pose"], "overview");
     EXPECT_TRUE(first["ms"]["median"].is_number());
     EXPECT_TRUE(first["objects"]["bytes"].is_number());
-    EXPECT_TRUE(first["error"]["wrong_percent"].is_number());
+    for (std::size_t i = 0; i < results().rows.size(); ++i) {
+        const ClaimRow& row = results().rows[i];
+        const auto& figures = json["rows"][i];
+        EXPECT_EQ(figures["form"], row.form);
+        EXPECT_EQ(figures["label"], row.label);
+        EXPECT_EQ(figures["nodes"], row.nodes);
+        EXPECT_EQ(figures["triangles"], row.timing.stats.triangles);
+        EXPECT_EQ(figures["error"]["wrong_percent"], row.error.wrong_percent);
+        EXPECT_EQ(figures["error"]["flip"], row.error.flip);
+    }
     EXPECT_TRUE(json["rows"].back()["taps"].is_null());
 }
 

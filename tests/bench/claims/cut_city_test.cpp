@@ -19,8 +19,27 @@ bool covers(const CityPiece& piece, int col, int row) {
     return place.x >= 0 && place.y >= 0 && place.x < heights.cols() && place.y < heights.rows();
 }
 
+// A colour for each cell.
+void expect_same_colors(const CutCity& city) {
+    const Image& whole = city.whole.surface->terrain().color;
+    ASSERT_EQ(whole.cols(), city.whole.surface->heightfield().heights.cols() - 1);
+    std::size_t cells = 0;
+    for (const CityPiece& piece : city.pieces) {
+        const Image& colors = piece.surface->terrain().color;
+        cells += colors.size();
+        for (int row = 0; row < colors.rows(); ++row) {
+            for (int col = 0; col < colors.cols(); ++col) {
+                ASSERT_EQ(colors(col, row), whole(piece.begin.x + col, piece.begin.y + row))
+                    << col << ' ' << row;
+            }
+        }
+    }
+    EXPECT_EQ(cells, whole.size());
+}
+
 // Every sample of the whole, in each piece that covers it: four at an inner corner.
 void expect_same_samples(const CutCity& city) {
+    expect_same_colors(city);
     const auto& heights = city.whole.surface->heightfield().heights;
     for (int row = 0; row < heights.rows(); ++row) {
         for (int col = 0; col < heights.cols(); ++col) {
@@ -82,6 +101,7 @@ TEST(CutCity, ItsNodesLieWhereTheWholeHasTheirSamples) {
             const auto in_whole = whole.height_at(x, y);
             ASSERT_TRUE(in_pieces && in_whole);
             EXPECT_NEAR(*in_pieces, *in_whole, 1e-6) << x << ' ' << y;
+            EXPECT_NEAR(*in_whole, *city->whole.surface->height_at(x, y), 1e-6) << x << ' ' << y;
         }
     }
 }

@@ -150,8 +150,8 @@ TEST(SettingsOfOptions, hold_each_choice_that_is_not_the_default) {
                 ElementsAre("relief:n=11,k=8,steps=8..32", "relief:n=11,k=8,fade=0..1",
                             "relief:n=11,k=8,shadow=hard", "relief:n=11,k=8,shadow=soft,0.2",
                             "relief:n=11,k=8,edges=smooth,0.005", "relief:n=11,k=8,sides=two",
-                            "relief:n=11,k=8,border=wrap", "relief:n=11,k=8,depth=write",
-                            "relief:n=11,k=8,silhouettes=true"));
+                            "relief:n=11,k=8,border=wrap", "relief:n=11,k=8,depth=none",
+                            "relief:n=11,k=8,depth=write", "relief:n=11,k=8,silhouettes=true"));
 }
 
 TEST(SettingsOfOptions, hold_every_option_there_is) {

@@ -187,7 +187,6 @@ class MeshFrameGlTest : public test::GlTest {};
 TEST_F(MeshFrameGlTest, MeshesAreThoseOfTheShaders) {
     ObjectStage stage(false);
     stage.add_billboards();
-    stage.terrain->get<scene::TerrainNode>()->material.technique.options.writes_depth = true;
     for (const bool is_map : {false, true}) {
         is_map ? stage.look_from_above() : stage.look_near();
         session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));

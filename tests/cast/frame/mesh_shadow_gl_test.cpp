@@ -26,9 +26,6 @@ protected:
         test::must(made.draw(stage.scene));
         return made.read_color();
     }
-    static void write_depth(ObjectStage& stage) {
-        stage.terrain->get<scene::TerrainNode>()->material.technique.options.writes_depth = true;
-    }
     static view::FrameStats stats_of(const ObjectStage& stage) {
         session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));
         return test::must(made.draw(stage.scene));
@@ -39,7 +36,6 @@ protected:
 TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
     for (const double altitude : {35.0, 50.0}) {
         ObjectStage stage;
-        write_depth(stage);
         stage.set_sun(altitude);
         for (const bool is_map : {false, true}) {
             is_map ? stage.look_from_above() : stage.look_near();
@@ -56,13 +52,11 @@ TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
 
 TEST_F(MeshShadowGlTest, AreThereWithSamplesAndOverStreams) {
     ObjectStage stage;
-    write_depth(stage);
     stage.set_sun(40.0);
     stage.look_near();
     const Image one = picture_of(stage);
     EXPECT_LE(test::share_of_others(picture_of(stage, mesh_picture, 4), one, 48), 0.06);
     ObjectStage streamed;
-    write_depth(streamed);
     streamed.set_sun(40.0);
     test::stream_samples(*streamed.terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
     streamed.look_near();
@@ -74,7 +68,6 @@ TEST_F(MeshShadowGlTest, AreThereWithSamplesAndOverStreams) {
 TEST_F(MeshShadowGlTest, LitFacesHaveNoDarkSpots) {
     for (const double altitude : {4.0, 30.0, 80.0}) {
         ObjectStage stage;
-        write_depth(stage);
         stage.set_sun(altitude);
         stage.remove_meshes();
         const glm::dvec3 ball(0.0, -20.0, 80.0);
@@ -84,7 +77,6 @@ TEST_F(MeshShadowGlTest, LitFacesHaveNoDarkSpots) {
         stage.look(test::camera_at(ball + 90.0 * scene::to_light(stage.sun), ball));
         const Image shadowed = picture_of(stage);
         stage.set_shadow(false);
-        write_depth(stage);
         const Image plain = picture_of(stage);
         int compared = 0;
         for (int row = 0; row < mesh_picture.y; ++row) {
@@ -105,7 +97,6 @@ TEST_F(MeshShadowGlTest, LitFacesHaveNoDarkSpots) {
 // The parts of a picture have the same maps, so all pixels are those of one piece.
 TEST_F(MeshShadowGlTest, PartsOfAPictureHaveNoSeam) {
     ObjectStage stage;
-    write_depth(stage);
     stage.set_sun(40.0);
     stage.look_near();
     const Image whole = picture_of(stage);
@@ -125,13 +116,33 @@ TEST_F(MeshShadowGlTest, PartsOfAPictureHaveNoSeam) {
     }
 }
 
+// A mesh beside the view, whose shadow falls into it or not.
+TEST_F(MeshShadowGlTest, OnlyShadowsThatMayBeSeenUploadTheirMeshes) {
+    const auto uploads_with = [](std::optional<glm::dvec3> place, bool has_shadows) {
+        ObjectStage stage(has_shadows);
+        stage.set_sun(40.0);
+        stage.look_near();
+        if (place) {
+            stage.scene.add_mesh(scene::sphere_mesh(9.0F)).set_position(*place);
+            EXPECT_EQ(view::select(stage.scene, mesh_picture).list.meshes_beside.size(), 1U);
+        }
+        return stats_of(stage).uploads;
+    };
+    ObjectStage stage;
+    stage.set_sun(40.0);
+    const glm::dvec3 sunwards = glm::dvec3(0.0, -40.0, 10.0) + 130.0 * scene::to_light(stage.sun);
+    const glm::dvec3 behind(60.0, -260.0, 20.0);
+    const auto uploads = uploads_with(std::nullopt, true);
+    EXPECT_EQ(uploads_with(sunwards, true), uploads + 2) << "vertices and indices";
+    EXPECT_EQ(uploads_with(behind, true), uploads);
+    EXPECT_EQ(uploads_with(sunwards, false), uploads_with(std::nullopt, false));
+}
+
 TEST_F(MeshShadowGlTest, WithoutMeshesOrTheOptionTheyCostNothing) {
     ObjectStage stage;
-    write_depth(stage);
     stage.look_near();
     const auto with = stats_of(stage);
     stage.set_shadow(false);
-    write_depth(stage);
     const auto without = stats_of(stage);
     EXPECT_GT(with.draws, without.draws) << "the maps";
     EXPECT_EQ(with.triangles, without.triangles);

@@ -185,7 +185,6 @@ TEST_F(PointLightsGlTest, LightMeshes) {
     stage.look(test::camera_at({-100.0, -360.0, ground + 60.0}, {-90.0, -260.0, ground}));
     const auto pictures = [&] {
         stage.node().material.technique = {scene::Exact{}};
-        stage.node().material.technique.options.writes_depth = true;
         return std::array{stage.drawn(), stage.truth(),
                           stage.drawn_by_opengl("polygons:error=0.1")};
     };

@@ -115,13 +115,9 @@ TEST(TechniqueOptions, AllOfThemAreReadInAnyOrderAmongTheParameters) {
         "relief:depth=write,n=12,steps=8..32,fade=0.2..1,3,k=7,shadow=soft,0.3,edges=smooth,0.05,"
         "sides=two,border=wrap");
     ASSERT_TRUE(technique) << technique.error().message;
-    const TechniqueOptions expected{StepRange{8, 32},
-                                    Fade{0.2, 1.0, 3.0},
-                                    Shadow{0.3},
-                                    SmoothEdges{0.05},
-                                    true,
-                                    material::WrapMode::wrap,
-                                    true};
+    const TechniqueOptions expected{
+        StepRange{8, 32},         Fade{0.2, 1.0, 3.0}, Shadow{0.3}, SmoothEdges{0.05}, true,
+        material::WrapMode::wrap, HitDepth::write};
     const Technique relief{Relief{.linear_steps = 12, .bisection_steps = 7}, expected};
     EXPECT_EQ(*technique, relief);
     EXPECT_EQ(to_string(*technique),
@@ -133,7 +129,7 @@ TEST(TechniqueOptions, NumbersThatAreLeftOutAreTheDefault) {
     EXPECT_EQ(parsed("exact:shadow=soft").shadow, Shadow{});
     EXPECT_EQ(parsed("exact:edges=smooth").smooth_edges, SmoothEdges{});
     EXPECT_EQ(parsed("exact:fade=0.2..0.9").fade, (Fade{0.2, 0.9, 1.0}));
-    EXPECT_EQ(parsed("exact:shadow=none,edges=none,sides=one,depth=none"), TechniqueOptions{});
+    EXPECT_EQ(parsed("exact:shadow=none,edges=none,sides=one,depth=objects"), TechniqueOptions{});
 }
 
 TEST(TechniqueOptions, EachWordOfTheBorderIsItsRule) {
@@ -222,7 +218,7 @@ TEST(TechniqueOptions, NumbersSayWhatIsNotAsMade) {
         text += number.name + ' ' + std::to_string(static_cast<int>(number.value)) + ';';
     }
     EXPECT_EQ(text, "steps.min 4;steps.max 9;fade.min 0;fade.max 1;fade.k 1;shadow.M 0;border 2;"
-                    "depth 1;");
+                    "depth 2;");
 }
 
 TEST(TechniqueOptions, BorderOfWhatFollowsNoRayIsItsMaterials) {

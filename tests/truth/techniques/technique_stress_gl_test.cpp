@@ -46,8 +46,9 @@ std::vector<std::string> techniques_with_and_without() {
                 option.name == "shadow" ? scene::Shadow{0.2} : technique.options.shadow;
             technique.options.smooth_edges =
                 option.name == "edges" ? scene::SmoothEdges{0.05} : technique.options.smooth_edges;
-            technique.options.writes_depth =
-                option.name == "depth" || technique.options.writes_depth;
+            if (option.name == "depth") {
+                technique.options.depth = scene::HitDepth::write;
+            }
         }
         if (technique.options != scene::TechniqueOptions{}) {
             all.push_back(to_string(technique));
@@ -154,7 +155,7 @@ scene::TechniqueOptions any_options(scene::TechniqueId id, test::Chance& chance)
         } else if (option.name == "edges") {
             options.smooth_edges = scene::SmoothEdges{chance.between(0.001, 0.2)};
         } else if (option.name == "depth") {
-            options.writes_depth = true;
+            options.depth = scene::HitDepth::write;
         }
     }
     return options;
@@ -183,7 +184,7 @@ TEST_F(TechniqueStressGlTest, AnyOptionsGoTogetherAndShadingMovesNoHit) {
         expect_finite(stage, text, "by chance");
         technique.options.shadow.reset();
         technique.options.smooth_edges.reset();
-        technique.options.writes_depth = false;
+        technique.options.depth = scene::HitDepth::none;
         EXPECT_TRUE(same_hits(stage.hits(text), stage.hits(to_string(technique)))) << text;
     }
 }
