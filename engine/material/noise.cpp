@@ -20,7 +20,7 @@ float mix(float a, float b, float t) {
 }
 
 std::int32_t wrap(std::int32_t cell, std::int32_t period) {
-    if (period <= 0) {
+    if (period <= 0 || (cell >= 0 && cell < period)) { // mostly: a division takes longer
         return cell;
     }
     const std::int32_t rest = cell % period;
@@ -112,11 +112,14 @@ VoronoiCell voronoi(std::uint32_t seed, glm::vec2 point, int period, float jitte
     const glm::ivec2 square(glm::floor(point));
     glm::ivec2 nearest = square;
     glm::vec2 place = seed_point(seed, square, period, jitter);
+    float distance = glm::distance(point, place);
     for_each_near(square, 1, [&](glm::ivec2 cell) {
         const glm::vec2 other = seed_point(seed, cell, period, jitter);
-        if (glm::distance(point, other) < glm::distance(point, place)) {
+        const float other_distance = glm::distance(point, other);
+        if (other_distance < distance) {
             nearest = cell;
             place = other;
+            distance = other_distance;
         }
     });
     float to_edge = std::numeric_limits<float>::max();

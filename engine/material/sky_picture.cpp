@@ -40,17 +40,21 @@ glm::dvec3 direction_of(const FacePlace& place) {
     return direction;
 }
 
+// Divides only outside.
+int wrapped(int col, int cols) {
+    return col >= 0 && col < cols ? col : (col % cols + cols) % cols;
+}
+
 // Middles of texels are at whole columns and rows.
 glm::vec3 bilinear_color(const Image& picture, glm::dvec2 texel, bool wraps) {
     const glm::dvec2 low = glm::floor(texel);
     const glm::vec2 part(texel - low);
     const glm::ivec2 first(low);
-    const auto at = [&](int col, int row) {
-        const int turned = (col % picture.cols() + picture.cols()) % picture.cols();
-        return linear_from_rgba8(picture.clamped(wraps ? turned : col, row));
-    };
+    const int left = wraps ? wrapped(first.x, picture.cols()) : first.x;
+    const int right = wraps ? wrapped(first.x + 1, picture.cols()) : first.x + 1;
     const auto line = [&](int row) {
-        return glm::mix(at(first.x, row), at(first.x + 1, row), part.x);
+        return glm::mix(linear_from_rgba8(picture.clamped(left, row)),
+                        linear_from_rgba8(picture.clamped(right, row)), part.x);
     };
     return glm::mix(line(first.y), line(first.y + 1), part.y);
 }

@@ -94,8 +94,10 @@ TEST_F(StreamedImagery, is_mixed_with_the_colours_by_height) {
     };
     const Image full = drawn("full.png", imagery);
     const Image plain = drawn("plain.png", {});
-    EXPECT_EQ(mixed("1"), full);
-    EXPECT_EQ(mixed("0"), plain);
+    for (int i = 0; i < test::rounds(1, 0); ++i) {
+        EXPECT_EQ(mixed("1"), full);
+        EXPECT_EQ(mixed("0"), plain);
+    }
     const Image half = mixed("0.5");
     for (const glm::ivec2 at : {glm::ivec2(2, 60), glm::ivec2(157, 60)}) {
         const auto between = [&](std::uint8_t Rgba8::*channel) {

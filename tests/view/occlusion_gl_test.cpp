@@ -139,12 +139,12 @@ TEST_P(Occlusion, ThePictureIsTheSameWhereNearerGroundOfTheEarthHidesTiles) {
 
 TEST_P(Occlusion, ThePictureOfAGlobeIsTheSameWithoutItsFarSide) {
     EXPECT_GT(
-        compare("polygons:error=1", 8, 7, test::closed_globe(700, 0.5, 0.5, 7), view_of_globe), 50);
+        compare("polygons:error=1", 8, 7, test::closed_globe(400, 0.5, 0.5, 7), view_of_globe), 50);
     const int far_tiles = GetParam() == test::SampleSource::memory ? 20 : 2; // coarse ones: few
     EXPECT_GT(
-        compare("polygons:error=8", 8, 8, test::closed_globe(500, 0.0, 0.5, 8), view_of_globe),
+        compare("polygons:error=8", 8, 8, test::closed_globe(300, 0.0, 0.5, 8), view_of_globe),
         far_tiles);
-    EXPECT_GT(compare("polygons", 2, 9, test::closed_globe(500, 1.0, 1.0, 9), view_of_globe), 5);
+    EXPECT_GT(compare("polygons", 2, 9, test::closed_globe(300, 1.0, 1.0, 9), view_of_globe), 5);
 }
 
 TEST_P(Occlusion, NothingIsLeftOutWhereLevelsGoByDistanceOrNothingIsSolid) {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr glm::ivec2 globe_picture{96, 72};
 constexpr double globe_bound = 1.0; // pixels
-constexpr std::size_t memory_of_globe_truth = std::size_t{8} << 20U;
+constexpr std::size_t memory_of_globe_truth = std::size_t{4} << 20U;
 
 /// An ESRI grid of whole metres, and its coordinate system. Its cells are square.
 void write(const test::MadeGlobe& globe, const test::TemporaryFolder& folder) {
@@ -48,7 +48,7 @@ protected:
         RELJEF_RELEASE_ONLY("draws dozens of views");
         write(GetParam(), folder_);
         choice_.terrain = (folder_.path() / "globe.asc").string();
-        choice_.memory_megabytes = 4;
+        choice_.memory_megabytes = 2;
         choice_.streamed = true;
         choice_.index = session::IndexUse::made;
     }
@@ -101,7 +101,7 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
     auto device =
         session::Device::create({.context = session::BackendKind::osmesa, .size = globe_picture});
     ASSERT_TRUE(device) << device.error().message;
-    session::DeviceFrames frames(std::move(*device), silent, {.memory_megabytes = 4});
+    session::DeviceFrames frames(std::move(*device), silent, {.memory_megabytes = 2});
     auto truth = truth::StreamedTruth::create(scene->scene, memory_of_globe_truth);
     ASSERT_TRUE(truth) << truth.error().message;
     const terrain::Placement& placement =
@@ -133,10 +133,10 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
 
 INSTANTIATE_TEST_SUITE_P(
     Globes, GlobeError,
-    testing::Values(test::MadeGlobe{.cols = 1100, .rows = 550},
-                    test::MadeGlobe{.cols = 1000, .rows = 501, .on_lines = true},
-                    test::MadeGlobe{.cols = 1000, .rows = 501, .on_lines = true, .repeats = true},
-                    test::MadeGlobe{.cols = 1008, .rows = 420, .has_poles = false}));
+    testing::Values(test::MadeGlobe{.cols = 700, .rows = 350},
+                    test::MadeGlobe{.cols = 640, .rows = 321, .on_lines = true},
+                    test::MadeGlobe{.cols = 640, .rows = 321, .on_lines = true, .repeats = true},
+                    test::MadeGlobe{.cols = 648, .rows = 270, .has_poles = false}));
 
 } // namespace
 } // namespace reljef::app

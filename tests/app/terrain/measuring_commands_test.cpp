@@ -113,9 +113,9 @@ TEST_F(MeasuringCommands, ViewshedFromNowhereWritesNothing) {
             test::reljef({"viewshed", dem_, "--from", from, "-o", path("none.tif")}), 2,
             {"--from"});
     }
-    test::expect_refusal(
-        test::reljef({"viewshed", "natural", "--from", "0,0", "-o", path("none.tif")}), 1,
-        {"no place on Earth"});
+    test::expect_refusal(test::reljef({"viewshed", test::small_terrain(folder_, "natural"),
+                                       "--from", "0,0", "-o", path("none.tif")}),
+                         1, {"no place on Earth"});
     test::expect_refusal(
         test::reljef({"viewshed", dem_, "--from", "0.03,0.03", "-o", path("none.xyz")}), 2,
         {"-o", "none.xyz"});
