@@ -371,15 +371,10 @@ struct TrueLook {
     Floats t; // without the shifts of `look`
 };
 
-HWY_INLINE TrueLook no_walls() {
-    const Floats never = all(std::numeric_limits<float>::infinity());
-    return {no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
-}
-
 // The walls below the terrain: in front of all ground.
 HWY_INLINE TrueLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    TrueLook walls = no_walls();
+    TrueLook walls{no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
     const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
                         hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
     const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
@@ -447,12 +442,9 @@ HWY_NOINLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
 template <class Mode, class StartOf>
 HWY_INLINE TrueLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
                                      const PixelOffsets& pixels, const StartOf& start_of) {
-    TrueLook walls = no_walls();
-    if (!paint.walls.empty()) {
-        walls = wall_look_of(paint, pixels);
-        if (hn::AllTrue(floats, walls.found)) {
-            return walls;
-        }
+    const TrueLook walls = wall_look_of(paint, pixels);
+    if (hn::AllTrue(floats, walls.found)) {
+        return walls;
     }
     const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
     return {walls.found,
