@@ -123,8 +123,12 @@ private:
     std::vector<Step> steps_;
 };
 
-std::uint8_t darkened(std::uint8_t channel, float share) {
-    return static_cast<std::uint8_t>(share * static_cast<float>(channel) + 0.5F);
+// Shares of colours in whole numbers.
+constexpr unsigned share_bits = 16;
+constexpr unsigned whole = 1U << share_bits;
+
+std::uint8_t darkened(std::uint8_t channel, unsigned share) {
+    return static_cast<std::uint8_t>((channel * share + whole / 2) >> share_bits);
 }
 
 } // namespace
@@ -144,7 +148,8 @@ void shade_eye_dome(GridView<Rgba8> picture, const Grid<float>& depths, const Dr
             dome.find_darkness(row, darkness);
             for (int col = 0; col < picture.cols(); ++col) {
                 Rgba8& color = picture(col, row);
-                const float share = 1.0F - strength * darkness[static_cast<std::size_t>(col)];
+                const float left = 1.0F - strength * darkness[static_cast<std::size_t>(col)];
+                const auto share = static_cast<unsigned>(left * static_cast<float>(whole));
                 color = {darkened(color.r, share), darkened(color.g, share),
                          darkened(color.b, share), color.a};
             }
