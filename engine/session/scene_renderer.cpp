@@ -228,12 +228,20 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
         return by_rays.error();
     }
     const view::FrameView& frame = selector_.selected();
-    auto stats = *by_rays ? rays_->draw(frame) : opengl_->draw(frame, wait);
+    Stopwatch watch;
+    view::ContourLabels labels = labels_of_frame();
+    // The depths of a frame are kept or drawn only if something needs them.
+    const bool needs_depths =
+        frame.list.eye_dome > 0.0 || (!labels.labels.empty() && !frame.list.meshes.empty());
+    const double searching = watch.milliseconds();
+    auto stats = *by_rays ? rays_->draw(frame, needs_depths) : opengl_->draw(frame, wait);
     if (stats) {
         view::add_mesh_error(*stats);
-        if (auto drawn = draw_over(*stats); !drawn) {
+        watch = Stopwatch();
+        if (auto drawn = draw_over(std::move(labels), needs_depths); !drawn) {
             return drawn.error();
         }
+        stats->cpu_ms += searching + watch.milliseconds();
         const bool was_drawn = std::exchange(drawn_, selector_.count()) == selector_.count();
         stats->skipped.selections_unchanged = was_drawn ? 1 : 0;
         stats->cpu_ms += was_drawn ? 0.0 : selector_.milliseconds();
@@ -241,29 +249,32 @@ Result<view::FrameStats> SceneRenderer::draw_selected(bool wait) {
     return stats;
 }
 
-// The depths of a frame are drawn only if something needs them.
-Result<void> SceneRenderer::draw_over(view::FrameStats& stats) {
-    const Stopwatch drawing;
-    const view::FrameView& frame = selector_.selected();
-    view::ContourLabels labels = labels_of_frame();
-    const bool is_shaded = frame.list.eye_dome > 0.0;
-    if (is_shaded || (!labels.labels.empty() && !frame.list.meshes.empty())) {
-        const auto drawn = shows_rays_ ? rays_->draw_hits(frame) : opengl_->draw_hits(frame);
+Result<void> SceneRenderer::draw_over(view::ContourLabels labels, bool needs_depths) {
+    if (needs_depths && shows_rays_) {
+        draw_eye_dome(rays_->depths(), labels);
+    } else if (needs_depths) {
+        const auto drawn = opengl_->draw_hits(selector_.selected());
         if (!drawn) {
             return drawn.error();
         }
-        std::erase_if(labels.labels, [&](const view::ContourLabel& label) {
-            return view::is_covered(label, labels.digit_height, drawn->hits);
-        });
-        if (is_shaded) {
-            paint_over({{0, 0}, size_}, [&](GridView<Rgba8> picture) {
-                view::shade_eye_dome(picture, drawn->hits, frame.list);
-            });
-        }
+        Grid<float> depths(size_.x, size_.y);
+        std::ranges::transform(drawn->hits.samples(), depths.samples().begin(), &Hit::depth);
+        draw_eye_dome(depths, labels);
     }
     draw_labels(labels);
-    stats.cpu_ms += drawing.milliseconds();
     return {};
+}
+
+// Drops covered labels.
+void SceneRenderer::draw_eye_dome(const Grid<float>& depths, view::ContourLabels& labels) {
+    std::erase_if(labels.labels, [&](const view::ContourLabel& label) {
+        return view::is_covered(label, labels.digit_height, depths);
+    });
+    const view::DrawList& list = selector_.selected().list;
+    if (list.eye_dome > 0.0) {
+        paint_over({{0, 0}, size_},
+                   [&](GridView<Rgba8> picture) { view::shade_eye_dome(picture, depths, list); });
+    }
 }
 
 view::ContourLabels SceneRenderer::labels_of_frame() const {

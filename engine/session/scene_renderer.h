@@ -116,8 +116,9 @@ private:
     Result<void> prepare_opengl();
     void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
-    Result<void> draw_over(view::FrameStats& stats);
     [[nodiscard]] view::ContourLabels labels_of_frame() const;
+    Result<void> draw_over(view::ContourLabels labels, bool needs_depths);
+    void draw_eye_dome(const Grid<float>& depths, view::ContourLabels& labels);
     void draw_labels(const view::ContourLabels& labels);
     void paint_over(const scene::PicturePart& area,
                     const std::function<void(GridView<Rgba8>)>& paint);

@@ -30,6 +30,12 @@ Grid<float> labelled_slope() {
     return test::made_heights(129, 129, [](int col, int row) { return col + 5.0 * (128 - row); });
 }
 
+Grid<float> depths_of(const HitBuffer& hits) {
+    Grid<float> depths(hits.cols(), hits.rows());
+    std::ranges::transform(hits.samples(), depths.samples().begin(), &Hit::depth);
+    return depths;
+}
+
 class SceneRendererWithRays : public test::GlTest {
 protected:
     static SceneRenderer make_renderer() {
@@ -59,9 +65,9 @@ TEST_F(SceneRendererWithRays, EyeDomeDarkensWhatLiesBehind) {
         const Image plain = drawn(0.0);
         const Image domed = drawn(0.8);
         EXPECT_EQ(drawn(0.8), domed);
-        const HitBuffer hits = test::must(renderer.draw_hits(scene.scene));
+        const Grid<float> depths = depths_of(test::must(renderer.draw_hits(scene.scene)));
         Image expected = plain;
-        view::shade_eye_dome(expected.view(), hits, renderer.selector().selected().list);
+        view::shade_eye_dome(expected.view(), depths, renderer.selector().selected().list);
         EXPECT_EQ(domed, expected);
         EXPECT_NE(domed, plain);
         EXPECT_EQ(drawn(0.0), plain);

@@ -412,7 +412,7 @@ Result<view::PictureWork> Driver::count_work(const view::FrameView& frame) {
     return count(streamed.list, placed_tiles(streamed, true, stats));
 }
 
-Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
+Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool keeps_depths) {
     const Stopwatch watch;
     if (auto possible = check_support(frame.list); !possible) {
         return possible.error();
@@ -429,6 +429,11 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame) {
         return meshes.error();
     }
     painting.meshes = meshes->get();
+    const glm::ivec2 kept = keeps_depths ? size() : glm::ivec2(0);
+    if (glm::ivec2(depths_.cols(), depths_.rows()) != kept) {
+        depths_ = Grid<float>(kept.x, kept.y);
+    }
+    painting.depths = keeps_depths ? &depths_ : nullptr;
     paint(streamed.list, placed, painting);
     stats.rays = ray_count(streamed.list, placed);
     stats.tiles = tile_count(streamed.list, placed);

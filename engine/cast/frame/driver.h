@@ -63,9 +63,9 @@ public:
     /// Fails on a size that is out of range, and as view::check_samples().
     static Result<Driver> create(const DriverOptions& options = {});
 
-    /// Draws a frame of size(), and has finished when it returns. Fails as check_support() and
-    /// MeshTrees::place().
-    Result<view::FrameStats> draw(const view::FrameView& frame);
+    /// Draws a frame of size(), and has finished when it returns. `keeps_depths`: for depths().
+    /// Fails as check_support() and MeshTrees::place().
+    Result<view::FrameStats> draw(const view::FrameView& frame, bool keeps_depths = false);
     Result<view::DrawnHits> draw_hits(const view::FrameView& frame);
     /// What each pixel of draw() costs with one sample: exactly what its rays read of the ground,
     /// and their steps. Without the few steps of the beams of whole blocks (RaySkips::free_space).
@@ -75,6 +75,10 @@ public:
     [[nodiscard]] const Image& read_color() const { return first_.picture; }
     /// The same, to draw over it.
     [[nodiscard]] Image& picture() { return first_.picture; }
+
+    /// Hit::depth of the hits of the last frame; infinite on walls below terrains. Precondition:
+    /// the last draw() kept them.
+    [[nodiscard]] const Grid<float>& depths() const { return depths_; }
 
     /// Takes the light of a terrain that was computed before.
     Result<void> add_light(const view::PreparedLight& prepared);
@@ -126,6 +130,7 @@ private:
     DriverOptions options_;
     FirstSamples first_; // its picture becomes that of all samples
     Image picture_;      // while samples are drawn
+    Grid<float> depths_; // empty unless they are kept
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     view::PictureRounding rounding_;
     TileContents streamed_;

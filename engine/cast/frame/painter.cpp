@@ -90,6 +90,15 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
     }
 }
 
+void write_depths(const BlockPixels& pixels, const PixelBlock& block, double anchor,
+                  Grid<float>& depths) {
+    for (int row = 0; row < block.size.y; ++row) {
+        const float* const from = pixels.t.data() + static_cast<std::size_t>(row) * block_side;
+        std::transform(from, from + block.size.x, &depths(block.first.x, block.first.y + row),
+                       [anchor](float t) { return static_cast<float>(anchor + t); });
+    }
+}
+
 } // namespace
 
 Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
@@ -100,13 +109,15 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
       corner_(view::dither_origin(list.camera, list.size)), picture_{-list.camera.first,
                                                                      scene::whole_picture(
                                                                          list.camera, list.size)},
-      first_(first), jobs_(static_cast<std::size_t>(block_count(list.size))) {
-    shared_.anchor =
-        placed.tiles.empty() ? 0.0F : static_cast<float>(placed.tiles.front().rays.anchor);
+      first_(first), depths_(options.depths),
+      anchor_(placed.tiles.empty() ? 0.0 : placed.tiles.front().rays.anchor),
+      jobs_(static_cast<std::size_t>(block_count(list.size))) {
+    shared_.anchor = static_cast<float>(anchor_);
     const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
     samples_.samples = static_cast<int>(places.size());
     shared_.is_perspective = first.is_perspective;
     shared_.needs_nearness = has_samples();
+    shared_.needs_t = depths_ != nullptr;
     shared_.grain = options.grain;
     shared_.facades = options.facades;
     shared_.sky = options.sky;
@@ -128,6 +139,9 @@ void Painter::paint(const PixelBlock& block, std::size_t index) {
     paint.meshes = meshes ? &values : nullptr;
     kernel_.paint({jobs, placed_.has_walls}, paint, pixels);
     write_block(pixels, block, first_.picture);
+    if (depths_ != nullptr) {
+        write_depths(pixels, block, anchor_, *depths_);
+    }
     if (samples_.samples > 1) {
         first_.write_nearness(pixels, block, picture_);
         jobs_[index] = std::move(jobs);

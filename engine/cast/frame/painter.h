@@ -27,6 +27,8 @@ struct PainterOptions {
     const SkyPaint* sky = nullptr;        ///< null: no picture; outlives the painter
     ContourPaint contours = {};
     glm::mat3 world_from_normal{1.0F}; ///< BlockPaint::world_from_normal
+    /// Hit::depth of the picture's pixels; null: not needed. Outlives the painter.
+    Grid<float>* depths = nullptr;
 };
 
 /// Draws the blocks of a picture. May be called from several threads for different blocks.
@@ -36,7 +38,7 @@ public:
     Painter(const view::DrawList& list, const PlacedTiles& placed, const PainterOptions& options,
             FirstSamples& first);
 
-    /// Into the picture of the first samples.
+    /// Into the picture of the first samples, and the depths.
     void paint(const PixelBlock& block, std::size_t index);
     /// Returns the taps of the block's beams.
     [[nodiscard]] std::size_t count(const PixelBlock& block, std::size_t index,
@@ -63,6 +65,8 @@ private:
     glm::vec2 corner_;                             // see view::dither_origin()
     PixelBlock picture_;                           // a part may reach beyond its picture
     FirstSamples& first_;
+    Grid<float>* depths_;                     // null: not needed
+    double anchor_;                           // of the rays
     std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
     SampledPixels samples_;
 };

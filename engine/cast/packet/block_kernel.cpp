@@ -138,10 +138,15 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
         const auto start_of = [&](const BlockJob& job)
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
-        const Look look = look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
-        store(ints, bytes_of(look.color), col, row, pixels.rgba.data());
+        const TrueLook shown =
+            look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
+        store(ints, bytes_of(shown.look.color), col, row, pixels.rgba.data());
         if (paint.needs_nearness) {
-            store(floats, nearness_of(paint, look.t), col, row, pixels.nearness.data());
+            store(floats, nearness_of(paint, shown.look.t), col, row, pixels.nearness.data());
+        }
+        if (paint.needs_t) {
+            const Floats of_hits = hn::IfThenElse(shown.found, all(nowhere), shown.t);
+            store(floats, of_hits, col, row, pixels.t.data());
         }
     });
 }
@@ -162,7 +167,7 @@ void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) 
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
         const Work found =
-            look_of<Counted>(jobs, paint, offsets_of(col, row), start_of, mesh_values).work;
+            look_of<Counted>(jobs, paint, offsets_of(col, row), start_of, mesh_values).look.work;
         store(ints, found.taps, col, row, work.taps.data());
         store(ints, found.steps, col, row, work.steps.data());
         store(ints, found.rays, col, row, work.rays.data());
@@ -265,7 +270,7 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         const auto number = static_cast<std::size_t>(first.pixel * sampled.samples + first.sample);
         const auto mesh_values = [&](const float* of)
                                      HWY_ATTR { return hn::LoadU(floats, of + number); };
-        const Look look = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values);
+        const Look look = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values).look;
         first = add_samples(look.color, sampled, first, sums);
     }
 }

@@ -244,6 +244,7 @@ struct BlockPaint {
     float per_height = 0.0F;
     bool is_perspective = true;
     bool needs_nearness = false;
+    bool needs_t = false;
     bool has_sky = false;
     const SkyPaint* sky = nullptr; ///< null: no picture, but the colours that follow
     glm::vec3 horizon{0.0F};       ///< linear
@@ -271,6 +272,7 @@ struct BlockPaint {
 struct BlockPixels {
     alignas(64) std::array<std::uint32_t, block_pixels> rgba;
     alignas(64) std::array<float, block_pixels> nearness; ///< of the hits; see FirstSamples
+    alignas(64) std::array<float, block_pixels> t; ///< of the hits, as BlockHits::t; not of walls
 };
 
 /// What the rays of a block cost, row after row.

@@ -364,21 +364,17 @@ HWY_INLINE Floats inside_of(const WallTriangle& wall, const PixelOffsets& pixels
                                   between(pixels.down, wall.low.y, wall.high.y)));
 }
 
-struct WallLook {
-    Lanes found;
+// Walls, or all that a packet shows.
+struct TrueLook {
+    Lanes found; // walls, and no mesh before them
     Look look;
-    Floats t; // true
+    Floats t; // without the shifts of `look`
 };
 
-HWY_INLINE WallLook no_walls() {
-    const Floats never = all(std::numeric_limits<float>::infinity());
-    return {no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
-}
-
 // The walls below the terrain: in front of all ground.
-HWY_INLINE WallLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
+HWY_INLINE TrueLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pixels) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    WallLook walls = no_walls();
+    TrueLook walls{no_lanes(), {all(glm::vec3(0.0F)), never, Work::nothing()}, never};
     const glm::vec2 low(hn::GetLane(hn::MinOfLanes(floats, pixels.right)),
                         hn::GetLane(hn::MinOfLanes(floats, pixels.down)));
     const glm::vec2 high(hn::GetLane(hn::MaxOfLanes(floats, pixels.right)),
@@ -444,14 +440,11 @@ HWY_NOINLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
 
 // Ground behind walls.
 template <class Mode, class StartOf>
-HWY_INLINE WallLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
+HWY_INLINE TrueLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
                                      const PixelOffsets& pixels, const StartOf& start_of) {
-    WallLook walls = no_walls();
-    if (!paint.walls.empty()) {
-        walls = wall_look_of(paint, pixels);
-        if (hn::AllTrue(floats, walls.found)) {
-            return walls;
-        }
+    const TrueLook walls = wall_look_of(paint, pixels);
+    if (hn::AllTrue(floats, walls.found)) {
+        return walls;
     }
     const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
     return {walls.found,
@@ -462,14 +455,14 @@ HWY_INLINE WallLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& pa
 
 // Meshes in front of or behind all else. `mesh_values(values)`: those of the packet's pixels.
 template <class MeshValues>
-HWY_INLINE Look with_meshes(const WallLook& behind, const BlockPaint& paint,
-                            const PixelOffsets& pixels, const MeshValues& mesh_values) {
+HWY_INLINE TrueLook with_meshes(const TrueLook& behind, const BlockPaint& paint,
+                                const PixelOffsets& pixels, const MeshValues& mesh_values) {
     const BlockMeshes& meshes = *paint.meshes;
     const Floats t = mesh_values(meshes.t);
     const Floats never = all(std::numeric_limits<float>::infinity());
     const Lanes found = hn::And(hn::Le(t, behind.t), hn::Lt(t, never));
     if (hn::AllFalse(floats, found)) {
-        return behind.look;
+        return behind;
     }
     Color color{mesh_values(meshes.color[0]), mesh_values(meshes.color[1]),
                 mesh_values(meshes.color[2])};
@@ -479,18 +472,22 @@ HWY_INLINE Look with_meshes(const WallLook& behind, const BlockPaint& paint,
         color = through_air(paint, angles_of(paint, view), color, hn::Mul(depth, view.length));
     }
     const Floats nearer = hn::Sub(hn::Mul(depth, mesh_values(meshes.nearness)), all(paint.anchor));
-    return {chosen(found, color, behind.look.color), hn::IfThenElse(found, nearer, behind.look.t),
-            behind.look.work};
+    return {hn::AndNot(found, behind.found),
+            {chosen(found, color, behind.look.color), hn::IfThenElse(found, nearer, behind.look.t),
+             behind.look.work},
+            hn::IfThenElse(found, t, behind.t)};
 }
 
 template <class Mode, class StartOf, class MeshValues>
-HWY_INLINE Look look_of(const BlockJobs& jobs, const BlockPaint& paint, const PixelOffsets& pixels,
-                        const StartOf& start_of, const MeshValues& mesh_values) {
+HWY_INLINE TrueLook look_of(const BlockJobs& jobs, const BlockPaint& paint,
+                            const PixelOffsets& pixels, const StartOf& start_of,
+                            const MeshValues& mesh_values) {
     if (paint.walls.empty() && paint.meshes == nullptr) {
-        return ground_look_of<Mode>(jobs, paint, pixels, start_of);
+        const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
+        return {no_lanes(), ground, ground.t};
     }
-    const WallLook behind = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
-    return paint.meshes == nullptr ? behind.look : with_meshes(behind, paint, pixels, mesh_values);
+    const TrueLook behind = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
+    return paint.meshes == nullptr ? behind : with_meshes(behind, paint, pixels, mesh_values);
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

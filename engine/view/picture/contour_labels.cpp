@@ -327,14 +327,14 @@ double digit_height(const DrawList& list, double magnification) {
 
 } // namespace
 
-bool is_covered(const ContourLabel& label, double digit_height, const HitBuffer& hits) {
+bool is_covered(const ContourLabel& label, double digit_height, const Grid<float>& depths) {
     const glm::dvec2 half = 0.5 * digit_height * text_strokes(label.text).width * label.along;
     for (const glm::dvec2 place : {label.middle - half, label.middle, label.middle + half}) {
         const glm::ivec2 pixel(glm::floor(place));
         const bool is_inside =
-            pixel.x >= 0 && pixel.y >= 0 && pixel.x < hits.cols() && pixel.y < hits.rows();
+            pixel.x >= 0 && pixel.y >= 0 && pixel.x < depths.cols() && pixel.y < depths.rows();
         if (is_inside &&
-            static_cast<double>(hits(pixel.x, pixel.y).depth) < label.depth - label.depth_reach) {
+            static_cast<double>(depths(pixel.x, pixel.y)) < label.depth - label.depth_reach) {
             return true;
         }
     }

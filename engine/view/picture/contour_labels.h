@@ -5,7 +5,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "engine/core/hit.h"
+#include "engine/core/grid.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::view {
@@ -37,7 +37,7 @@ struct ContourLabels {
 ContourLabels contour_labels(const DrawList& list, double magnification = 1.0);
 
 /// Whether something nearer than the ground covers a label's middle or an end: a mesh. Places
-/// outside the hits count as free.
-bool is_covered(const ContourLabel& label, double digit_height, const HitBuffer& hits);
+/// outside the picture count as free. `depths`: Hit::depth of its pixels.
+bool is_covered(const ContourLabel& label, double digit_height, const Grid<float>& depths);
 
 } // namespace reljef::view

@@ -18,6 +18,7 @@
 #include "engine/truth/image_error.h"
 #include "engine/view/sample_count.h"
 #include "tests/cast/frame/compared_pictures.h"
+#include "tests/cast/frame/object_stage.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/made_stream.h"
@@ -167,6 +168,42 @@ TEST(CastDriver, ABaseIsHiddenFromWithinAndLeavesHitsAsTheyAre) {
               0);
     stage.look_from(scene::Pose::low);
     EXPECT_EQ(drawn_by_rays(stage.scene), bare);
+}
+
+// Of ground, sky and meshes, with several samples too.
+TEST(CastDriver, AFrameKeepsTheDepthsOfItsHits) {
+    ObjectStage stage;
+    scene::Camera camera = test::camera_at({-150.0, -260.0, 40.0}, {0.0, 0.0, 0.0});
+    for (const auto kind :
+         {scene::ProjectionKind::perspective, scene::ProjectionKind::orthographic}) {
+        camera.projection = kind;
+        camera.view_height = 200.0;
+        stage.look(camera);
+        const view::FrameView frame = view::select(stage.scene, small_picture);
+        for (const int samples : {1, 4}) {
+            Driver driver = test::must(Driver::create({.size = small_picture, .samples = samples}));
+            const HitBuffer hits = test::must(driver.draw_hits(frame)).hits;
+            test::must(driver.draw(frame, true));
+            ASSERT_EQ(driver.depths().size(), hits.size());
+            int grounds = 0;
+            int skies = 0;
+            int meshes = 0;
+            for (std::size_t i = 0; i < hits.size(); ++i) {
+                const Hit& hit = hits.samples()[i];
+                const float depth = driver.depths().samples()[i];
+                const bool is_mesh = !hit.is_sky() && hit.col < 0.0F;
+                ++(hit.is_sky() ? skies : is_mesh ? meshes : grounds);
+                if (is_mesh) { // found in double precision
+                    ASSERT_NEAR(depth, hit.depth, 1e-6 * hit.depth);
+                } else {
+                    ASSERT_EQ(depth, hit.depth);
+                }
+            }
+            EXPECT_GT(std::min({grounds, skies, meshes}), 500);
+            test::must(driver.draw(frame));
+            EXPECT_TRUE(driver.depths().empty());
+        }
+    }
 }
 
 // The middle row of a level view of odd height, and all rows of a level view without perspective:

@@ -1,6 +1,7 @@
 #include "engine/view/picture/eye_dome.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -24,24 +25,24 @@ DrawList list_of(const scene::Camera& camera, double strength = 1.0) {
 }
 
 // What rays see of a plane through a point; behind the eye, and where it is parallel: sky.
-HitBuffer hits_of_plane(const scene::Camera& camera, glm::dvec3 point, glm::dvec3 normal) {
-    HitBuffer hits(domed_picture.x, domed_picture.y);
+Grid<float> depths_of_plane(const scene::Camera& camera, glm::dvec3 point, glm::dvec3 normal) {
+    Grid<float> depths(domed_picture.x, domed_picture.y, std::numeric_limits<float>::infinity());
     for (int row = 0; row < domed_picture.y; ++row) {
         for (int col = 0; col < domed_picture.x; ++col) {
             const Ray ray = scene::view_ray(camera, domed_picture, {col + 0.5, row + 0.5});
             const double along = glm::dot(ray.direction, normal);
             const double t = along != 0.0 ? glm::dot(point - ray.origin, normal) / along : -1.0;
             if (t > 0.0) {
-                hits(col, row).depth = static_cast<float>(t);
+                depths(col, row) = static_cast<float>(t);
             }
         }
     }
-    return hits;
+    return depths;
 }
 
-Image shaded(const HitBuffer& hits, const DrawList& list) {
-    Image picture(hits.cols(), hits.rows(), pale);
-    shade_eye_dome(picture.view(), hits, list);
+Image shaded(const Grid<float>& depths, const DrawList& list) {
+    Image picture(depths.cols(), depths.rows(), pale);
+    shade_eye_dome(picture.view(), depths, list);
     return picture;
 }
 
@@ -62,8 +63,8 @@ TEST(EyeDome, PlanesKeepTheirColourAtAnyAngle) {
             camera.projection = scene::ProjectionKind::orthographic;
             camera.view_height = 80.0;
         }
-        const HitBuffer hits = hits_of_plane(camera, {0.0, 0.0, 0.0}, normal);
-        const Image picture = shaded(hits, list_of(camera));
+        const Grid<float> depths = depths_of_plane(camera, {0.0, 0.0, 0.0}, normal);
+        const Image picture = shaded(depths, list_of(camera));
         for (const Rgba8 color : picture.samples()) {
             ASSERT_EQ(color, pale) << i;
         }
@@ -73,15 +74,15 @@ TEST(EyeDome, PlanesKeepTheirColourAtAnyAngle) {
 // Ground beside a higher plateau: dark at its foot, as before elsewhere and above.
 TEST(EyeDome, TheFootOfAStepIsDark) {
     const scene::Camera map = level_map();
-    HitBuffer hits = hits_of_plane(map, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+    Grid<float> depths = depths_of_plane(map, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
     constexpr int edge = 48;
     for (int row = 0; row < domed_picture.y; ++row) {
         for (int col = edge; col < domed_picture.x; ++col) {
-            hits(col, row).depth -= 50.0F;
+            depths(col, row) -= 50.0F;
         }
     }
     for (const double strength : {0.5, 1.0}) {
-        const Image picture = shaded(hits, list_of(map, strength));
+        const Image picture = shaded(depths, list_of(map, strength));
         const auto at = [&](int col) { return picture(col, domed_picture.y / 2).r; };
         EXPECT_LT(at(edge - 1), pale.r * (1.0 - 0.6 * strength));
         EXPECT_GE(at(edge - 1), pale.r * (1.0 - strength));
@@ -94,8 +95,8 @@ TEST(EyeDome, TheFootOfAStepIsDark) {
 
 TEST(EyeDome, TheSkyKeepsItsColour) {
     const scene::Camera camera = test::camera_at({0.0, -100.0, 3.0}, {0.0, 0.0, 3.0});
-    const HitBuffer hits = hits_of_plane(camera, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
-    const Image picture = shaded(hits, list_of(camera));
+    const Grid<float> depths = depths_of_plane(camera, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0});
+    const Image picture = shaded(depths, list_of(camera));
     for (int col = 0; col < domed_picture.x; ++col) {
         EXPECT_EQ(picture(col, 0), pale);
         EXPECT_EQ(picture(col, domed_picture.y / 2 - 1), pale);
