@@ -2,7 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
+#include <glad/gl.h>
+
+#include "engine/gl/fence.h"
 #include "engine/gl/read_pixels.h"
 #include "engine/gl/state.h"
 #include "tests/gl/gl_fixture.h"
@@ -67,6 +71,34 @@ TEST_F(DrawGlTest, instances_step_the_divided_attribute) {
         EXPECT_EQ(pixels(0, 1).r, 1.0F);
         EXPECT_EQ(pixels(1, 0).r, count == 2 ? 1.0F : 0.0F);
     }
+}
+
+using FenceGlTest = test::GlTest;
+
+TEST_F(FenceGlTest, work_before_it_is_done_after_waiting) {
+    const Framebuffer target = test::float_target({512, 512});
+    const Program program =
+        test::cover_program("void main() { color = sin(gl_FragCoord.xyxy) * 0.5; }");
+    target.bind();
+    GLuint query = 0;
+    glCreateQueries(GL_SAMPLES_PASSED, 1, &query);
+    glBeginQuery(GL_SAMPLES_PASSED, query);
+    test::cover(program);
+    glEndQuery(GL_SAMPLES_PASSED);
+    Fence::after_commands().wait();
+    GLint is_done = GL_FALSE;
+    glGetQueryObjectiv(query, GL_QUERY_RESULT_AVAILABLE, &is_done);
+    EXPECT_EQ(is_done, GL_TRUE);
+    glDeleteQueries(1, &query);
+}
+
+TEST_F(FenceGlTest, default_and_moved_ones_are_passed) {
+    Fence().wait();
+    Fence fence = Fence::after_commands();
+    const Fence other = std::move(fence);
+    other.wait();
+    fence = Fence();
+    fence.wait();
 }
 
 } // namespace

@@ -11,7 +11,7 @@ constexpr unsigned making_threads = 1; // drawing has the others
 
 bool LevelSwitch::update() {
     const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
-    const bool is_wanted = scene_.mesh_levels && !has_failed_ && !scene_.objects.empty() &&
+    const bool is_needed = scene_.mesh_levels && !has_failed_ && !scene_.objects.empty() &&
                            scene::error_bound(terrain.material.technique) > 0.0;
     if (making_) {
         if (!making_->is_done()) {
@@ -27,7 +27,7 @@ bool LevelSwitch::update() {
         session::set_levels(scene_.objects, *made);
         return true;
     }
-    auto meshes = is_wanted ? session::meshes_without_levels(scene_.objects)
+    auto meshes = is_needed ? session::meshes_without_levels(scene_.objects)
                             : std::vector<session::ObjectMesh>();
     if (!meshes.empty()) {
         making_.emplace([meshes = std::move(meshes), this](const std::stop_token& stop) {
