@@ -253,18 +253,22 @@ private:
         return {};
     }
 
-    // Bricks are solid below their heights, which four layers show as well.
+    // Bricks are solid below their heights, which four layers show as well. One layer is measured
+    // with its own steps, and with those of four.
     Result<void> run_layers() {
         SuiteOptions quiet = options_.suite;
         quiet.quiet = true;
-        Results measured = run_suite(
-            {.name = "layers",
-             .groups = {{.test = "layers",
-                         .scene = {.terrain = "gallery", .detail = "brick"},
-                         .pose = scene::Pose::oblique,
-                         .candidates = candidates_of({{scene::Relief{}}, {scene::MultiLayer{}}})}},
-             .may_leave_out = false},
-            quiet, stop_);
+        Results measured =
+            run_suite({.name = "layers",
+                       .groups = {{.test = "layers",
+                                   .scene = {.terrain = "gallery", .detail = "brick"},
+                                   .pose = scene::Pose::oblique,
+                                   .candidates = candidates_of(
+                                       {{scene::Relief{}},
+                                        {scene::Relief{.linear_steps = 32, .bisection_steps = 6}},
+                                        {scene::MultiLayer{}}})}},
+                       .may_leave_out = false},
+                      quiet, stop_);
         if (measured.failed) {
             return *measured.stopped;
         }

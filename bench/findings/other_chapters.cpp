@@ -162,8 +162,13 @@ Chapter options_chapter() {
          "more time than relief on the same surface",
          {ratio("bricks", Quantity::ms,
                 claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
-                claim("tile brick", "oblique", "detail texture", relief), at_least(1.0))},
-         "with 32 steps for layers, and 11 for relief"},
+                claim("tile brick", "oblique", "detail texture", relief), at_least(1.0)),
+          ratio("bricks, as many steps", Quantity::ms,
+                claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
+                claim("tile brick", "oblique", "detail texture",
+                      {scene::Relief{.linear_steps = 32, .bisection_steps = 6}}),
+                at_least(1.0))},
+         "layers take 32 steps, relief 11 or 32"},
     };
     return chapter;
 }

@@ -86,7 +86,7 @@ TEST_F(ClaimSuite, EachFormOfATestHasOneRow) {
         EXPECT_GT(row.timing.ms.median, 0.0) << row.label;
     }
     EXPECT_THAT(count,
-                testing::ElementsAre(testing::Pair("city only", 8), testing::Pair("layers", 3),
+                testing::ElementsAre(testing::Pair("city only", 8), testing::Pair("layers", 4),
                                      testing::Pair("repeat", 8)));
 }
 

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <string>
+
+#include <fmt/format.h>
 
 namespace reljef::test {
 
@@ -32,5 +36,27 @@ inline std::string triangle_gltf(const std::string& buffer_uri) {
 /// The buffer of triangle_gltf(), which lies in the file.
 inline const std::string triangle_data = "data:application/octet-stream;base64,"
                                          "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAAAAABAAIA";
+
+/// A ball of 10 m with 4 · rings² triangles.
+inline std::string ball_obj(int rings) {
+    const int around = 2 * rings;
+    std::string text;
+    for (int row = 0; row <= rings; ++row) {
+        const double down = std::numbers::pi * row / rings;
+        for (int col = 0; col < around; ++col) {
+            const double turn = std::numbers::pi * col / rings;
+            text += fmt::format("v {} {} {}\n", 5.0 * std::sin(down) * std::cos(turn),
+                                5.0 * std::cos(down), 5.0 * std::sin(down) * std::sin(turn));
+        }
+    }
+    for (int row = 0; row < rings; ++row) {
+        for (int col = 0; col < around; ++col) {
+            const int a = row * around + col + 1;
+            const int b = row * around + (col + 1) % around + 1;
+            text += fmt::format("f {0} {1} {2} {3}\n", a, b, b + around, a + around);
+        }
+    }
+    return text;
+}
 
 } // namespace reljef::test

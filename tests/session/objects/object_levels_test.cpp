@@ -1,38 +1,13 @@
 // Objects with many triangles have levels of detail where the ground keeps an error bound.
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "engine/session/objects/object_levels.h"
+#include "tests/io/mesh/made_mesh.h"
 #include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::session {
 namespace {
-
-// 10 m wide, with 4 · rings² triangles, as an OBJ file.
-std::string ball_obj(int rings) {
-    const int around = 2 * rings;
-    std::string text;
-    for (int row = 0; row <= rings; ++row) {
-        const double down = std::numbers::pi * row / rings;
-        for (int col = 0; col < around; ++col) {
-            const double turn = std::numbers::pi * col / rings;
-            text += fmt::format("v {} {} {}\n", 5.0 * std::sin(down) * std::cos(turn),
-                                5.0 * std::cos(down), 5.0 * std::sin(down) * std::sin(turn));
-        }
-    }
-    for (int row = 0; row < rings; ++row) {
-        for (int col = 0; col < around; ++col) {
-            const int a = row * around + col + 1;
-            const int b = row * around + (col + 1) % around + 1;
-            text += fmt::format("f {0} {1} {2} {3}\n", a, b, b + around, a + around);
-        }
-    }
-    return text;
-}
 
 class ObjectLevels : public testing::Test {
 protected:
@@ -45,7 +20,7 @@ protected:
         SceneOptions view;
         view.technique = scene::parse_technique(technique).value();
         view.mesh_levels = mesh_levels;
-        view.objects = {{folder_.write("ball.obj", ball_obj(rings)), glm::dvec2(1.0, 2.0)}};
+        view.objects = {{folder_.write("ball.obj", test::ball_obj(rings)), glm::dvec2(1.0, 2.0)}};
         Log silent;
         return open_scene(source, view, silent);
     }

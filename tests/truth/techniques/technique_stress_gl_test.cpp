@@ -184,7 +184,7 @@ TEST_F(TechniqueStressGlTest, AnyOptionsGoTogetherAndShadingMovesNoHit) {
         expect_finite(stage, text, "by chance");
         technique.options.shadow.reset();
         technique.options.smooth_edges.reset();
-        technique.options.depth = scene::HitDepth::none;
+        technique.options.depth = scene::HitDepth::objects;
         EXPECT_TRUE(same_hits(stage.hits(text), stage.hits(to_string(technique)))) << text;
     }
 }
