@@ -7,7 +7,6 @@
 #include "engine/cast/frame/driver.h"
 #include "engine/io/cache/disk_cache.h"
 #include "engine/material/tile_cones.h"
-#include "engine/session/objects/object_levels.h"
 
 namespace reljef::session {
 namespace {
@@ -204,12 +203,18 @@ void apply_maps(TerrainScene& scene, const PreparedMaps& maps) {
     }
 }
 
-Result<void> add_levels(const TerrainScene& scene, int threads, Log& log,
-                        const std::stop_token& stop) {
+std::vector<ObjectMesh> missing_levels(const TerrainScene& scene) {
+    if (!scene.mesh_levels || scene.objects.empty()) {
+        return {};
+    }
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const bool is_bounded = scene::error_bound(terrain.material.technique) > 0.0;
-    const auto meshes = scene.mesh_levels && is_bounded ? meshes_without_levels(scene.objects)
-                                                        : std::vector<ObjectMesh>();
+    return is_bounded ? meshes_without_levels(scene.objects) : std::vector<ObjectMesh>();
+}
+
+Result<void> add_levels(const TerrainScene& scene, int threads, Log& log,
+                        const std::stop_token& stop) {
+    const auto meshes = missing_levels(scene);
     if (meshes.empty()) {
         return {};
     }

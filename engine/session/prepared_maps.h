@@ -4,12 +4,14 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/material/cone_map.h"
 #include "engine/material/relief_material.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/log.h"
+#include "engine/session/objects/object_levels.h"
 #include "engine/session/scene_setup.h"
 #include "engine/terrain/mesh/bisection.h"
 #include "engine/view/terrain_maps.h"
@@ -61,8 +63,10 @@ Result<PreparedMaps> prepare_maps(const MissingMaps& missing, int threads, Log& 
 /// Puts the maps, except the light, into the scene they were made for.
 void apply_maps(TerrainScene& scene, const PreparedMaps& maps);
 
-/// Makes the levels of detail that objects lack, if the ground keeps an error bound. Fails after a
-/// stop request.
+/// The meshes that need levels of detail and lack them; none if the ground keeps no error bound.
+std::vector<ObjectMesh> missing_levels(const TerrainScene& scene);
+
+/// Makes missing_levels(). Fails after a stop request.
 Result<void> add_levels(const TerrainScene& scene, int threads, Log& log,
                         const std::stop_token& stop);
 

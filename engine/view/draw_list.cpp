@@ -36,7 +36,6 @@ const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
     return draw.level == 0 ? draw.mesh->mesh : (*draw.mesh->levels)[draw.level - 1].mesh;
 }
 
-// The corners of triangles beside the picture are rounded more than what is seen.
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     const scene::MeshNode& mesh = *draw.mesh;
     if (mesh.levels == nullptr || mesh.material.detail.set != nullptr || !(max_error > 0.0)) {
@@ -47,6 +46,7 @@ MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
         return draw;
     }
     const PictureError seen(list.camera, list.size, draw.world_from_local);
+    // The corners of triangles beside the picture are rounded more than what is seen.
     const double of_corners = left.of_operations * (seen.depth_ratio(draw.local_bounds) - 1.0);
     for (std::size_t level = mesh.levels->size(); level > 0; --level) {
         const double error =

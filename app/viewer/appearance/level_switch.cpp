@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "engine/session/prepared_maps.h"
+
 namespace reljef::app {
 namespace {
 
@@ -10,9 +12,6 @@ constexpr unsigned making_threads = 1; // drawing has the others
 } // namespace
 
 bool LevelSwitch::update() {
-    const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
-    const bool is_needed = scene_.mesh_levels && !has_failed_ && !scene_.objects.empty() &&
-                           scene::error_bound(terrain.material.technique) > 0.0;
     if (making_) {
         if (!making_->is_done()) {
             return false;
@@ -27,8 +26,8 @@ bool LevelSwitch::update() {
         session::set_levels(scene_.objects, *made);
         return true;
     }
-    auto meshes = is_needed ? session::meshes_without_levels(scene_.objects)
-                            : std::vector<session::ObjectMesh>();
+    auto meshes =
+        has_failed_ ? std::vector<session::ObjectMesh>() : session::missing_levels(scene_);
     if (!meshes.empty()) {
         making_.emplace([meshes = std::move(meshes), this](const std::stop_token& stop) {
             const auto task = log_.start("making levels of detail of objects");

@@ -222,7 +222,7 @@ glm::dvec3 normal_at(const Mesh& mesh, std::size_t first, const Corners& corners
     return length > 0.0 ? sum / length : glm::dvec3(mesh.normals[mesh.indices[first]]);
 }
 
-// The largest result of `measure(i)`, i < count. Empty if stopped.
+// The largest result of `measure(begin, end)` for the items [0, count) in blocks. Empty if stopped.
 template <class Measure>
 std::optional<double> largest_of(std::size_t count, const Measure& measure,
                                  const ParallelOptions& options) {

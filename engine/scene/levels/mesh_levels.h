@@ -8,7 +8,7 @@
 
 namespace reljef::scene {
 
-/// Meshes with fewer triangles do not draw faster, because they have few anyway.
+/// Meshes with fewer triangles are drawn fast without levels.
 inline constexpr std::size_t min_triangles_with_levels = 4096;
 
 /// Ever coarser meshes of a mesh, each with about a quarter of the triangles of the one before, as
