@@ -43,7 +43,7 @@ void add_numbers(CLI::App& command, const char* name, std::vector<Number>& numbe
 void add_objects_options(CLI::App& command, ObjectsChoice& choice) {
     command
         .add_option("--terrain", choice.options.terrains,
-                    "urban, or a scene file of bare ground with [[footprints]] on a surface model; "
+                    "urban, or a scene file of bare ground with [[footprints]]; "
                     "may be repeated (urban)")
         ->type_name("TERRAIN")
         ->allow_extra_args(false);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
 
 #include "app/cli/console_log.h"
+#include "bench/objects/city_heights.h"
 #include "engine/io/formats/scene_file.h"
 
 namespace reljef::bench {
@@ -16,32 +18,14 @@ namespace {
 
 using building::CityForm;
 
-Result<io::SceneDescription> description_of(const CityChoice& choice, CityForm form) {
-    if (choice.terrain == "urban") {
-        io::SceneDescription urban;
-        urban.name = fmt::format("urban {}", choice.size);
-        urban.generator = "urban";
-        urban.size = choice.size;
-        urban.buildings = form;
-        urban.walls = building::CityWalls::stepped;
-        return urban;
-    }
-    auto scene = io::read_scene_file(choice.terrain);
-    if (!scene) {
-        return scene;
-    }
-    const auto on_surface =
-        std::find_if(scene->footprints.begin(), scene->footprints.end(),
-                     [](const auto& footprints) { return !footprints.surface.empty(); });
-    if (on_surface == scene->footprints.end()) {
-        return Error{fmt::format("{}: no footprints on a surface model found, some were expected",
-                                 choice.terrain)};
-    }
-    if (form == CityForm::heights) {
-        scene->heights = on_surface->surface;
-        scene->footprints.clear();
-    }
-    return scene;
+io::SceneDescription urban(int size, CityForm form) {
+    io::SceneDescription description;
+    description.name = fmt::format("urban {}", size);
+    description.generator = "urban";
+    description.size = size;
+    description.buildings = form;
+    description.walls = building::CityWalls::stepped;
+    return description;
 }
 
 // Buildings have windows; what stands on their roofs has none.
@@ -64,23 +48,25 @@ bool is_of_mesh(const Hit& hit) {
 
 } // namespace
 
-Result<void> CityForms::open_form(const CityChoice& choice, CityForm form,
-                                  const std::stop_token& stop) {
-    auto description = description_of(choice, form);
-    if (!description) {
-        return description.error();
-    }
-    name_ = description->name;
+Result<session::TerrainSource> CityForms::open_source(io::SceneDescription description,
+                                                      const std::stop_token& stop) const {
+    cli::ConsoleLog log(options_.quiet);
+    return session::open_terrain(std::move(description), source_options(), log, stop);
+}
+
+session::SourceOptions CityForms::source_options() const {
     session::SourceOptions options;
     options.threads = options_.threads;
     options.placement = terrain::PlacementKind::plane;
+    return options;
+}
+
+Result<void> CityForms::set_up(CityForm form, session::TerrainSource source,
+                               const std::stop_token& stop) {
+    name_ = source.description.name;
+    buildings_ = std::max(buildings_, buildings_in(source));
     cli::ConsoleLog log(options_.quiet);
-    auto source = session::open_terrain(std::move(*description), options, log, stop);
-    if (!source) {
-        return source.error();
-    }
-    buildings_ = std::max(buildings_, buildings_in(*source));
-    auto scene = session::make_scene(std::move(*source), options, {}, log, stop);
+    auto scene = session::make_scene(std::move(source), source_options(), {}, log, stop);
     if (!scene) {
         return scene.error();
     }
@@ -91,17 +77,68 @@ Result<void> CityForms::open_form(const CityChoice& choice, CityForm form,
     return {};
 }
 
+Result<void> CityForms::open_urban(int size, const std::stop_token& stop) {
+    for (const CityForm form : {CityForm::heights, CityForm::meshes, CityForm::meshes_only}) {
+        auto source = open_source(urban(size, form), stop);
+        if (!source) {
+            return source.error();
+        }
+        if (auto done = set_up(form, std::move(*source), stop); !done) {
+            return done;
+        }
+    }
+    return {};
+}
+
+// The heights are made from the meshes: a scanned surface model has trees and other roofs, which
+// would count as errors of what draws it.
+Result<void> CityForms::open_scene_file(const std::string& file, const std::stop_token& stop) {
+    auto description = io::read_scene_file(file);
+    if (!description) {
+        return description.error();
+    }
+    if (description->footprints.empty()) {
+        return Error{fmt::format("{}: no footprints found, some were expected", file)};
+    }
+    const std::filesystem::path scanned = description->footprints.front().surface;
+    auto city = open_source(*description, stop);
+    if (!city) {
+        return city.error();
+    }
+    if (auto done = set_up(CityForm::meshes, std::move(*city), stop); !done) {
+        return done;
+    }
+    description->footprints.clear();
+    auto ground = open_source(*description, stop);
+    if (!ground) {
+        return ground.error();
+    }
+    auto heights =
+        heights_of_city(*slot(CityForm::meshes), static_cast<unsigned>(options_.threads), stop);
+    if (!heights) {
+        return Error{fmt::format("{}: {}", file, heights.error().message)};
+    }
+    terrain::Heightfield& field = ground->terrain.heightfield;
+    field.heights = std::move(*heights);
+    field.range = terrain::height_range(field.heights, field.void_mask);
+    if (!scanned.empty()) {
+        description->heights = scanned;
+        const auto scan = open_source(*description, stop);
+        if (!scan) {
+            return scan.error();
+        }
+        note_ = scan_difference(name_, scan->terrain.heightfield, field);
+    }
+    return set_up(CityForm::heights, std::move(*ground), stop);
+}
+
 Result<CityForms> CityForms::open(const CityChoice& choice, const SuiteOptions& options,
                                   const std::stop_token& stop) {
     CityForms city(choice.terrain, options);
-    std::vector<CityForm> forms{CityForm::heights, CityForm::meshes};
-    if (choice.terrain == "urban") {
-        forms.push_back(CityForm::meshes_only);
-    }
-    for (const CityForm form : forms) {
-        if (auto opened = city.open_form(choice, form, stop); !opened) {
-            return opened.error();
-        }
+    auto opened = choice.terrain == "urban" ? city.open_urban(choice.size, stop)
+                                            : city.open_scene_file(choice.terrain, stop);
+    if (!opened) {
+        return opened.error();
     }
     if (city.buildings_ == 0) {
         return Error{fmt::format("{}: no building found, some were expected", city.name_)};

@@ -18,7 +18,7 @@
 
 namespace reljef::bench {
 
-/// A city to measure: `urban` of a size, or a scene file with footprints on a surface model.
+/// A city to measure: `urban` of a size, or a scene file of bare ground with footprints.
 struct CityChoice {
     std::string terrain = "urban";
     int size = 0; ///< of urban, samples; half a metre each
@@ -33,6 +33,8 @@ public:
                                   const std::stop_token& stop);
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// How far a scanned surface model is from the city; absent: there is none.
+    [[nodiscard]] const std::optional<std::string>& note() const { return note_; }
     [[nodiscard]] std::size_t buildings() const { return buildings_; }
     [[nodiscard]] bool has(building::CityForm form) const { return slot(form).has_value(); }
     /// Precondition: has(form).
@@ -66,12 +68,18 @@ private:
     [[nodiscard]] const scene::TerrainSurface& surface(building::CityForm form) const {
         return *slot(form)->terrain->get<scene::TerrainNode>()->surface;
     }
-    Result<void> open_form(const CityChoice& choice, building::CityForm form,
-                           const std::stop_token& stop);
+    [[nodiscard]] session::SourceOptions source_options() const;
+    [[nodiscard]] Result<session::TerrainSource> open_source(io::SceneDescription description,
+                                                             const std::stop_token& stop) const;
+    Result<void> open_urban(int size, const std::stop_token& stop);
+    Result<void> open_scene_file(const std::string& file, const std::stop_token& stop);
+    Result<void> set_up(building::CityForm form, session::TerrainSource source,
+                        const std::stop_token& stop);
     [[nodiscard]] HitBuffer on_terrain(const HitBuffer& hits) const;
 
     std::string name_;
     SuiteOptions options_;
+    std::optional<std::string> note_;
     std::size_t buildings_ = 0;
     std::array<std::optional<session::TerrainScene>, 3> forms_; // by CityForm
     std::optional<truth::SceneCaster> caster_;                  // of the form meshes

@@ -137,6 +137,9 @@ public:
                 parts_done_ += views.size();
                 continue;
             }
+            if (city->note()) {
+                note(*city->note());
+            }
             for (const ObjectsView& view : views) {
                 if (stop_.stop_requested()) {
                     return {};
