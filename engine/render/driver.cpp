@@ -100,8 +100,9 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     }
     stats.cpu_ms = whole.milliseconds();
     if (wait) {
-        if (options_.software && samples_of(list, size(), options_.samples) > 1) {
-            // Averaging the samples waited for the renderer; gpu_ms contains that time.
+        if (options_.software) {
+            // Its vertices are computed, and parts of it are waited for, while it is submitted:
+            // gpu_ms contains that time.
             stats.cpu_ms -= drawing.milliseconds();
         }
         gl::wait_until_drawn();

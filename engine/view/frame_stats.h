@@ -81,7 +81,9 @@ struct FrameStats {
     };
     Skipped skipped;
 
-    double cpu_ms = 0.0; ///< uploads and submission; with the selection if the caller adds it
+    /// Uploads and submission; with the selection if the caller adds it. Without the submission to a
+    /// software renderer whose end is waited for, so that the sum of both is the time of a frame.
+    double cpu_ms = 0.0;
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
 };
 
