@@ -100,7 +100,11 @@ Result<void> CityForms::open_scene_file(const std::string& file, const std::stop
     if (description->footprints.empty()) {
         return Error{fmt::format("{}: no footprints found, some were expected", file)};
     }
-    const std::filesystem::path scanned = description->footprints.front().surface;
+    const auto on_surface =
+        std::find_if(description->footprints.begin(), description->footprints.end(),
+                     [](const auto& footprints) { return !footprints.surface.empty(); });
+    const std::filesystem::path scanned =
+        on_surface != description->footprints.end() ? on_surface->surface : "";
     auto city = open_source(*description, stop);
     if (!city) {
         return city.error();

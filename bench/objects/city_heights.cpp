@@ -64,10 +64,10 @@ std::string scan_difference(const std::string& city, const terrain::Heightfield&
         ++count;
     }
     const double samples = std::max(static_cast<double>(count), 1.0);
-    return fmt::format("{}: the scanned surface model is {:.3g} m RMS from the ground with its "
-                       "buildings, and over {:.3g} m at {:.1f} % of the samples: trees, and roofs "
-                       "that are not flat. Heights are those of ground and buildings, so that all "
-                       "forms are one city",
+    return fmt::format("{}: the scanned surface model differs from the ground with its buildings "
+                       "by {:.3g} m RMS, and by more than {:.3g} m at {:.1f} % of the samples. "
+                       "Heights are those of ground and buildings, without what else was scanned "
+                       "(trees), so that all forms are one city",
                        city, std::sqrt(squares / samples), spacing,
                        100.0 * static_cast<double>(far) / samples);
 }

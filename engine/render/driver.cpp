@@ -101,8 +101,7 @@ Result<view::FrameStats> Driver::draw(const view::FrameView& frame, bool wait) {
     stats.cpu_ms = whole.milliseconds();
     if (wait) {
         if (options_.software) {
-            // Its vertices are computed, and parts of it are waited for, while it is submitted:
-            // gpu_ms contains that time.
+            // It draws while commands are submitted: gpu_ms contains that time.
             stats.cpu_ms -= drawing.milliseconds();
         }
         gl::wait_until_drawn();

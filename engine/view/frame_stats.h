@@ -81,8 +81,8 @@ struct FrameStats {
     };
     Skipped skipped;
 
-    /// Uploads and submission; with the selection if the caller adds it. Without the submission to a
-    /// software renderer whose end is waited for, so that the sum of both is the time of a frame.
+    /// Uploads and submission; with the selection if the caller adds it. In a timed frame of a
+    /// software renderer gpu_ms contains the submission, so that cpu_ms + gpu_ms is its time.
     double cpu_ms = 0.0;
     double gpu_ms = 0.0; ///< from submission to the end of drawing; only if measured
 };

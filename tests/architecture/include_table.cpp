@@ -191,7 +191,7 @@ const std::map<std::string_view, Names>& named_rooms() {
           "engine/io/formats", "engine/scene/technique"}},
         {"bench/objects",
          {"app/cli", "bench/report", "bench/runner", "engine/building", "engine/core",
-          "engine/io/formats", "engine/session", "engine/truth"}},
+          "engine/io/formats", "engine/session", "engine/terrain/field", "engine/truth"}},
         {"bench/findings",
          {"app/cli", "bench/report", "bench/suites", "engine/core", "engine/scene/technique"}},
         {"bench/baselines/embree", {"engine/core", "engine/scene/graph"}},

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "engine/core/stopwatch.h"
 #include "engine/render/driver.h"
 #include "engine/scene/motion/poses.h"
 #include "tests/gl/gl_fixture.h"

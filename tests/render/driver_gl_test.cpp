@@ -1,3 +1,4 @@
+#include "engine/core/stopwatch.h"
 #include "engine/render/driver.h"
 
 #include <algorithm>
@@ -168,6 +169,8 @@ TEST_F(DriverGlTest, NoPartOfAFrameIsTimedTwice) {
         const Stopwatch whole;
         const view::FrameStats stats = test::must(made.draw(world.scene, true));
         EXPECT_LE(stats.cpu_ms + stats.gpu_ms, whole.milliseconds());
+        EXPECT_GE(stats.cpu_ms, 0.0);
+        EXPECT_GT(stats.gpu_ms, 0.0);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "engine/scene/graph/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -153,6 +154,20 @@ Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Co
     camera.target = eye + std::cos(p) * ahead + std::sin(p) * upward;
     camera.up = std::cos(p) * upward - std::sin(p) * ahead;
     return camera;
+}
+
+double heading_of(glm::dvec3 direction, const Compass& compass) {
+    const ViewAxes level = view_axes(camera_from_angles(glm::dvec3(0.0), 0.0, 0.0, compass));
+    return glm::degrees(
+        std::atan2(glm::dot(direction, level.right), glm::dot(direction, level.forward)));
+}
+
+ViewAngles angles_of(const Camera& camera, const Compass& compass) {
+    const ViewAxes axes = view_axes(camera);
+    const double rise = std::clamp(glm::dot(axes.forward, compass.up), -1.0, 1.0);
+    const bool is_upright = glm::length(glm::cross(axes.forward, compass.up)) >= parallel_sine;
+    const glm::dvec3 ahead = is_upright ? axes.forward : -std::copysign(1.0, rise) * axes.up;
+    return {heading_of(ahead, compass), glm::degrees(std::asin(rise))};
 }
 
 } // namespace reljef::scene

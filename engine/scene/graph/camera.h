@@ -87,4 +87,15 @@ struct Compass {
 Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch,
                           const Compass& compass = {});
 
+/// Degrees clockwise from north, of the horizontal part of a direction.
+double heading_of(glm::dvec3 direction, const Compass& compass);
+
+/// Degrees clockwise from north, and above the horizon.
+struct ViewAngles {
+    double heading = 0.0;
+    double pitch = 0.0;
+};
+/// Of a view straight up or down, up in the picture is the heading.
+ViewAngles angles_of(const Camera& camera, const Compass& compass);
+
 } // namespace reljef::scene

@@ -33,13 +33,6 @@ Compass compass_at(glm::dvec3 world, const GestureWorld& in) {
     return compass;
 }
 
-// Clockwise from north, degrees, of the horizontal part.
-double heading_of(glm::dvec3 direction, const Compass& compass) {
-    const ViewAxes level = view_axes(camera_from_angles(glm::dvec3(0.0), 0.0, 0.0, compass));
-    return glm::degrees(
-        std::atan2(glm::dot(direction, level.right), glm::dot(direction, level.forward)));
-}
-
 glm::dvec3 lifted(glm::dvec3 eye, const GestureWorld& world) {
     return world.lifted ? world.lifted(eye) : eye;
 }
@@ -126,13 +119,7 @@ private:
 } // namespace
 
 ViewAngles angles_of(const Camera& camera, const GestureWorld& world) {
-    const Compass compass = compass_at(camera.eye, world);
-    const ViewAxes axes = view_axes(camera);
-    const double rise = std::clamp(glm::dot(axes.forward, compass.up), -1.0, 1.0);
-    // Straight up or down, up in the picture is the heading.
-    const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
-    const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
-    return {heading_of(level, compass), glm::degrees(std::asin(rise))};
+    return angles_of(camera, compass_at(camera.eye, world));
 }
 
 Camera upright(Camera camera, glm::dvec3 eye, const ViewAngles& angles, const GestureWorld& world) {

@@ -31,11 +31,6 @@ struct GestureWorld {
     double max_distance = 1e9; ///< of an eye that leaves it, metres
 };
 
-/// Degrees clockwise from north, and above the horizon.
-struct ViewAngles {
-    double heading = 0.0;
-    double pitch = 0.0;
-};
 inline constexpr double max_pitch = 89.9; ///< of upright cameras, degrees
 
 ViewAngles angles_of(const Camera& camera, const GestureWorld& world);

@@ -96,23 +96,11 @@ Compass FreeFlight::compass() const {
     return compass;
 }
 
-// Degrees; the horizontal part of the direction counts.
-double FreeFlight::heading_of(glm::dvec3 direction) const {
-    const ViewAxes north = view_axes(camera_from_angles(camera_.eye, 0.0, 0.0, compass()));
-    return glm::degrees(
-        std::atan2(glm::dot(direction, north.right), glm::dot(direction, north.forward)));
-}
-
 void FreeFlight::set_camera(const Camera& camera) {
     camera_ = camera;
-    const ViewAxes axes = view_axes(camera);
-    const glm::dvec3 upward = up();
-    const double rise = std::clamp(glm::dot(axes.forward, upward), -1.0, 1.0);
-    pitch_ = std::clamp(glm::degrees(std::asin(rise)), -max_pitch, max_pitch);
-    // Straight up or down the heading is up in the picture.
-    const bool is_steep = std::abs(rise) > 1.0 - 1e-12;
-    const glm::dvec3 level = is_steep ? -std::copysign(1.0, rise) * axes.up : axes.forward;
-    heading_ = heading_of(level);
+    const ViewAngles angles = angles_of(camera, compass());
+    pitch_ = std::clamp(angles.pitch, -max_pitch, max_pitch);
+    heading_ = angles.heading;
     height_.reset();
     turned_ = false;
     keep_above_ground();
@@ -194,7 +182,7 @@ bool FreeFlight::advance(double seconds) {
             camera_.eye = from; // held against the ground
         }
         if (options_.north && camera_.eye != from) {
-            heading_ = heading_of(ahead);
+            heading_ = heading_of(ahead, compass());
         }
     }
     if (step > 0.0) {

@@ -86,7 +86,6 @@ private:
     bool receive_move(const MouseMoveEvent& event);
     [[nodiscard]] glm::dvec3 up() const;
     [[nodiscard]] Compass compass() const;
-    [[nodiscard]] double heading_of(glm::dvec3 direction) const;
     void keep_above_ground();
 
     FreeFlightOptions options_;

@@ -47,8 +47,8 @@ struct Across {
 Across across(glm::dvec3 axis) {
     check(axis != glm::dvec3(0.0), "an axis with a direction was expected");
     const glm::dvec3 unit = glm::normalize(axis);
-    const bool is_along_y = std::abs(unit.y) > 0.9;
-    const glm::dvec3 beside = is_along_y ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const bool is_nearer_y = std::abs(unit.y) > std::abs(unit.z);
+    const glm::dvec3 beside = is_nearer_y ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 first = glm::normalize(glm::cross(beside, unit));
     return {first, glm::cross(unit, first)};
 }

@@ -196,7 +196,7 @@ TEST(Walker, CarriesACamera) {
     EXPECT_TRUE(walker.on_ground);
     EXPECT_GT(flight.camera().eye.x, 1.0);
     EXPECT_NEAR(lift_at(node, {}, {flight.camera().eye}), 0.0, 1e-6);
-    const ViewAngles angles = angles_of(flight.camera(), {});
+    const ViewAngles angles = angles_of(flight.camera(), GestureWorld{});
     EXPECT_NEAR(angles.heading, 90.0, 1e-6);
     EXPECT_NEAR(angles.pitch, -10.0, 1e-6);
 }
