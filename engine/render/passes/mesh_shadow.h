@@ -5,17 +5,19 @@
 #include "engine/core/result.h"
 #include "engine/gl/depth_map.h"
 #include "engine/render/passes/draw_state.h"
+#include "engine/render/passes/ground_shadow.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/sun_maps.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::render {
 
-/// The shadows of the meshes of a frame, as depth maps from the sun.
+/// The shadows of the meshes of a frame, as depth maps from the sun, and those of ground on them.
 class MeshShadow {
 public:
-    /// Chooses the maps, see sun_maps(). `max_side`: of textures, texels. Fails without memory.
-    Result<void> prepare(const view::DrawList& list, int max_side);
+    /// Chooses the maps, see sun_maps(), and uploads the shadow of the ground. `max_side`: of
+    /// textures, texels. Fails without memory.
+    Result<void> prepare(const view::DrawList& list, int max_side, view::FrameStats& stats);
 
     /// Whether meshes may cast shadows into the picture. Without any, nothing is drawn and no
     /// program reads the maps.
@@ -35,6 +37,7 @@ public:
 private:
     std::vector<SunMap> maps_;
     gl::DepthMap depth_; // made for the first shadow
+    GroundShadow ground_;
 };
 
 } // namespace reljef::render

@@ -206,11 +206,13 @@ Shaded shaded_by(const Box& casters, const view::DrawList& list, const glm::dmat
 
 } // namespace
 
+bool casts_shadows(const view::TerrainDraw& draw) {
+    return draw.search && draw.terrain->material.technique.options.shadow;
+}
+
 bool casts_mesh_shadows(const view::DrawList& list) {
     const bool is_requested =
-        std::any_of(list.terrains.begin(), list.terrains.end(), [](const view::TerrainDraw& draw) {
-            return draw.search && draw.terrain->material.technique.options.shadow;
-        });
+        std::any_of(list.terrains.begin(), list.terrains.end(), casts_shadows);
     return is_requested && list.sun && scene::to_light(*list.sun).z > min_sine;
 }
 

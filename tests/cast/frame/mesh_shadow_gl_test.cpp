@@ -36,7 +36,6 @@ protected:
     }
 };
 
-// Ground hides no sun from meshes there, so the sun is high.
 TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
     constexpr std::array altitudes{35.0, 50.0};
     for (const double altitude : std::span(altitudes).first(std::size_t{test::rounds(2, 1)})) {
@@ -52,6 +51,16 @@ TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
             const Image unshadowed = stage.true_picture(truth::SunShadow::sweep);
             EXPECT_GE(test::share_of_others(shown, unshadowed, 16), 0.01) << altitude << is_map;
         }
+    }
+}
+
+// A wall between the objects and the sun.
+TEST_F(MeshShadowGlTest, GroundHidesTheSunFromMeshes) {
+    for (const bool is_map : {false, true}) {
+        ObjectStage stage(true, hills_and_wall());
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image shown = picture_of(stage);
+        EXPECT_LE(test::share_of_others(shown, stage.drawn(), 16), 0.005) << is_map;
     }
 }
 
@@ -155,6 +164,27 @@ TEST_F(MeshShadowGlTest, WithoutMeshesOrTheOptionTheyCostNothing) {
     stage.set_shadow(true);
     stage.remove_meshes();
     EXPECT_EQ(stats_of(stage).draws, 3) << "ground, its beams, and the sky";
+}
+
+// Its shadow on meshes is one map of its samples, again only in another light.
+TEST_F(MeshShadowGlTest, ShadowsOfGroundAreUploadedOnceForEachSun) {
+    ObjectStage stage;
+    stage.look_near();
+    session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));
+    const auto bytes_after = [&](double altitude) {
+        stage.set_sun(altitude);
+        return test::must(made.draw(stage.scene)).upload_bytes;
+    };
+    bytes_after(20.0);
+    const std::size_t in_other_light = bytes_after(30.0);
+    stage.look_from_above();
+    EXPECT_LT(bytes_after(30.0), 10'000U) << "the light stays";
+    stage.remove_meshes();
+    bytes_after(20.0);
+    const std::size_t without_meshes = bytes_after(30.0);
+    constexpr std::size_t map_bytes = sizeof(float) * 301 * 257;
+    EXPECT_GE(in_other_light, without_meshes + map_bytes);
+    EXPECT_LT(in_other_light, without_meshes + map_bytes + 10'000U);
 }
 
 } // namespace
