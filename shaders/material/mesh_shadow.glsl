@@ -27,36 +27,3 @@ float sun_beside_meshes(vec3 relative, vec3 normal, float sine) {
 float sun_on_ground(vec3 relative) {
     return sun_beside_meshes(relative, vec3(0.0), 0.0);
 }
-
-layout(binding = ground_shadow_unit) uniform sampler2D ground_shadow; // true heights below which ground hides the sun
-
-// Metres of true height above the shadow of the ground.
-float height_in_sun(vec3 relative) {
-    vec3 at = (ground_shadow_place * vec4(relative, 1.0)).xyz;
-    return at.z - textureLod(ground_shadow, at.xy, 0.0).r;
-}
-
-// The part of the sun that ground leaves on a mesh; the border is a pixel wide.
-float sun_beside_ground(vec3 relative, vec3 across, vec3 down) {
-    if (mesh_shadow_numbers.y == 0.0) {
-        return 1.0;
-    }
-    float above = height_in_sun(relative);
-    float change = abs(height_in_sun(relative + across) - above) + abs(height_in_sun(relative + down) - above);
-    return clamp(above / max(change, 1e-6) + 0.5, 0.0, 1.0);
-}
-
-// On a mesh. `across`, `down`: changes of the place per pixel. A face that is turned away hides the sun itself.
-float sun_on_mesh(vec3 relative, vec3 across, vec3 down) {
-    vec3 perpendicular = cross(across, down);
-    float area = length(perpendicular);
-    vec3 face = area > 0.0 ? perpendicular / area : vec3(0.0);
-    vec3 to_eye = perspective > 0.5 ? -relative : -view_forward.xyz;
-    face *= dot(face, to_eye) < 0.0 ? -1.0 : 1.0;
-    float cosine = dot(face, to_sun.xyz);
-    if (cosine <= 0.0) {
-        return 0.0;
-    }
-    return sun_beside_ground(relative, across, down) *
-           sun_beside_meshes(relative, face, sqrt(max(1.0 - cosine * cosine, 0.0)));
-}

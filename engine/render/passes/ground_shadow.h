@@ -1,36 +1,58 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 
 #include "engine/core/result.h"
 #include "engine/gl/texture.h"
-#include "engine/render/shaders/uniform_blocks.h"
 #include "engine/view/draw_list.h"
 #include "engine/view/frame_stats.h"
 
 namespace reljef::render {
 
-/// The shadow that ground casts on meshes: the heights below which it hides the sun, one at each
-/// sample of a terrain on a plane. A stream has those of its overview.
+/// The shadow of ground as two heights at each sample of a terrain: the one below which ground
+/// hides the sun, and that of the ground. A stream has those of its overview. The sun is as high as
+/// in the middle of the terrain.
 class GroundShadow {
 public:
-    /// Takes the first terrain on a plane that casts shadows, and computes its heights if it or its
-    /// light is another one than before. `max_side`: of textures, texels. Precondition: the list
-    /// has a sun.
+    /// Computes the heights of the terrains that cast shadows: of those with triangles, and, if
+    /// there are meshes, of the first; again if the light changes. `max_side`: of textures, texels.
+    /// Fails without memory.
     Result<void> prepare(const view::DrawList& list, int max_side, view::FrameStats& stats);
 
-    /// Binds the heights, and sets what programs need to find places on them. Without a terrain,
-    /// nothing is in shadow.
-    void bind(MeshShadowBlock& block) const;
+    /// Whether it lies on triangles of a terrain. Precondition: prepared.
+    [[nodiscard]] bool is_on(const scene::TerrainNode& terrain) const {
+        return grounds_.contains(&terrain);
+    }
+    [[nodiscard]] bool is_on_ground() const { return !grounds_.empty(); }
+
+    /// Binds the heights for triangles of a tile, and returns texture coordinate = sample · xy +
+    /// zw. Precondition: is_on().
+    [[nodiscard]] glm::vec4 bind(const view::TileDraw& draw, glm::vec2 first_sample) const;
+
+    /// Binds the heights for meshes, if ground casts shadows on them. Precondition: prepared.
+    void bind() const;
+    /// To texture coordinates (xy) and true heights (z), from world directions relative to the eye,
+    /// metres; linear around the mesh. All zeros if no ground casts shadows.
+    [[nodiscard]] glm::mat4 place_on(const view::DrawList& list, const view::MeshDraw& draw) const;
 
 private:
-    std::weak_ptr<const scene::TerrainSurface> owner_;
-    std::optional<scene::TerrainLight> light_;
-    gl::Texture2D heights_;
-    std::optional<glm::mat4> place_from_relative_; // empty: no ground casts shadows
+    struct Ground {
+        std::weak_ptr<const scene::TerrainSurface> owner;
+        std::optional<scene::TerrainLight> light;
+        gl::Texture2D heights;
+        double step = 1.0; // samples between texels
+    };
+    Result<void> prepare(const view::DrawList& list, const view::TerrainDraw& draw, int max_side,
+                         view::FrameStats& stats);
+
+    std::map<const scene::TerrainNode*, Ground> grounds_;
+    const scene::TerrainNode* below_meshes_ = nullptr;
+    glm::dmat4 world_from_local_{1.0}; // of the terrain below meshes
 };
 
 } // namespace reljef::render

@@ -40,10 +40,9 @@ Result<void> MeshShadow::prepare(const view::DrawList& list, int max_side,
                                  view::FrameStats& stats) {
     const int side = side_of_maps(list, max_side);
     maps_ = sun_maps(list, side / 2);
-    if (is_cast() && !list.meshes.empty()) {
-        if (auto prepared = ground_.prepare(list, max_side, stats); !prepared) {
-            return prepared;
-        }
+    if (auto prepared = ground_.prepare(list, max_side, stats); !prepared) {
+        maps_.clear();
+        return prepared;
     }
     if (!is_cast() || depth_.side() == side) {
         return {};
@@ -97,11 +96,12 @@ Result<void> MeshShadow::draw(const view::DrawList& list, const Residency& resid
 }
 
 Result<void> MeshShadow::bind(DrawState& state) const {
-    depth_.bind_texture(bindings::mesh_shadow_unit);
-    ++state.stats().state_changes;
-    MeshShadowBlock block = mesh_shadow_block(maps_);
-    ground_.bind(block);
-    return state.set(block);
+    if (is_cast()) {
+        depth_.bind_texture(bindings::mesh_shadow_unit);
+        ++state.stats().state_changes;
+    }
+    return is_cast() || ground_.is_on_ground() ? state.set(mesh_shadow_block(maps_))
+                                               : Result<void>();
 }
 
 } // namespace reljef::render

@@ -20,8 +20,11 @@ public:
     Result<void> prepare(const view::DrawList& list, int max_side, view::FrameStats& stats);
 
     /// Whether meshes may cast shadows into the picture. Without any, nothing is drawn and no
-    /// program reads the maps.
+    /// program of meshes reads the maps.
     [[nodiscard]] bool is_cast() const { return !maps_.empty(); }
+
+    /// The shadow of ground on triangles and meshes. Precondition: prepared.
+    [[nodiscard]] const GroundShadow& of_ground() const { return ground_; }
 
     /// The meshes beside the picture that are drawn into the maps. Precondition: prepared.
     [[nodiscard]] std::vector<view::MeshDraw> casters_beside(const view::DrawList& list) const;
@@ -31,7 +34,7 @@ public:
     Result<void> draw(const view::DrawList& list, const Residency& residency,
                       DrawState& state) const;
 
-    /// Sets what programs with feature_mesh_shadows read. Precondition: is_cast().
+    /// Sets what programs with feature_mesh_shadows read, if there are shadows.
     Result<void> bind(DrawState& state) const;
 
 private:

@@ -207,7 +207,7 @@ Shaded shaded_by(const Box& casters, const view::DrawList& list, const glm::dmat
 } // namespace
 
 bool casts_shadows(const view::TerrainDraw& draw) {
-    return draw.search && draw.terrain->material.technique.options.shadow;
+    return draw.terrain->material.technique.options.shadow.has_value();
 }
 
 bool casts_mesh_shadows(const view::DrawList& list) {

@@ -107,8 +107,7 @@ struct MeshShadowBlock {
 static_assert(offsetof(MeshShadowBlock, mesh_shadow_numbers) == 0);
 static_assert(offsetof(MeshShadowBlock, mesh_shadow_maps) == 16);
 static_assert(offsetof(MeshShadowBlock, mesh_shadow_texels) == 17 * 16);
-static_assert(offsetof(MeshShadowBlock, ground_shadow_place) == 21 * 16);
-static_assert(sizeof(MeshShadowBlock) == 25 * 16);
+static_assert(sizeof(MeshShadowBlock) == 21 * 16);
 inline constexpr BlockLayout MeshShadowBlock::layout{
     "MeshShadowBlock", bindings::mesh_shadow_block_binding, sizeof(MeshShadowBlock)};
 
