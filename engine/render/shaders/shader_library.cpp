@@ -251,10 +251,10 @@ ShaderFeatures mesh_shadows_of(ShaderFeatures features) {
     return is_lit ? features & feature_mesh_shadows : 0U;
 }
 
-// Of a terrain's triangles: only colours have any.
-ShaderFeatures shadows_on_triangles(ShaderFeatures features) {
-    constexpr ShaderFeatures others = feature_hit | feature_warped | feature_counting;
-    return (features & others) == 0 ? mesh_shadows_of(features) : 0U;
+// Of a terrain's triangles, whose light is in maps.
+ShaderFeatures mesh_shadows_on_triangles(ShaderFeatures features) {
+    constexpr ShaderFeatures others = feature_hit | feature_counting;
+    return (features & others) == 0 ? features & feature_mesh_shadows : 0U;
 }
 
 // Only a relief whose own shadows are rays has the sun's light apart.
@@ -281,7 +281,7 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
         return (variant.features & feature_warped) != 0
                    ? feature_warped
                    : sliver_of(variant.features) | overlay_of(variant.features) | points |
-                         shadows_on_triangles(variant.features);
+                         mesh_shadows_on_triangles(variant.features);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                overlay_of(variant.features) | points |
@@ -290,20 +290,19 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
     case ShaderKind::relief_mesh:
-        return search | options_of(variant.features, search) | wrap | points;
+        return search | options_of(variant.features, search) | wrap | points |
+               mesh_shadows_of(variant.features);
     case ShaderKind::textured_mesh:
         return (variant.features & feature_warped) | (is_hit ? wrap : lighting) | points |
                mesh_shadows_of(variant.features);
     case ShaderKind::textured_terrain:
-        return lighting | sliver_of(variant.features) | points |
-               shadows_on_triangles(variant.features & ~feature_warped);
+        return lighting | sliver_of(variant.features) | points | mesh_shadows_of(variant.features);
     case ShaderKind::relief_hull:
         return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap |
                points;
     case ShaderKind::relief_terrain:
         return search | (options_of(variant.features, search) & shadows) |
-               sliver_of(variant.features) | points |
-               shadows_on_triangles(variant.features & ~feature_warped);
+               sliver_of(variant.features) | points | mesh_shadows_of(variant.features);
     case ShaderKind::mesh:
         return points | mesh_shadows_of(variant.features);
     default:

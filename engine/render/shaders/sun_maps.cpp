@@ -218,9 +218,10 @@ bool casts_mesh_shadows(const view::DrawList& list) {
 
 bool is_shadow_caster(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
-    const bool is_hull =
-        material.detail.set != nullptr && material.technique.options.true_silhouettes;
-    return !draw.from_behind && !is_hull && !view::drawn_mesh(draw)->indices.empty();
+    const bool has_own_outline =
+        material.detail.set != nullptr && (material.technique.options.true_silhouettes ||
+                                           scene::searches_layers(material.technique.id()));
+    return !draw.from_behind && !has_own_outline && !view::drawn_mesh(draw)->indices.empty();
 }
 
 std::vector<view::MeshDraw> shadow_casters(const view::DrawList& list) {

@@ -37,7 +37,8 @@ bool casts_mesh_shadows(const view::DrawList& list);
 /// have the same maps. `side`: of a map, texels.
 std::vector<SunMap> sun_maps(const view::DrawList& list, int side);
 
-/// Whether a mesh casts a shadow: hulls of detail and inner sides do not.
+/// Whether a mesh casts a shadow: hulls of detail, inner sides, and layers, which have holes, do
+/// not.
 bool is_shadow_caster(const view::MeshDraw& draw);
 
 /// The list's meshes that cast shadows, also those beside the picture.

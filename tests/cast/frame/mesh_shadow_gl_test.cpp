@@ -174,6 +174,35 @@ TEST_F(MeshShadowGlTest, OnGroundWithDetailTheyAreThoseOfRays) {
     }
 }
 
+// A level relief on meshes changes nothing, so its shadows are those of rays at their pictures.
+TEST_F(MeshShadowGlTest, OnReliefOfMeshesTheyAreThoseOfRays) {
+    ObjectStage stage(true, hills_and_wall());
+    stage.look_near();
+    stage.set_textures("texture");
+    const Image rays = stage.drawn();
+    for (const char* const technique : {"texture", "exact", "relief:edges=smooth"}) {
+        stage.set_textures(technique);
+        stage.set_shadow(true);
+        EXPECT_LE(test::share_of_others(picture_of(stage), rays, 16), 0.01) << technique;
+        stage.set_shadow(false);
+        EXPECT_GE(test::share_of_others(picture_of(stage), rays, 16), 0.05) << technique;
+    }
+}
+
+// Layers have holes: they cast no shadow of their whole area.
+TEST_F(MeshShadowGlTest, LayersCastNoShadows) {
+    ObjectStage stage;
+    stage.remove_meshes();
+    stage.look_near();
+    stage.add(scene::plane_mesh({50.0F, 50.0F}), {0.0, -20.0}, picture_on_mesh());
+    stage.set_textures("lattice");
+    const view::DrawList list = view::select(stage.scene, mesh_picture).list;
+    EXPECT_FALSE(list.meshes.empty());
+    EXPECT_TRUE(render::shadow_casters(list).empty());
+    stage.set_textures("texture");
+    EXPECT_FALSE(render::shadow_casters(view::select(stage.scene, mesh_picture).list).empty());
+}
+
 // The parts of a picture have the same maps, so all pixels are those of one piece.
 TEST_F(MeshShadowGlTest, PartsOfAPictureHaveNoSeam) {
     ObjectStage stage;

@@ -69,6 +69,15 @@ struct ObjectStage : Stage {
         terrain->get<scene::TerrainNode>()->material.technique =
             test::must(scene::parse_technique(text));
     }
+    // Of the meshes with a picture.
+    void set_textures(std::string_view technique) {
+        for (const auto& node : scene.root().children()) {
+            auto* const mesh = node->get<scene::MeshNode>();
+            if (mesh != nullptr && mesh->material.detail.set != nullptr) {
+                mesh->material.technique = test::must(scene::parse_technique(technique));
+            }
+        }
+    }
     void add(scene::Mesh mesh, glm::dvec2 at, const scene::Material& material) {
         const double ground = surface().height_at(at.x, at.y).value();
         scene.add_mesh(std::move(mesh), material).set_position({at, ground + 3.0});

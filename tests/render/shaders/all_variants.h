@@ -33,7 +33,7 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
         return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled |
-               feature_point_lights;
+               feature_point_lights | feature_mesh_shadows;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
                feature_warped | feature_multisampled | feature_point_lights | feature_mesh_shadows;
