@@ -69,11 +69,12 @@ struct ObjectStage : Stage {
         terrain->get<scene::TerrainNode>()->material.technique =
             test::must(scene::parse_technique(text));
     }
-    // Of the meshes with a picture.
+    // All meshes get a picture.
     void set_textures(std::string_view technique) {
         for (const auto& node : scene.root().children()) {
             auto* const mesh = node->get<scene::MeshNode>();
-            if (mesh != nullptr && mesh->material.detail.set != nullptr) {
+            if (mesh != nullptr) {
+                mesh->material = picture_on_mesh();
                 mesh->material.technique = test::must(scene::parse_technique(technique));
             }
         }
