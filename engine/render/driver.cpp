@@ -277,7 +277,7 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     }
     std::vector<view::MeshDraw> casters;
     if (!hits) {
-        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size); !prepared) {
+        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size, stats); !prepared) {
             return prepared;
         }
         casters = mesh_shadow_.casters_beside(list);
@@ -373,8 +373,9 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
         .no_vertices = no_vertices_,
         .skips = options_.skips,
         .state = state,
-        .mesh_shadows = !hits && mesh_shadow_.is_cast() ? feature_mesh_shadows : 0U};
-    if (frame.mesh_shadows != 0) {
+        .mesh_shadows = !hits && mesh_shadow_.is_cast() ? feature_mesh_shadows : 0U,
+        .ground_shadow = hits ? nullptr : &mesh_shadow_.of_ground()};
+    if (!hits) {
         if (auto bound = mesh_shadow_.bind(state); !bound) {
             return bound;
         }

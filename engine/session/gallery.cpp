@@ -1,5 +1,6 @@
 #include "engine/session/gallery.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -223,6 +224,17 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
         nodes.push_back(&node);
     }
     return nodes;
+}
+
+void shadow_floor(scene::TerrainNode& floor, std::span<scene::Node* const> models) {
+    const auto technique_of = [](const scene::Node* model) -> const scene::Technique& {
+        return model->get<scene::MeshNode>()->material.technique;
+    };
+    const auto found = std::ranges::find_if(models, [&](const scene::Node* model) {
+        return technique_of(model).options.shadow.has_value();
+    });
+    floor.material.technique.options.shadow =
+        found == models.end() ? std::nullopt : technique_of(*found).options.shadow;
 }
 
 } // namespace reljef::session

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -19,5 +20,9 @@ Result<std::vector<scene::Node*>> add_gallery(scene::Scene& scene,
                                               const SourceOptions& terrain,
                                               const SceneOptions& view, Log& log,
                                               const std::stop_token& stop);
+
+/// Shadows of models lie on the floor, and on each other, if the technique of one of them has
+/// shadows. To be called when their techniques change.
+void shadow_floor(scene::TerrainNode& floor, std::span<scene::Node* const> models);
 
 } // namespace reljef::session

@@ -378,6 +378,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         if (view.rays == RayUse::only) { // which draw no floor of triangles
             shown.material.technique = {scene::Exact{}};
         }
+        shadow_floor(shown, result.models);
     }
     if (auto done = finish_materials(result, source.description, view); !done) {
         return done.error();

@@ -1,5 +1,5 @@
 // Metres from the eye to this fragment, in perspective.
-#if defined(MULTISAMPLED) || defined(OVERLAY) || defined(MESH_SHADOWS) || ((defined(POINT_LIGHTS) || defined(SURFACE_SHADER)) && !defined(GROUND))
+#if defined(MULTISAMPLED) || defined(OVERLAY) || ((defined(POINT_LIGHTS) || defined(MESH_SHADOWS) || defined(SURFACE_SHADER)) && !defined(GROUND))
 in vec3 way_from_eye; // metres
 #endif
 

@@ -27,14 +27,3 @@ float sun_beside_meshes(vec3 relative, vec3 normal, float sine) {
 float sun_on_ground(vec3 relative) {
     return sun_beside_meshes(relative, vec3(0.0), 0.0);
 }
-
-// On a mesh. `across`, `down`: changes of the place per pixel. A face that is turned away hides the sun itself.
-float sun_on_mesh(vec3 relative, vec3 across, vec3 down) {
-    vec3 perpendicular = cross(across, down);
-    float area = length(perpendicular);
-    vec3 face = area > 0.0 ? perpendicular / area : vec3(0.0);
-    vec3 to_eye = perspective > 0.5 ? -relative : -view_forward.xyz;
-    face *= dot(face, to_eye) < 0.0 ? -1.0 : 1.0;
-    float cosine = dot(face, to_sun.xyz);
-    return cosine <= 0.0 ? 0.0 : sun_beside_meshes(relative, face, sqrt(max(1.0 - cosine * cosine, 0.0)));
-}

@@ -8,7 +8,7 @@
 #include "material/point_lights.glsl"
 #endif
 #ifdef MESH_SHADOWS
-#include "material/mesh_shadow.glsl"
+#include "mesh/sun_on_mesh.glsl"
 #endif
 
 in vec3 world_normal;

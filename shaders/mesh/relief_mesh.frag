@@ -17,6 +17,9 @@
 #ifdef SMOOTH_EDGES
 #include "relief/relief_edges.glsl"
 #endif
+#ifdef MESH_SHADOWS
+#include "mesh/sun_on_mesh.glsl"
+#endif
 #endif
 
 #include "frame/output.glsl"
@@ -30,6 +33,9 @@ void main() {
     TileRay ray = ray_through((local_from_relative * way) * space, near_part);
     vec2 right = dFdx(tile_coordinate);
     vec2 up = dFdy(tile_coordinate);
+#ifdef MESH_SHADOWS
+    sun_beside_others = sun_on_mesh(relative, dFdx(relative), dFdy(relative)); // on the mesh below the relief
+#endif
     vec2 kept = part_on_tile(ray.start, ray.span);
     ray.start += kept.x * ray.span;
     ray.span *= kept.y - kept.x;

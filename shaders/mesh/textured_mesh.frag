@@ -8,7 +8,7 @@
 #include "material/tile_light.glsl"
 #include "material/tile_lighting.glsl"
 #ifdef MESH_SHADOWS
-#include "material/mesh_shadow.glsl"
+#include "mesh/sun_on_mesh.glsl"
 #endif
 #endif
 

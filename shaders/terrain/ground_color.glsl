@@ -4,6 +4,10 @@ uniform vec4 lit_from_sample;    // texture coordinate = sample · xy + zw
 uniform vec4 ground_from_sample; // see lit_from_sample
 
 layout(binding = ground_lit_map_unit) uniform sampler2D lit_map;    // reflected light, linear
+#ifdef MESH_SHADOWS
+#include "terrain/ground_sun.glsl"
+layout(binding = ground_sun_map_unit) uniform sampler2D sun_map; // the sun's part; lit_map has the rest
+#endif
 layout(binding = albedo_map_unit) uniform sampler2D albedo_map; // linear
 layout(binding = ground_map_unit) uniform sampler2D ground_map; // local normal; w: visible share of the sun
 
@@ -39,16 +43,21 @@ vec3 detailed(vec3 albedo, vec4 ground, vec3 across, vec3 down, float height_sha
     return shown;
 }
 
+// Of the place per pixel, as columns.
+mat2 change_of_place() {
+#ifdef SLIVER
+    return place_per_pixel;
+#else
+    return mat2(dFdx(FROM_PIXEL_TO_PIXEL(tile_place)), dFdy(FROM_PIXEL_TO_PIXEL(tile_place)));
+#endif
+}
+
 vec4 looked_up(sampler2D map, vec4 map_from_sample) {
     vec2 place = tile_sample + INSIDE(tile_place);
     vec2 coordinate = place * map_from_sample.xy + map_from_sample.zw;
-#ifdef SLIVER
-    return textureGrad(map, coordinate, place_per_pixel[0] * map_from_sample.xy,
-                       place_per_pixel[1] * map_from_sample.xy);
-#elif defined(MULTISAMPLED)
-    return textureGrad(map, coordinate,
-                       dFdx(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy,
-                       dFdy(FROM_PIXEL_TO_PIXEL(tile_place)) * map_from_sample.xy);
+#if defined(SLIVER) || defined(MULTISAMPLED)
+    mat2 change = change_of_place();
+    return textureGrad(map, coordinate, change[0] * map_from_sample.xy, change[1] * map_from_sample.xy);
 #else
     return texture(map, coordinate);
 #endif
@@ -78,6 +87,10 @@ void main() {
     vec3 down = dFdy(FROM_PIXEL_TO_PIXEL(local_from_eye));
 #endif
     relative = world_from_local * from_eye;
+#ifdef MESH_SHADOWS
+    ground.w = sun_on_triangles(tile_sample + INSIDE(tile_place), relative, change_of_place());
+    plain += ground.w * looked_up(sun_map, lit_from_sample).rgb;
+#endif
 #ifdef POINT_LIGHTS
     plain += albedo * light_of_points(relative, normalize(world_from_normal * ground.xyz));
 #endif

@@ -24,6 +24,10 @@ layout(binding = lit_map_unit) uniform sampler2D lit_map; // reflected light, li
 #ifdef POINT_LIGHTS
 #include "terrain/ground_points.glsl"
 #endif
+#ifdef MESH_SHADOWS
+#include "terrain/ground_sun.glsl"
+layout(binding = sun_map_unit) uniform sampler2D sun_map; // the sun's part; lit_map has the rest
+#endif
 #ifdef OVERLAY
 #include "terrain/overlay.glsl"
 #ifndef SLIVER
@@ -66,23 +70,31 @@ void write_hit() {
 #endif
 #endif
 
-#ifdef POINT_LIGHTS
+#if !defined(HIT) && !defined(WARPED)
+// Of the place per pixel, as columns.
+mat2 change_of_place() {
+#ifdef SLIVER
+    return place_per_pixel;
+#else
+    return mat2(dFdx(tile_place), dFdy(tile_place));
+#endif
+}
+
 vec3 looked_up(sampler2D map, vec2 place) {
     vec2 coordinate = place * lit_from_sample.xy + lit_from_sample.zw;
-#ifdef SLIVER
-    return textureGrad(map, coordinate, place_per_pixel[0] * lit_from_sample.xy,
-                       place_per_pixel[1] * lit_from_sample.xy).rgb;
-#elif defined(MULTISAMPLED)
-    return textureGrad(map, coordinate, dFdx(tile_place) * lit_from_sample.xy,
-                       dFdy(tile_place) * lit_from_sample.xy).rgb;
+#if defined(SLIVER) || defined(MULTISAMPLED)
+    mat2 change = change_of_place();
+    return textureGrad(map, coordinate, change[0] * lit_from_sample.xy, change[1] * lit_from_sample.xy).rgb;
 #else
     return texture(map, coordinate).rgb;
 #endif
 }
 
+#ifdef POINT_LIGHTS
 vec3 from_points_at(vec2 place) {
     return reflected_from_points(looked_up(lit_albedo, place), looked_up(lit_normals, place), INSIDE(way_from_eye));
 }
+#endif
 #endif
 
 void main() {
@@ -109,18 +121,11 @@ void main() {
 #elif defined(WARPED)
     vec3 lit =
         textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw, across, down).rgb;
-#elif defined(SLIVER)
-    vec3 lit = textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw,
-                           place_per_pixel[0] * lit_from_sample.xy,
-                           place_per_pixel[1] * lit_from_sample.xy)
-                   .rgb;
-#elif defined(MULTISAMPLED)
-    vec3 lit = textureGrad(lit_map, place * lit_from_sample.xy + lit_from_sample.zw,
-                           dFdx(tile_place) * lit_from_sample.xy,
-                           dFdy(tile_place) * lit_from_sample.xy)
-                   .rgb;
 #else
-    vec3 lit = texture(lit_map, place * lit_from_sample.xy + lit_from_sample.zw).rgb;
+    vec3 lit = looked_up(lit_map, place);
+#endif
+#ifdef MESH_SHADOWS
+    lit += sun_on_triangles(place, INSIDE(way_from_eye), change_of_place()) * looked_up(sun_map, place);
 #endif
 #ifdef POINT_LIGHTS
     vec3 from_points = from_points_at(place);

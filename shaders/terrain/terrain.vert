@@ -24,7 +24,8 @@ out vec2 height_and_depth; // true metres; metres along the view axis
 #endif
 #ifdef GROUND
 out vec3 local_from_eye; // metres
-#elif defined(MULTISAMPLED) || defined(OVERLAY) || defined(POINT_LIGHTS) || defined(SURFACE_SHADER)
+#elif defined(MULTISAMPLED) || defined(OVERLAY) || defined(POINT_LIGHTS) || defined(MESH_SHADOWS) || \
+    defined(SURFACE_SHADER)
 out vec3 way_from_eye; // metres
 #endif
 #ifdef MULTISAMPLED
@@ -62,7 +63,8 @@ void main() {
     tile_place = place;
 #ifdef GROUND
     local_from_eye = from_eye;
-#elif defined(MULTISAMPLED) || defined(OVERLAY) || defined(POINT_LIGHTS) || defined(SURFACE_SHADER)
+#elif defined(MULTISAMPLED) || defined(OVERLAY) || defined(POINT_LIGHTS) || defined(MESH_SHADOWS) || \
+    defined(SURFACE_SHADER)
     way_from_eye = relative;
 #endif
 #ifdef MULTISAMPLED

@@ -9,6 +9,7 @@
 #include "engine/platform/context.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/session/frame_maker.h"
+#include "engine/session/gallery.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_setup.h"
 #include "tests/app/command_line.h"
@@ -71,6 +72,13 @@ std::vector<GoldenCase> golden_cases() {
           "--max-error", "1", "--eye", "0,-3000,774", "--look", "300,-2400,765"}});
     cases.push_back(
         {"gallery_silhouettes", "gallery", false, {"--technique", "exact:silhouettes=true"}, true});
+    cases.push_back(
+        {"gallery_shadow", "gallery", false, {"--technique", "relief:shadow=hard"}, true});
+    cases.push_back({"urban_mesh_shadow",
+                     "urban",
+                     false,
+                     {"--buildings", "meshes", "--technique", "polygons:shadow=hard", "--pose",
+                      "low", "--sun", "220,40"}});
     cases.push_back({"urban_detail",
                      "urban",
                      false,
@@ -145,6 +153,7 @@ Result<Image> drawn_of_gallery(const std::vector<std::string>& options) {
     for (scene::Material* const material : shown.materials()) {
         material->technique = scene::parse_technique(options.at(1)).value();
     }
+    session::shadow_floor(*shown.terrain->get<scene::TerrainNode>(), shown.models);
     if (auto added = add_maps(shown, silent); !added) {
         return added.error();
     }

@@ -1,5 +1,6 @@
 #include "app/viewer/appearance/appearance_switch.h"
 
+#include "engine/session/gallery.h"
 #include "engine/session/scene_daylight.h"
 
 namespace reljef::app {
@@ -9,6 +10,12 @@ bool is_of_another_surface(const session::PreparedMaps& maps, const scene::Terra
     const auto* const light = maps.light != nullptr ? maps.light->request.surface.get() : nullptr;
     return (maps.surface != nullptr && maps.surface != node.surface) ||
            (light != nullptr && light != node.surface.get());
+}
+
+void shadow_floor_of(session::TerrainScene& scene) {
+    if (scene.is_gallery) {
+        session::shadow_floor(*scene.terrain->get<scene::TerrainNode>(), scene.models);
+    }
 }
 
 } // namespace
@@ -79,6 +86,7 @@ bool AppearanceSwitch::undo() {
     for (std::size_t i = 0; i < before.size(); ++i) {
         materials[i]->technique = before[i];
     }
+    shadow_floor_of(scene_);
     return !before.empty();
 }
 
@@ -146,6 +154,7 @@ void AppearanceSwitch::show(const Appearance& appearance) {
                 materials[i]->technique = *appearance.technique;
             }
         }
+        shadow_floor_of(scene_);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/gl/framebuffer.h"
 #include "engine/gl/vertex_array.h"
 #include "engine/render/passes/draw_state.h"
+#include "engine/render/passes/ground_shadow.h"
 #include "engine/render/passes/skips.h"
 #include "engine/render/residency/residency.h"
 #include "engine/view/draw_list.h"
@@ -23,6 +24,7 @@ struct FrameContext {
     const Skips& skips;
     DrawState& state;
     ShaderFeatures mesh_shadows = 0; ///< feature_mesh_shadows if meshes may hide the sun
+    const GroundShadow* ground_shadow = nullptr; ///< null for hits and work
 
     /// Whether fragments add their work to the picture instead of their colours.
     [[nodiscard]] bool counts() const { return (features & feature_counting) != 0; }

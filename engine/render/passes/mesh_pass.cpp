@@ -110,6 +110,10 @@ Result<void> draw_mesh(const FrameContext& frame, const view::MeshDraw& draw,
                     relative_from_local(camera, draw.world_from_local));
     (*program)->set(uniforms.world_from_normal, world_from_normal(draw.world_from_local));
     (*program)->set(uniforms.albedo, material.color);
+    if ((more_features & feature_mesh_shadows) != 0) {
+        (*program)->set(uniforms.ground_shadow_place,
+                        frame.ground_shadow->place_on(frame.list, draw));
+    }
     const bool has_tile = shows_tile(material, frame);
     if (has_tile) {
         if (auto set = set_tile(**program, draw, frame); !set) {
@@ -145,6 +149,9 @@ Result<void> draw_meshes(const FrameContext& frame) {
     const ShaderFeatures points =
         frame.hits || frame.list.point_lights.empty() ? 0U : feature_point_lights;
     const ShaderFeatures more_features = points | frame.mesh_shadows;
+    if (frame.mesh_shadows != 0) {
+        frame.ground_shadow->bind();
+    }
     for (const view::MeshDraw& draw : frame.list.meshes) {
         if (view::drawn_mesh(draw)->indices.empty()) {
             continue;

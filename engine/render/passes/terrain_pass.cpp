@@ -90,6 +90,10 @@ private:
         return has_ground() ? bindings::ground_lit_map_unit : bindings::lit_map_unit;
     }
 
+    [[nodiscard]] unsigned sun_unit() const {
+        return has_ground() ? bindings::ground_sun_map_unit : bindings::sun_map_unit;
+    }
+
     [[nodiscard]] bool is_set_for(const view::TileDraw& draw, view::DetailLevel detail) const {
         return terrain_ == draw.terrain && detail_ == detail && overlay_ == overlay_of(draw) &&
                points_ == points_of(draw);
@@ -98,6 +102,12 @@ private:
     // Far tiles show no grain.
     [[nodiscard]] ShaderFeatures overlay_of(const view::TileDraw& draw) const {
         return overlay_features(frame_, *draw.terrain, draw.distance);
+    }
+
+    // Of ground and meshes.
+    [[nodiscard]] bool has_shadows(const scene::TerrainNode& terrain) const {
+        return frame_.ground_shadow != nullptr && !is_warped(terrain) &&
+               frame_.ground_shadow->is_on(terrain);
     }
 
     [[nodiscard]] ShaderFeatures points_of(const view::TileDraw& draw) const {
@@ -131,6 +141,7 @@ private:
     [[nodiscard]] ShaderVariant variant_for(const scene::TerrainNode& terrain,
                                             view::DetailLevel detail) const {
         const ShaderFeatures features = frame_.features | points_ |
+                                        (has_shadows(terrain) ? feature_mesh_shadows : 0U) |
                                         (part_ != Part::wide ? feature_sliver : 0U) |
                                         (part_ == Part::narrow_slivers ? feature_corner_depth : 0U);
         if (detail != view::DetailLevel::none) {
@@ -146,6 +157,9 @@ private:
         }
         const ResidentMaps& maps = frame_.residency.maps(terrain);
         maps.lit.bind(lit_unit());
+        if (has_shadows(terrain)) {
+            maps.sun->bind(sun_unit());
+        }
         program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, frame_.residency.ground().ground(terrain));
@@ -161,6 +175,9 @@ private:
         }
         const ResidentTileMaps& maps = frame_.residency.tile_maps().tile(draw);
         maps.lit->bind(lit_unit());
+        if (has_shadows(*draw.terrain)) {
+            maps.sun->bind(sun_unit());
+        }
         program_->set(uniforms.lit_from_sample, maps.lit_from_sample);
         if (has_ground()) {
             bind_ground(*program_, *maps.ground);
@@ -176,6 +193,10 @@ private:
         program_->set(uniforms.eye_rest, eye.rest);
         program_->set(uniforms.world_from_local, glm::mat3(glm::dmat3(world_from_local)));
         program_->set(uniforms.tile_sample, first_sample(draw));
+        if (has_shadows(*draw.terrain)) {
+            program_->set(uniforms.shadow_from_sample,
+                          frame_.ground_shadow->bind(draw, first_sample(draw)));
+        }
         if (frame_.hits) {
             set_eye_sample(draw, world_from_local);
         }

@@ -17,6 +17,29 @@ glm::vec4 lit_from_samples(const scene::TileBuilder& maker, const scene::Terrain
 
 } // namespace
 
+namespace {
+
+struct LightOfTile {
+    Image lit;
+    Image sun; // of its parts, or empty
+};
+
+// `irradiance`: null: no light.
+LightOfTile light_of_tile(const view::TileDraw& draw, const scene::TerrainIrradiance* irradiance,
+                          bool in_parts) {
+    const scene::TileBuilder& builder = draw.terrain->stream->maker();
+    if (irradiance == nullptr) {
+        return {draw.tile->albedo, {}};
+    }
+    if (!in_parts) {
+        return {scene::lit_tile(builder, *draw.tile, *irradiance), {}};
+    }
+    scene::LitTileParts parts = scene::lit_tile_parts(builder, *draw.tile, *irradiance);
+    return {std::move(parts.sky), std::move(parts.sun)};
+}
+
+} // namespace
+
 view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
                                const scene::TerrainIrradiance* irradiance) {
     const Grid<float>& overview = maker.overview().heightfield().heights;
@@ -71,18 +94,21 @@ Result<void> TileMaps::prepare(const view::DrawList& list, view::FrameStats& sta
 Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::TileDraw& draw,
                                      Entry& entry, view::FrameStats& stats) {
     const auto light = view::light_on(list, list.world_from_local(draw));
-    if (entry.maps.lit && entry.light == light) {
+    const bool in_parts = light && draw.terrain->material.technique.options.shadow;
+    if (entry.maps.lit && entry.light == light && entry.maps.sun.has_value() == in_parts) {
         ++stats.skipped.uploads_unchanged;
         return {};
     }
-    const Image map = light ? scene::lit_tile(draw.terrain->stream->maker(), *draw.tile,
-                                              irradiance_of(draw.terrain->stream, *light))
-                            : draw.tile->albedo;
-    auto texture = upload_mipmapped(map, gl::Format::rgba8_srgb, stats);
-    if (!texture) {
-        return texture.error();
+    const LightOfTile map = light_of_tile(
+        draw, light ? &irradiance_of(draw.terrain->stream, *light) : nullptr, in_parts);
+    entry.maps.sun.reset();
+    auto kept = keep(upload_mipmapped(map.lit, gl::Format::rgba8_srgb, stats), entry.maps.lit);
+    if (kept && in_parts) {
+        kept = keep(upload_mipmapped(map.sun, gl::Format::rgba8_srgb, stats), entry.maps.sun);
     }
-    entry.maps.lit = std::move(*texture);
+    if (!kept) {
+        return kept;
+    }
     entry.maps.ground.reset();
     entry.light = light;
     return {};

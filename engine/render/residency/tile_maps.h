@@ -15,9 +15,11 @@
 
 namespace reljef::render {
 
-/// The lit map of a loaded tile. Texture coordinate = samples from the tile's first · xy + zw.
+/// The lit map of a loaded tile, in parts if its technique casts shadows. Texture coordinate =
+/// samples from the tile's first · xy + zw.
 struct ResidentTileMaps {
     std::optional<gl::Texture2D> lit;
+    std::optional<gl::Texture2D> sun; ///< the sun's part; then lit is the sky's
     glm::vec4 lit_from_sample{0.0F};
     std::optional<ResidentGround> ground; ///< for visible surface detail and point lights
 };

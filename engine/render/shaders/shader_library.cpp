@@ -251,6 +251,12 @@ ShaderFeatures mesh_shadows_of(ShaderFeatures features) {
     return is_lit ? features & feature_mesh_shadows : 0U;
 }
 
+// Of a terrain's triangles, whose light is in maps.
+ShaderFeatures mesh_shadows_on_triangles(ShaderFeatures features) {
+    constexpr ShaderFeatures others = feature_hit | feature_counting;
+    return (features & others) == 0 ? features & feature_mesh_shadows : 0U;
+}
+
 // Only a relief whose own shadows are rays has the sun's light apart.
 ShaderFeatures mesh_shadows_on_relief(ShaderFeatures features, ShaderFeatures options) {
     const bool has_rays = (options & (feature_hard_shadow | feature_soft_shadow)) != 0;
@@ -274,7 +280,8 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
     case ShaderKind::terrain:
         return (variant.features & feature_warped) != 0
                    ? feature_warped
-                   : sliver_of(variant.features) | overlay_of(variant.features) | points;
+                   : sliver_of(variant.features) | overlay_of(variant.features) | points |
+                         mesh_shadows_on_triangles(variant.features);
     case ShaderKind::relief:
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                overlay_of(variant.features) | points |
@@ -283,18 +290,19 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
     case ShaderKind::beams:
         return variant.features & (feature_streamed | feature_curved);
     case ShaderKind::relief_mesh:
-        return search | options_of(variant.features, search) | wrap | points;
+        return search | options_of(variant.features, search) | wrap | points |
+               mesh_shadows_of(variant.features);
     case ShaderKind::textured_mesh:
         return (variant.features & feature_warped) | (is_hit ? wrap : lighting) | points |
                mesh_shadows_of(variant.features);
     case ShaderKind::textured_terrain:
-        return lighting | sliver_of(variant.features) | points;
+        return lighting | sliver_of(variant.features) | points | mesh_shadows_of(variant.features);
     case ShaderKind::relief_hull:
         return search | (options_of(variant.features, search) & (shadows | feature_lit)) | wrap |
                points;
     case ShaderKind::relief_terrain:
         return search | (options_of(variant.features, search) & shadows) |
-               sliver_of(variant.features) | points;
+               sliver_of(variant.features) | points | mesh_shadows_of(variant.features);
     case ShaderKind::mesh:
         return points | mesh_shadows_of(variant.features);
     default:

@@ -86,7 +86,8 @@ inline constexpr ShaderFeatures feature_overlay = 1ULL << 29U; ///< of a terrain
 inline constexpr ShaderFeatures feature_facades = 1ULL << 30U; ///< of an overlay
 /// Of terrains and meshes: scene::PointLight.
 inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
-/// Of meshes, and of reliefs that cast shadows: meshes hide the sun (render::SunMap).
+/// Of meshes, and of terrains that cast shadows: meshes hide the sun (render::SunMap). It has a map
+/// of its own on triangles, and ground hides it from them and from meshes (render::GroundShadow).
 inline constexpr ShaderFeatures feature_mesh_shadows = 1ULL << 32U;
 
 struct ShaderVariant {

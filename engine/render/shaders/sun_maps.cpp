@@ -206,19 +206,22 @@ Shaded shaded_by(const Box& casters, const view::DrawList& list, const glm::dmat
 
 } // namespace
 
+bool casts_shadows(const view::TerrainDraw& draw) {
+    return draw.terrain->material.technique.options.shadow.has_value();
+}
+
 bool casts_mesh_shadows(const view::DrawList& list) {
     const bool is_requested =
-        std::any_of(list.terrains.begin(), list.terrains.end(), [](const view::TerrainDraw& draw) {
-            return draw.search && draw.terrain->material.technique.options.shadow;
-        });
+        std::any_of(list.terrains.begin(), list.terrains.end(), casts_shadows);
     return is_requested && list.sun && scene::to_light(*list.sun).z > min_sine;
 }
 
 bool is_shadow_caster(const view::MeshDraw& draw) {
     const scene::Material& material = draw.mesh->material;
-    const bool is_hull =
-        material.detail.set != nullptr && material.technique.options.true_silhouettes;
-    return !draw.from_behind && !is_hull && !view::drawn_mesh(draw)->indices.empty();
+    const bool has_own_outline =
+        material.detail.set != nullptr && (material.technique.options.true_silhouettes ||
+                                           scene::searches_layers(material.technique.id()));
+    return !draw.from_behind && !has_own_outline && !view::drawn_mesh(draw)->indices.empty();
 }
 
 std::vector<view::MeshDraw> shadow_casters(const view::DrawList& list) {

@@ -25,8 +25,11 @@ struct SunMap {
 /// Of a picture. The nearest to the eye is the first; they lie in a square of two by two.
 inline constexpr std::size_t max_sun_maps = 4;
 
-/// Whether shadows of meshes are requested: by `shadow=` of a terrain's technique, with a sun above
-/// the horizon.
+/// Whether a terrain casts and shows shadows of rays: by `shadow=` of its technique.
+bool casts_shadows(const view::TerrainDraw& draw);
+
+/// Whether shadows of meshes are requested: by casts_shadows() of a terrain, with a sun above the
+/// horizon.
 bool casts_mesh_shadows(const view::DrawList& list);
 
 /// Meshes that hide the sun from what the picture shows. Empty: no shadows are requested, or
@@ -34,7 +37,8 @@ bool casts_mesh_shadows(const view::DrawList& list);
 /// have the same maps. `side`: of a map, texels.
 std::vector<SunMap> sun_maps(const view::DrawList& list, int side);
 
-/// Whether a mesh casts a shadow: hulls of detail and inner sides do not.
+/// Whether a mesh casts a shadow: hulls of detail, inner sides, and layers, which have holes, do
+/// not.
 bool is_shadow_caster(const view::MeshDraw& draw);
 
 /// The list's meshes that cast shadows, also those beside the picture.

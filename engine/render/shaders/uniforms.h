@@ -20,7 +20,8 @@ struct Uniforms {
     gl::Uniform<glm::vec2> tile_sample{"tile_sample"};
     gl::Uniform<glm::vec4> eye_in_tile{"eye_in_tile"};
     gl::Uniform<glm::vec4> eye_sample{"eye_sample"};
-    gl::Uniform<glm::vec4> lit_from_sample{"lit_from_sample"}; // relief.frag too
+    gl::Uniform<glm::vec4> lit_from_sample{"lit_from_sample"};       // relief.frag too
+    gl::Uniform<glm::vec4> shadow_from_sample{"shadow_from_sample"}; // ground_sun.glsl
     // With a detail texture: ground.glsl, ground_color.glsl.
     gl::Uniform<glm::vec4> ground_from_sample{"ground_from_sample"};
     gl::Uniform<glm::vec3> tiles_at_eye{"tiles_at_eye"};
@@ -29,6 +30,7 @@ struct Uniforms {
     gl::Uniform<glm::mat4> relative_from_local{"relative_from_local"};
     gl::Uniform<glm::mat3> world_from_normal{"world_from_normal"};
     gl::Uniform<glm::vec3> albedo{"albedo"};
+    gl::Uniform<glm::mat4> ground_shadow_place{"ground_shadow_place"}; // sun_on_mesh.glsl
     // With a detail texture: tile_surface.glsl, textured_mesh.frag, hull.glsl.
     gl::Uniform<glm::mat3> local_from_relative{"local_from_relative"};
     gl::Uniform<glm::vec4> warp_from_tile{"warp_from_tile"};

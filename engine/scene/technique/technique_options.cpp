@@ -129,6 +129,11 @@ std::string_view reason_without_path(TechniqueId id) {
     return is_parallax ? "it follows no ray; relief and exact do" : reason_without_ray(id);
 }
 
+std::string_view reason_against_shadow(TechniqueId id) {
+    const bool has_bound = id == TechniqueId::polygons || id == TechniqueId::automatic;
+    return has_bound ? "" : reason_without_path(id);
+}
+
 std::string_view reason_against_steps(TechniqueId id) {
     if (!searches_surface(id)) {
         return reason_without_ray(id);
@@ -194,7 +199,7 @@ constexpr std::array<OptionInfo, 8> option_infos{
       .numbers = shadow_numbers,
       .chosen = chosen_shadow,
       .choose = choose_shadow,
-      .reason_against = reason_without_path},
+      .reason_against = reason_against_shadow},
      {.name = "edges",
       .default_value = "none",
       .meaning = "smooth: blends the hit with the nearest surface point within E of the ray, by "

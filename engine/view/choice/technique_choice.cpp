@@ -159,6 +159,7 @@ void split_at(DrawList& list, int last_ring, const scene::Technique& search) {
     std::erase_if(list.tiles,
                   [&](const TileDraw& draw) { return ring_of(*draw.tile, below) > last_ring; });
     terrain.search = SurfaceSearch{.technique = search};
+    terrain.search->technique.options.shadow = terrain.terrain->material.technique.options.shadow;
 }
 
 bool allows_typical(const scene::TerrainNode& terrain) {

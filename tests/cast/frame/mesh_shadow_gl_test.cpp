@@ -20,6 +20,20 @@
 namespace reljef::cast {
 namespace {
 
+std::shared_ptr<const scene::TerrainDetail> gray_detail(const char* technique) {
+    material::ReliefMaterial set;
+    set.name = "gray";
+    set.heights = Grid<float>(16, 16, 1.0F);
+    set.color = Image(16, 16, Rgba8{160, 160, 160, 255});
+    set.specular = 0.0F;
+    scene::TerrainDetail detail;
+    detail.set = std::make_shared<const material::ReliefMaterial>(
+        material::completed(std::move(set), material::WrapMode::wrap).value());
+    detail.width = 6.0;
+    detail.technique = test::must(scene::parse_technique(technique));
+    return std::make_shared<const scene::TerrainDetail>(std::move(detail));
+}
+
 class MeshShadowGlTest : public test::GlTest {
 protected:
     // In OpenGL.
@@ -36,7 +50,6 @@ protected:
     }
 };
 
-// Ground hides no sun from meshes there, so the sun is high.
 TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
     constexpr std::array altitudes{35.0, 50.0};
     for (const double altitude : std::span(altitudes).first(std::size_t{test::rounds(2, 1)})) {
@@ -52,6 +65,16 @@ TEST_F(MeshShadowGlTest, AreThoseOfRaysAndOfTheTruth) {
             const Image unshadowed = stage.true_picture(truth::SunShadow::sweep);
             EXPECT_GE(test::share_of_others(shown, unshadowed, 16), 0.01) << altitude << is_map;
         }
+    }
+}
+
+// A wall between the objects and the sun.
+TEST_F(MeshShadowGlTest, GroundHidesTheSunFromMeshes) {
+    for (const bool is_map : {false, true}) {
+        ObjectStage stage(true, hills_and_wall());
+        is_map ? stage.look_from_above() : stage.look_near();
+        const Image shown = picture_of(stage);
+        EXPECT_LE(test::share_of_others(shown, stage.drawn(), 16), 0.005) << is_map;
     }
 }
 
@@ -97,6 +120,87 @@ TEST_F(MeshShadowGlTest, LitFacesHaveNoDarkSpots) {
         }
         EXPECT_GT(compared, 4000);
     }
+}
+
+// Rays on the CPU draw triangles with an error bound, too. From straight above, an error bound does
+// not bound heights, and ground may cover objects: all samples are drawn.
+TEST_F(MeshShadowGlTest, OnTrianglesTheyAreThoseOfRays) {
+    for (const bool is_map : {false, true}) {
+        ObjectStage stage(true, hills_and_wall());
+        is_map ? stage.look_from_above() : stage.look_near();
+        stage.set_technique("polygons:error=0.25,shadow=hard");
+        const Image rays = stage.drawn();
+        stage.set_technique("polygons:shadow=hard");
+        const Image shown = picture_of(stage);
+        EXPECT_LE(test::share_of_others(shown, rays, 16), 0.02) << is_map;
+        EXPECT_LE(test::share_of_others(picture_of(stage, mesh_picture, 4), shown, 48), 0.06);
+        stage.set_technique("polygons");
+        EXPECT_GE(test::share_of_others(picture_of(stage), rays, 16), 0.05) << is_map;
+        if (!is_map) {
+            for (const char* const technique : {"polygons:error=0.25", "auto:error=0.25"}) {
+                stage.set_technique(std::string(technique) + ",shadow=hard");
+                EXPECT_LE(test::share_of_others(picture_of(stage), shown, 16), 0.01) << technique;
+            }
+        }
+    }
+}
+
+TEST_F(MeshShadowGlTest, OnTrianglesOfAStreamTheyAreThoseInMemory) {
+    ObjectStage stage(true, hills_and_wall());
+    ObjectStage streamed(true, hills_and_wall());
+    for (ObjectStage* const one : {&stage, &streamed}) {
+        one->set_technique("polygons:shadow=hard");
+        one->look_near();
+    }
+    test::stream_samples(*streamed.terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
+    render::bring_tiles(streamed.scene, mesh_picture);
+    EXPECT_LE(test::share_of_others(picture_of(streamed), picture_of(stage), 24), 0.03);
+}
+
+// A level tile of one colour changes nothing on ground, so its shadows are those of rays, too.
+TEST_F(MeshShadowGlTest, OnGroundWithDetailTheyAreThoseOfRays) {
+    for (const char* const technique : {"texture", "normal", "exact"}) {
+        ObjectStage stage(true, hills_and_wall());
+        stage.look_near();
+        stage.set_technique("polygons:error=0.25,shadow=hard");
+        const Image rays = stage.drawn();
+        const Image without = picture_of(stage);
+        stage.terrain->get<scene::TerrainNode>()->detail = gray_detail(technique);
+        const Image shown = picture_of(stage);
+        EXPECT_LE(test::share_of_others(shown, rays, 16), 0.02) << technique;
+        EXPECT_GE(test::share_of_others(shown, without, 0), 0.01) << technique << ": is drawn";
+        stage.set_technique("polygons:error=0.25");
+        EXPECT_GE(test::share_of_others(picture_of(stage), rays, 16), 0.05) << technique;
+    }
+}
+
+// A level relief on meshes changes nothing, so its shadows are those of rays at their pictures.
+TEST_F(MeshShadowGlTest, OnReliefOfMeshesTheyAreThoseOfRays) {
+    ObjectStage stage(true, hills_and_wall());
+    stage.look_near();
+    stage.set_textures("texture");
+    const Image rays = stage.drawn();
+    for (const char* const technique : {"texture", "exact", "relief:edges=smooth"}) {
+        stage.set_textures(technique);
+        stage.set_shadow(true);
+        EXPECT_LE(test::share_of_others(picture_of(stage), rays, 16), 0.01) << technique;
+        stage.set_shadow(false);
+        EXPECT_GE(test::share_of_others(picture_of(stage), rays, 16), 0.05) << technique;
+    }
+}
+
+// Layers have holes: they cast no shadow of their whole area.
+TEST_F(MeshShadowGlTest, LayersCastNoShadows) {
+    ObjectStage stage;
+    stage.remove_meshes();
+    stage.look_near();
+    stage.add(scene::plane_mesh({50.0F, 50.0F}), {0.0, -20.0}, picture_on_mesh());
+    stage.set_textures("lattice");
+    const view::DrawList list = view::select(stage.scene, mesh_picture).list;
+    EXPECT_FALSE(list.meshes.empty());
+    EXPECT_TRUE(render::shadow_casters(list).empty());
+    stage.set_textures("texture");
+    EXPECT_FALSE(render::shadow_casters(view::select(stage.scene, mesh_picture).list).empty());
 }
 
 // The parts of a picture have the same maps, so all pixels are those of one piece.
@@ -155,6 +259,31 @@ TEST_F(MeshShadowGlTest, WithoutMeshesOrTheOptionTheyCostNothing) {
     stage.set_shadow(true);
     stage.remove_meshes();
     EXPECT_EQ(stats_of(stage).draws, 3) << "ground, its beams, and the sky";
+    stage.set_technique("polygons:error=1");
+    const auto triangles = stats_of(stage);
+    stage.set_technique("polygons:error=1,shadow=hard");
+    EXPECT_EQ(stats_of(stage).draws, triangles.draws);
+}
+
+// Its shadow on meshes is one map of its samples, again only in another light.
+TEST_F(MeshShadowGlTest, ShadowsOfGroundAreUploadedOnceForEachSun) {
+    ObjectStage stage;
+    stage.look_near();
+    session::SceneRenderer made = test::must(test::make_renderer(mesh_picture));
+    const auto bytes_after = [&](double altitude) {
+        stage.set_sun(altitude);
+        return test::must(made.draw(stage.scene)).upload_bytes;
+    };
+    bytes_after(20.0);
+    const std::size_t in_other_light = bytes_after(30.0);
+    stage.look_from_above();
+    EXPECT_LT(bytes_after(30.0), 10'000U) << "the light stays";
+    stage.remove_meshes();
+    bytes_after(20.0);
+    const std::size_t without_meshes = bytes_after(30.0);
+    constexpr std::size_t map_bytes = sizeof(glm::vec2) * 301 * 257;
+    EXPECT_GE(in_other_light, without_meshes + map_bytes);
+    EXPECT_LT(in_other_light, without_meshes + map_bytes * 4 / 3 + 10'000U);
 }
 
 } // namespace

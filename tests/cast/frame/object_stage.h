@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -63,6 +64,20 @@ struct ObjectStage : Stage {
             technique.options.shadow = scene::Shadow{.depth = 0.0};
         }
         terrain->get<scene::TerrainNode>()->material.technique = technique;
+    }
+    void set_technique(std::string_view text) {
+        terrain->get<scene::TerrainNode>()->material.technique =
+            test::must(scene::parse_technique(text));
+    }
+    // All meshes get a picture.
+    void set_textures(std::string_view technique) {
+        for (const auto& node : scene.root().children()) {
+            auto* const mesh = node->get<scene::MeshNode>();
+            if (mesh != nullptr) {
+                mesh->material = picture_on_mesh();
+                mesh->material.technique = test::must(scene::parse_technique(technique));
+            }
+        }
     }
     void add(scene::Mesh mesh, glm::dvec2 at, const scene::Material& material) {
         const double ground = surface().height_at(at.x, at.y).value();

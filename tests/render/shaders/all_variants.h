@@ -21,7 +21,8 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
     switch (kind) {
     case ShaderKind::terrain:
         return any | feature_warped | feature_multisampled | feature_counting | feature_sliver |
-               feature_corner_depth | feature_overlay | feature_facades | feature_point_lights;
+               feature_corner_depth | feature_overlay | feature_facades | feature_point_lights |
+               feature_mesh_shadows;
     case ShaderKind::mesh:
         return any | feature_multisampled | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::relief:
@@ -32,19 +33,19 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
         return any | feature_streamed | feature_curved | feature_counting;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled |
-               feature_point_lights;
+               feature_point_lights | feature_mesh_shadows;
     case ShaderKind::textured_mesh:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_wrap |
                feature_warped | feature_multisampled | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::textured_terrain:
         return any | feature_normal_map | feature_bump | feature_emboss | feature_multisampled |
-               feature_sliver | feature_corner_depth | feature_point_lights;
+               feature_sliver | feature_corner_depth | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::relief_hull:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_wrap |
                feature_multisampled | feature_point_lights;
     case ShaderKind::relief_terrain:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled |
-               feature_sliver | feature_corner_depth | feature_point_lights;
+               feature_sliver | feature_corner_depth | feature_point_lights | feature_mesh_shadows;
     default:
         return any;
     }

@@ -60,9 +60,9 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // with and without fade and depth; of eight searches: these, and as colour three shadows and
     // smooth edges or not.
     // All colours of a terrain but warped ones are there with overlays, too, with façades or not.
-    // Of these, and of meshes, all colours are there with point lights, too. Lit meshes, and
-    // reliefs with shadows, are there with shadows of meshes, too; and the depth that these are
-    // made from.
+    // Of these, and of meshes, all colours are there with point lights, too. Lit meshes, colours of
+    // terrains, lit tiles on them, and reliefs with shadows, are there with shadows of meshes, too;
+    // and the depth that these are made from.
     constexpr std::size_t parallax = 4U * (1U + 2U * 6U) * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 6U * 4U * 10U);
     // All of a relief are there for streams and on the ellipsoid, too.
@@ -71,17 +71,17 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
     // lit or not, wrapped or not; one that looks for layers has no smooth edges.
     constexpr std::size_t textured = 2U * (2U * (4U * 2U * 2U + 2U) + 2U);
-    constexpr std::size_t mesh_parallax = 2U * 4U * (2U * 4U + 1U) * 4U;
-    constexpr std::size_t mesh_searches = 2U * 8U * (4U + 2U * 4U * 2U * 2U * (3U + 1U));
-    constexpr std::size_t layers = 2U * (4U + 2U * 4U * 2U * (3U + 1U));
+    constexpr std::size_t mesh_parallax = 2U * 4U * (2U * 2U * (1U + 2U) + 1U) * 4U;
+    constexpr std::size_t mesh_searches = 2U * 8U * (4U + 2U * 4U * 2U * 2U * (2U * 3U + 1U));
+    constexpr std::size_t layers = 2U * (4U + 2U * 4U * 2U * (2U * 3U + 1U));
     // A hull is lit with three shadows or not at all, wrapped or not.
     // A terrain with a tile: lit in four ways or not; one that searches casts three shadows, or is
     // not lit; none is ever hit. Both kinds of slivers are there, too.
-    constexpr std::size_t textured_ground = 2U * 3U * 2U * (4U + 1U);
+    constexpr std::size_t textured_ground = 2U * 3U * 2U * (2U * 4U + 1U);
     constexpr std::size_t hull_searches = 2U * 8U * (1U + 2U * 2U * (1U + 3U));
-    constexpr std::size_t ground_searches = 2U * 3U * 2U * (4U * 2U + 8U * (1U + 3U));
-    constexpr std::size_t plain =
-        3U * 4U + 2U * 2U * 3U + 2U * 3U * 3U + 2U * 4U + 1U + 4U + 1U + 2U * 2U + 1U;
+    constexpr std::size_t ground_searches = 2U * 3U * 2U * (4U * (1U + 2U) + 8U * (1U + 2U * 3U));
+    constexpr std::size_t plain = 3U * 4U + 2U * 2U * 3U + 2U * 3U * 3U + 2U * 2U * 3U * 3U +
+                                  2U * 4U + 1U + 4U + 1U + 2U * 2U + 1U;
     // What counts is a colour without air and depth: of a terrain, also warped or its two kinds of
     // slivers; of the beams; and of a relief, of four parallaxes with and without fade; of eight
     // searches with these, three shadows, and smooth edges or not; three of them with beams,

@@ -56,5 +56,29 @@ TEST_F(GalleryObject, NeedsTextureCoordinates) {
     EXPECT_THAT(refused.error().message, testing::HasSubstr("no texture coordinates found"));
 }
 
+TEST(Gallery, TheFloorShowsShadowsIfAModelHasSome) {
+    SourceOptions options;
+    options.terrain = "gallery";
+    const auto gallery_with = [&](std::string_view technique) {
+        SceneOptions view;
+        view.technique = scene::parse_technique(technique).value();
+        return test::make_scene(test::open_terrain(options).value(), options, view).value();
+    };
+    const auto has_shadows = [](const TerrainScene& scene) {
+        const auto& floor = *scene.terrain->get<scene::TerrainNode>();
+        return floor.material.technique.options.shadow.has_value();
+    };
+    EXPECT_FALSE(has_shadows(gallery_with("relief")));
+    const TerrainScene scene = gallery_with("relief:shadow=hard");
+    EXPECT_TRUE(has_shadows(scene));
+    auto& floor = *scene.terrain->get<scene::TerrainNode>();
+    for (scene::Node* const model : scene.models) {
+        EXPECT_TRUE(has_shadows(scene));
+        model->get<scene::MeshNode>()->material.technique.options.shadow.reset();
+        shadow_floor(floor, scene.models);
+    }
+    EXPECT_FALSE(has_shadows(scene));
+}
+
 } // namespace
 } // namespace reljef::session
