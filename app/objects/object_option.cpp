@@ -33,8 +33,8 @@ Result<void> set_key(io::ObjectDescription& object, const Assignment& assignment
                           cli::number_in("--object: heading", -360.0, 360.0)(value));
     }
     if (assignment.key == "scale") {
-        return set_number(object.scale, cli::number_in("--object: scale", 0.0, io::max_object_scale,
-                                                       true)(value));
+        return set_number(object.scale, cli::number_in("--object: scale", io::min_object_scale,
+                                                       io::max_object_scale)(value));
     }
     return Error{fmt::format("--object: '{}' found, at, height, heading or scale was expected",
                              assignment.key)};

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/cli/progress_line.h"
 #include "bench/objects/city_forms.h"
@@ -151,7 +152,8 @@ public:
             }
         }
         return results_.rows.empty() && !stop_.stop_requested()
-                   ? Result<void>(Error{"no city was measured, one at least was expected"})
+                   ? Result<void>(Error{
+                         fmt::format("no city was measured: {}", fmt::join(results_.notes, "; "))})
                    : Result<void>();
     }
 

@@ -144,6 +144,18 @@ MeshHit point_on(const scene::Mesh& mesh, const Ray& local, MeshHit hit) {
     return hit;
 }
 
+// Embree aborts on rays of larger numbers; what is scaled down so far cannot be seen.
+bool can_be_cast(const glm::dmat4& local_from_relative) {
+    constexpr double largest = 0x1p59;
+    bool all = true;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            all = all && std::abs(local_from_relative[column][row]) < largest; // false for NaN
+        }
+    }
+    return all;
+}
+
 double extent_of(const Box& bounds) {
     return glm::length(glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
 }
@@ -244,12 +256,15 @@ Result<PlacedMeshes> MeshTrees::place(std::span<const view::MeshDraw> seen,
     PlacedMeshes placed;
     for (const auto& draws : {seen, beside}) {
         for (const view::MeshDraw& draw : draws) {
+            glm::dmat4 relative_from_local = draw.world_from_local;
+            relative_from_local[3] -= glm::dvec4(eye, 0.0);
+            if (!can_be_cast(glm::inverse(relative_from_local))) {
+                continue;
+            }
             const auto tree = tree_of(view::drawn_mesh(draw));
             if (!tree) {
                 return tree.error();
             }
-            glm::dmat4 relative_from_local = draw.world_from_local;
-            relative_from_local[3] -= glm::dvec4(eye, 0.0);
             add_instance(all->device.get(), all->scene, (*tree)->scene->scene, relative_from_local,
                          static_cast<unsigned>(placed.meshes_.size()));
             placed.meshes_.push_back(placed_at(draw, relative_from_local, (*tree)->bounds));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
+#include "engine/io/footprints/geometry_on_earth.h"
 #include "engine/io/footprints/polygon_parts.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_dataset.h"
@@ -120,18 +122,26 @@ public:
 private:
     Result<void> add(const OGRFeature& feature, int field) {
         const OGRGeometry* const geometry = feature.GetGeometryRef();
-        PolygonParts found = polygon_parts(geometry);
-        if (!found.is_polygon) {
+        const std::unique_ptr<OGRGeometry> placed(
+            geometry != nullptr ? geometry->getLinearGeometry() : nullptr);
+        if (placed == nullptr || !has_polygon(*placed)) {
             ++file_.counts.no_polygons;
             return {};
         }
         has_polygons_ = true;
-        if (auto placed = place(found, geometry->getSpatialReference()); !placed) {
-            return placed;
+        if (options_.on_earth) {
+            if (auto known = set_crs(geometry->getSpatialReference()); !known) {
+                return known;
+            }
+            if (!place_on_earth(*placed, *transform_)) {
+                ++file_.counts.off_earth;
+                return {};
+            }
         }
-        file_.counts.repaired +=
-            static_cast<std::size_t>(found.is_repaired && !found.parts.empty());
-        file_.counts.broken += static_cast<std::size_t>(found.broken > 0);
+        PolygonParts found = polygon_parts(*placed);
+        if (auto good = count(found); !good) {
+            return good;
+        }
         const auto height = height_of(feature, field);
         if (found.parts.empty() || !is_height(height)) {
             return {};
@@ -153,10 +163,13 @@ private:
         return height && !is_odd;
     }
 
-    // Transforms the corners; parts that leave the domain of the transform are broken.
-    Result<void> place(PolygonParts& found, const OGRSpatialReference* crs) {
-        for (building::Footprint& part : found.parts) {
-            for (building::Ring& ring : part.rings) {
+    Result<void> count(const PolygonParts& found) {
+        file_.counts.repaired +=
+            static_cast<std::size_t>(found.is_repaired && !found.parts.empty());
+        file_.counts.broken += static_cast<std::size_t>(found.broken > 0);
+        file_.counts.too_large += static_cast<std::size_t>(found.too_large > 0);
+        for (const building::Footprint& part : found.parts) {
+            for (const building::Ring& ring : part.rings) {
                 corners_ += ring.size();
             }
         }
@@ -165,16 +178,6 @@ private:
                                      "expected",
                                      name_, max_footprint_corners)};
         }
-        if (!options_.on_earth) {
-            return {};
-        }
-        if (auto known = set_crs(crs); !known) {
-            return known;
-        }
-        const std::size_t parts = found.parts.size();
-        std::erase_if(found.parts,
-                      [&](building::Footprint& part) { return !is_placed(part.rings); });
-        found.broken += parts - found.parts.size();
         return {};
     }
 
@@ -195,21 +198,6 @@ private:
                           : Error{fmt::format("{}: its coordinate system does not lead to WGS 84, "
                                               "one that does was expected",
                                               name_)};
-    }
-
-    bool is_placed(std::vector<building::Ring>& rings) const {
-        for (std::size_t i = 0; i < rings.size(); ++i) {
-            transform_->apply(rings[i]);
-            const bool is_on_earth =
-                std::all_of(rings[i].begin(), rings[i].end(), [](glm::dvec2 corner) {
-                    return std::abs(corner.x) <= 720.0 && std::abs(corner.y) <= 90.0;
-                });
-            const bool keeps_its_side = (building::signed_area(rings[i]) > 0.0) == (i == 0);
-            if (!is_on_earth || !keeps_its_side) {
-                return false;
-            }
-        }
-        return true;
     }
 
     std::string name_;

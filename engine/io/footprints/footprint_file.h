@@ -22,12 +22,15 @@ struct FileFootprint {
 
 inline constexpr double max_building_height = 1000.0;           ///< metres
 inline constexpr std::size_t max_footprint_corners = 2'000'000; ///< of all that a file holds
+inline constexpr std::size_t max_polygon_corners = 10'000;      ///< more take minutes
 
 /// What a file holds besides usable footprints, by features.
 struct FootprintCounts {
     std::size_t no_polygons = 0; ///< points, lines, nothing
-    std::size_t repaired = 0;    ///< used, though their outlines cross themselves
-    std::size_t broken = 0;      ///< without area or numbers, or of over max_polygon_corners
+    std::size_t repaired = 0;    ///< used, though their outlines are not valid
+    std::size_t broken = 0;      ///< without area or numbers
+    std::size_t too_large = 0;   ///< of over max_polygon_corners
+    std::size_t off_earth = 0;   ///< with corners that have no longitude and latitude
     std::size_t no_height = 0;   ///< the attribute is empty or no number of metres
     std::size_t odd_height = 0;  ///< negative, 0 or over max_building_height
 };

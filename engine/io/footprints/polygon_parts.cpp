@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include <cpl_string.h>
 #include <geos_c.h>
 
 namespace reljef::io {
@@ -170,6 +171,11 @@ std::vector<glm::uvec3> triangles_of(const OGRPolygon& polygon,
     return triangles;
 }
 
+Geometry repaired_polygon(const OGRPolygon& polygon) {
+    const CPLStringList by_structure(std::vector<std::string>{"METHOD=STRUCTURE"});
+    return Geometry(polygon.MakeValid(by_structure.List()));
+}
+
 // Appends the footprint of a valid polygon.
 void add_part(const OGRPolygon& polygon, PolygonParts& found) {
     std::vector<building::Ring> rings = rings_of(polygon);
@@ -183,24 +189,23 @@ void add_part(const OGRPolygon& polygon, PolygonParts& found) {
 
 } // namespace
 
-PolygonParts polygon_parts(const OGRGeometry* geometry) {
+bool has_polygon(const OGRGeometry& geometry) {
+    return !polygons_in(geometry).empty();
+}
+
+PolygonParts polygon_parts(const OGRGeometry& geometry) {
     PolygonParts found;
-    if (geometry == nullptr) {
-        return found;
-    }
-    const Geometry flat(geometry->getLinearGeometry());
-    if (flat == nullptr) {
-        return found;
-    }
+    const Geometry flat(geometry.clone());
     flat->flattenTo2D();
     for (const OGRPolygon* polygon : polygons_in(*flat)) {
-        found.is_polygon = true;
-        if (corners_in(*polygon) > max_polygon_corners || !has_numbers(*polygon)) {
+        if (corners_in(*polygon) > max_polygon_corners) {
+            ++found.too_large;
+        } else if (!has_numbers(*polygon)) {
             ++found.broken;
         } else if (polygon->IsValid() != 0) {
             add_part(*polygon, found);
         } else {
-            const Geometry repaired(polygon->MakeValid());
+            const Geometry repaired = repaired_polygon(*polygon);
             const auto pieces =
                 repaired != nullptr ? polygons_in(*repaired) : std::vector<const OGRPolygon*>();
             found.is_repaired = found.is_repaired || !pieces.empty();

@@ -40,7 +40,7 @@ constexpr std::array<std::string_view, 3> bases{"plane", "solid", "none"};
 constexpr NumberRange latitudes{-90.0, 90.0, false};
 constexpr NumberRange longitudes{-360.0, 720.0, false};
 constexpr NumberRange object_heights{-max_object_height, max_object_height, false};
-constexpr NumberRange object_scales{0.0, max_object_scale, true};
+constexpr NumberRange object_scales{min_object_scale, max_object_scale};
 constexpr NumberRange intensities{0.0, max_intensity, true};
 constexpr NumberRange light_altitudes{0.0, 90.0, false};
 constexpr NumberRange light_intensities{0.0, max_light_intensity, true};

@@ -39,9 +39,10 @@ struct ObjectDescription {
     std::optional<glm::dvec2> at;
     double height = 0.0;  ///< of its lowest point above the ground, metres
     double heading = 0.0; ///< degrees clockwise, [-360, 360]; 0: the mesh's y points north
-    double scale = 1.0;   ///< metres per metre of the file, over 0
+    double scale = 1.0;   ///< metres per metre of the file
 };
 inline constexpr double max_object_height = 1e5; ///< metres, also below the ground
+inline constexpr double min_object_scale = 1e-6;
 inline constexpr double max_object_scale = 1e4;
 inline constexpr std::size_t max_objects = 10'000;
 

@@ -177,12 +177,14 @@ const toml::node* TomlTable::find(std::string_view key) {
 }
 
 void TomlTable::require(std::initializer_list<std::string_view> keys) {
-    const std::string all_but_last =
-        fmt::format("{}", fmt::join(keys.begin(), keys.end() - 1, ", "));
+    const std::string_view last = *(keys.end() - 1);
+    const std::string expected =
+        keys.size() == 1
+            ? fmt::format("{} was", last)
+            : fmt::format("{} and {} were", fmt::join(keys.begin(), keys.end() - 1, ", "), last);
     for (const std::string_view key : keys) {
         if (!has(key)) {
-            fail(key, fmt::format("is missing, {} and {} were expected", all_but_last,
-                                  *(keys.end() - 1)));
+            fail(key, fmt::format("is missing, {} expected", expected));
         }
     }
 }

@@ -104,6 +104,7 @@ Result<SurfaceShader> SurfaceShader::create(std::string name, std::string text) 
             return Error{fmt::format("{}: '{}' behind uniform {} {} found, ';' or '=' was expected",
                                      shader.name_, end, type, shader.constants_.back().name)};
         }
+        shader.constants_.back().has_default = end == "=";
     }
     if (!has_function) {
         return Error{fmt::format(
@@ -124,9 +125,21 @@ Result<void> SurfaceShader::check(std::span<const ShaderConstant> constants) con
                                      constant.name)};
         }
         if (declared->size != constant.values.size()) {
-            return Error{fmt::format("{}: constant '{}' with {} values found, {} was expected",
-                                     name_, constant.name, constant.values.size(),
+            return Error{fmt::format("{}: constant '{}' with {} {} found, {} was expected", name_,
+                                     constant.name, constant.values.size(),
+                                     constant.values.size() == 1 ? "value" : "values",
                                      type_of(declared->size))};
+        }
+    }
+    for (const Declaration& declared : constants_) {
+        const bool is_given =
+            std::any_of(constants.begin(), constants.end(), [&](const ShaderConstant& constant) {
+                return constant.name == declared.name;
+            });
+        if (!is_given && !declared.has_default) {
+            return Error{fmt::format("{}: no value of its uniform {} {} found, one was expected: "
+                                     "as a constant, or '=' in its declaration",
+                                     name_, type_of(declared.size), declared.name)};
         }
     }
     return {};

@@ -28,7 +28,8 @@ class SurfaceShader {
 public:
     struct Declaration {
         std::string name;
-        std::size_t size = 0; ///< numbers
+        std::size_t size = 0;     ///< numbers
+        bool has_default = false; ///< declared with a value
     };
 
     /// `name`: the file, for errors. Fails without that name, with other uniforms, with a zero
@@ -40,7 +41,8 @@ public:
     [[nodiscard]] const std::string& text() const { return text_; }
     [[nodiscard]] std::span<const Declaration> constants() const { return constants_; }
 
-    /// Fails if a constant is not declared, or has another size.
+    /// Fails if a constant is not declared, has another size, or has no value although its
+    /// declaration has none.
     [[nodiscard]] Result<void> check(std::span<const ShaderConstant> constants) const;
 
     static constexpr std::size_t max_bytes = 65'536;

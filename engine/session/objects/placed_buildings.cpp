@@ -191,6 +191,8 @@ public:
     // Empty if nothing is left out or repaired.
     [[nodiscard]] std::string note(const io::FootprintCounts& in_file) const {
         std::vector<std::string> parts;
+        const std::string over_max_corners =
+            fmt::format("with over {} corners", io::max_polygon_corners);
         const auto report = [&](std::size_t count, const char* why) {
             if (count > 0) {
                 parts.push_back(fmt::format("{} {}", count, why));
@@ -202,15 +204,18 @@ public:
         report(left_out_.no_surface, "without a height of the surface");
         report(in_file.odd_height + left_out_.in_file.odd_height,
                "with a height that is not over 0 and up to 1000 m");
-        report(in_file.broken, "with a broken outline");
+        report(in_file.broken, "with an outline without area");
+        report(in_file.too_large, over_max_corners.c_str());
+        report(in_file.off_earth,
+               "with coordinates that are nowhere on Earth (another coordinate system?)");
         report(in_file.no_polygons, "that are no polygons");
         std::string text;
         if (!parts.empty()) {
             text = fmt::format("left out: {}", fmt::join(parts, ", "));
         }
         if (in_file.repaired > 0) {
-            text += fmt::format("{}{} that cross themselves are repaired", text.empty() ? "" : "; ",
-                                in_file.repaired);
+            text += fmt::format("{}{} that are no valid outlines are repaired",
+                                text.empty() ? "" : "; ", in_file.repaired);
         }
         return text.empty()
                    ? text

@@ -44,6 +44,7 @@ TEST(ObjectOption, NamesWhatIsWrong) {
         {"a.obj:at=1,2,at=3,4", "at found twice"},
         {"a.obj:at=1,2,size=4", "'size' found"},
         {"a.obj:at=1,2,scale=0", "scale: '0' found"},
+        {"a.obj:at=1,2,scale=1e-20", "scale: '1e-20' found"},
         {"a.obj:at=1,2,scale=-1", "scale: '-1' found"},
         {"a.obj:at=1,2,heading=361", "heading: '361' found"},
         {"a.obj:at=1,2,height=1e9", "height: '1e9' found"},

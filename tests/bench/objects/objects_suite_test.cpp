@@ -100,6 +100,14 @@ TEST(ObjectsSuite, WhatCannotBeMeasuredIsNotedAndTheRestIsMeasured) {
     EXPECT_THAT(results.notes, Contains(HasSubstr("absent.toml")));
 }
 
+TEST(ObjectsSuite, WithoutAnyCityTheReasonsAreTheError) {
+    ObjectsOptions options = small_city();
+    options.terrains = {"absent.toml"};
+    const Results results = run_objects(options, {});
+    ASSERT_TRUE(results.stopped);
+    EXPECT_THAT(results.stopped->message, HasSubstr("absent.toml"));
+}
+
 TEST(ObjectsSuite, SceneFilesWithFootprintsOnASurfaceModelAreCities) {
     const test::TemporaryFolder folder;
     std::string ground = "ncols 61\nnrows 61\nxllcenter 7\nyllcenter 45\ncellsize 0.00001\n";

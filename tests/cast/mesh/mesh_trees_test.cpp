@@ -191,6 +191,20 @@ TEST(MeshTrees, TrianglesWithoutAreaAreNotMet) {
     EXPECT_DOUBLE_EQ(hit->t, 1.0);
 }
 
+TEST(MeshTrees, MeshesScaledToNothingAreNotCast) {
+    for (const double scale : {1e-15, 1e-20, 1e-200, 1e-308}) {
+        MadeMeshes made;
+        made.add(scene::sphere_mesh(1.0F), placed({0.0, 0.0, -50.0}));
+        made.add(scene::sphere_mesh(1.0F), placed({0.0, 0.0, -5.0}, 30.0, scale));
+        MeshTrees trees;
+        const auto meshes = trees.place(made.draws, {}, glm::dvec3(0.0));
+        ASSERT_TRUE(meshes) << meshes.error().message;
+        const auto hit = meshes->first_hit({glm::dvec3(0.0), {0.0, 0.0, -1.0}}, onward);
+        ASSERT_TRUE(hit) << scale;
+        EXPECT_NEAR(hit->t, 49.0, 0.1);
+    }
+}
+
 TEST(MeshTrees, KeepATreeAsLongAsItsMesh) {
     MeshTrees trees;
     {

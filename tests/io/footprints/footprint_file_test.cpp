@@ -213,7 +213,7 @@ TEST_F(FootprintFileTest, RefusesWhatIsNoSuchFileInOneSentence) {
     EXPECT_FALSE(read_footprints(folder_.write("a.geojson", square), {}, stop.get_token()));
 }
 
-TEST_F(FootprintFileTest, PolygonsOfTooManyCornersAreCountedAsBroken) {
+TEST_F(FootprintFileTest, PolygonsOfTooManyCornersAreCounted) {
     std::string ring;
     const int corners = static_cast<int>(max_polygon_corners) + 1;
     for (int i = 0; i <= corners; ++i) {
@@ -224,7 +224,47 @@ TEST_F(FootprintFileTest, PolygonsOfTooManyCornersAreCountedAsBroken) {
     const auto file = read({polygon_feature("[[" + ring + "]]")});
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_EQ(file->footprints.size(), 0U);
-    EXPECT_EQ(file->counts.broken, 1U);
+    EXPECT_EQ(file->counts.too_large, 1U);
+    EXPECT_EQ(file->counts.broken, 0U);
+}
+
+TEST_F(FootprintFileTest, AnOutlineAcrossTheAntimeridianIsNotTurnedOver) {
+    for (const char* const ring :
+         {"[[[179.98,45],[-179.98,45],[-179.98,45.01],[179.98,45.01],[179.98,45]]]",
+          "[[[179.98,45],[179.98,45.01],[-179.98,45.01],[-179.98,45],[179.98,45]]]"}) {
+        const auto file = read({polygon_feature(ring)});
+        ASSERT_TRUE(file) << file.error().message;
+        ASSERT_EQ(file->footprints.size(), 1U);
+        EXPECT_EQ(file->counts.repaired, 0U);
+        const building::Footprint& shape = file->footprints[0].shape;
+        EXPECT_NEAR(building::signed_area(shape.rings[0]), 0.04 * 0.01, 1e-12);
+        EXPECT_NEAR(area_of_triangles(shape), 0.04 * 0.01, 1e-12);
+    }
+}
+
+TEST_F(FootprintFileTest, AMirroredCoordinateSystemKeepsItsBuildings) {
+    const auto file = read({polygon_feature(rectangle(1043000, 743000, 1043020, 743020))}, {},
+                           "EPSG::5513"); // Krovak: south and west
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_EQ(file->footprints.size(), 1U);
+    EXPECT_GT(building::signed_area(file->footprints[0].shape.rings[0]), 0.0);
+    EXPECT_GT(area_of_triangles(file->footprints[0].shape), 0.0);
+}
+
+TEST_F(FootprintFileTest, CoordinatesOfAnotherSystemAreNowhereOnEarth) {
+    const auto file = read({polygon_feature(
+        "[[[300000,4500000],[300010,4500000],[300010,4500010],[300000,4500000]]]")});
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->counts.off_earth, 1U);
+    EXPECT_EQ(file->counts.broken, 0U);
+}
+
+TEST_F(FootprintFileTest, AHoleBesideItsOutlineIsNoBuilding) {
+    const auto file = read({polygon_feature("[[[7,45],[7.001,45],[7.001,45.001],[7,45.001],[7,45]],"
+                                            "[[7.01,45],[7.011,45],[7.011,45.001],[7.01,45]]]")});
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_EQ(file->footprints.size(), 1U);
+    EXPECT_NEAR(area_of_triangles(file->footprints[0].shape), 1e-6, 1e-12);
 }
 
 } // namespace

@@ -37,7 +37,11 @@ TEST(SurfaceShader, KnowsItsConstants) {
     const auto small = shader->check(std::vector<ShaderConstant>{{"tint", {1.0F}}});
     ASSERT_FALSE(small);
     EXPECT_EQ(small.error().message,
-              "a.glsl: constant 'tint' with 1 values found, vec3 was expected");
+              "a.glsl: constant 'tint' with 1 value found, vec3 was expected");
+    const auto missing = shader->check({});
+    ASSERT_FALSE(missing) << "it would be 0, and the ground black";
+    EXPECT_EQ(missing.error().message, "a.glsl: no value of its uniform vec3 tint found, one was "
+                                       "expected: as a constant, or '=' in its declaration");
 }
 
 TEST(SurfaceShader, RefusesWhatCannotBeOne) {
