@@ -144,12 +144,10 @@ Result<StreamedSurface::Read> StreamedSurface::read(glm::ivec2 at,
     Read read{std::make_shared<Loaded>(), std::move(content->notes)};
     Grid<float>& heights = read.loaded->heights;
     heights = Grid<float>(cells.x + 1, cells.y + 1);
+    const scene::FilledHeights filled = builder.filled(tile, std::move(content->heights));
     for (int row = 0; row <= cells.y; ++row) {
         for (int col = 0; col <= cells.x; ++col) {
-            const float height = content->heights(col + 1, row + 1);
-            heights(col, row) = std::isfinite(height)
-                                    ? height
-                                    : builder.void_height(builder.sample(tile, {col, row}));
+            heights(col, row) = filled.heights(col + 1, row + 1);
         }
     }
     read.loaded->pyramid = terrain::MinMaxPyramid(heights.view());

@@ -246,7 +246,7 @@ StreamedTruth::hits_by_tile(const scene::TileBuilder& builder,
 }
 
 // Bilinear in the tile's texels, or in the colours of the vertices around the hit.
-glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
+glm::vec3 StreamedTruth::color_in_tile(const scene::FilledHeights& filled,
                                        const scene::TerrainTile* whole, terrain::TreeTile tile,
                                        const TerrainHit& hit) const {
     const scene::TileBuilder& builder = surface_.stream().maker();
@@ -257,7 +257,7 @@ glm::vec3 StreamedTruth::color_in_tile(const scene::TileContent& content,
     scene::TerrainTile cell;
     if (whole == nullptr) {
         const glm::ivec2 vertex = glm::min(glm::ivec2(place), cells - 1);
-        cell = builder.make_cell(tile, vertex, content.heights.view());
+        cell = builder.make_cell(tile, vertex, filled);
         place -= glm::dvec2(vertex);
     }
     const scene::TerrainTile& part = whole != nullptr ? *whole : cell;
@@ -335,12 +335,15 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
         return content.error();
     }
     std::optional<scene::TerrainTile> whole;
-    if (!content->picture.texels.empty()) {
+    scene::FilledHeights filled;
+    if (content->picture.texels.empty()) {
+        filled = stream.maker().filled(hits.tile, content->heights);
+    } else {
         whole = stream.maker().make(hits.tile, content->heights, content->picture);
     }
     for (const std::uint32_t ray : hits.rays) {
         const TerrainHit hit{*batch.hits[ray], batch.sun_at(ray)};
-        const glm::vec3 color = color_in_tile(*content, whole ? &*whole : nullptr, hits.tile, hit);
+        const glm::vec3 color = color_in_tile(filled, whole ? &*whole : nullptr, hits.tile, hit);
         const Ray view_ray = eye.ray(batch.places[ray]);
         batch.colors[ray] =
             backdrop_.through_air(color, view_ray, eye.distance(view_ray, hit.surface.t));

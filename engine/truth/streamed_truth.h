@@ -78,7 +78,7 @@ private:
                  std::span<const std::optional<terrain::SurfaceHit>> hits);
     Result<void> shade_tile(const Eye& eye, const TileHits& hits, Batch& batch,
                             const std::stop_token& stop) const;
-    [[nodiscard]] glm::vec3 color_in_tile(const scene::TileContent& content,
+    [[nodiscard]] glm::vec3 color_in_tile(const scene::FilledHeights& filled,
                                           const scene::TerrainTile* whole, terrain::TreeTile tile,
                                           const TerrainHit& hit) const;
     [[nodiscard]] glm::vec3 irradiance_at(const scene::TerrainTile& part, glm::dvec2 place,

@@ -37,11 +37,13 @@ struct TileSummary {
     bool is_proven = false;
     bool is_finest = false; ///< finer tiles would show nothing more, because files cannot be read
     bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off
+    /// If proven: its vertices are all samples, and what fills voids is the terrain's surface.
+    bool is_all_samples = false;
     terrain::BlockShares block_shares = terrain::whole_shares; ///< of `error`, if proven
 
     /// Whether `error` is proven at voids, too.
     [[nodiscard]] bool is_proven_everywhere() const {
-        return is_proven && !(has_voids && id.level > 0);
+        return is_proven && (!has_voids || is_all_samples);
     }
 };
 

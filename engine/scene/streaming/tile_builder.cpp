@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -11,33 +10,25 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
-#include "engine/core/parallel_for.h"
 
 namespace reljef::scene {
 namespace {
 
 // Vertices and one step around: sample (col + 1, row + 1) is vertex (col, row).
 struct Surround {
-    Grid<float> heights;
-    Grid<std::uint8_t> voids; // 1: the source has no height
-    Grid<glm::dvec3> places;  // local metres
+    FilledHeights filled;
+    Grid<glm::dvec3> places; // local metres
 };
 
-// `heights`: from the vertex before `first` on.
+// `filled`: from the vertex before `first` on.
 Surround surround_of(const TileBuilder& builder, terrain::TreeTile tile, glm::ivec2 first,
-                     Grid<float> heights) {
-    const glm::ivec2 size(heights.cols(), heights.rows());
-    Surround around{std::move(heights), Grid<std::uint8_t>(size.x, size.y),
-                    Grid<glm::dvec3>(size.x, size.y)};
+                     FilledHeights filled) {
+    const glm::ivec2 size(filled.heights.cols(), filled.heights.rows());
+    Surround around{std::move(filled), Grid<glm::dvec3>(size.x, size.y)};
     for (int row = 0; row < size.y; ++row) {
         for (int col = 0; col < size.x; ++col) {
-            const glm::ivec2 vertex = first + glm::ivec2(col - 1, row - 1);
-            float& height = around.heights(col, row);
-            if (!std::isfinite(height)) {
-                height = builder.void_height(builder.sample(tile, vertex));
-                around.voids(col, row) = 1;
-            }
-            around.places(col, row) = builder.place(tile, vertex, height);
+            around.places(col, row) = builder.place(tile, first + glm::ivec2(col - 1, row - 1),
+                                                    around.filled.heights(col, row));
         }
     }
     return around;
@@ -66,7 +57,7 @@ void set_places(const Surround& around, const terrain::Placement& placement, Ter
             const glm::dvec3 north = around.places(col, row - 1) - around.places(col, row + 1);
             tile.normals(col - 1, row - 1) =
                 glm::vec3(normal_of(east, north, placement.up(around.places(col, row))));
-            tile.heightfield.heights(col - 1, row - 1) = around.heights(col, row);
+            tile.heightfield.heights(col - 1, row - 1) = around.filled.heights(col, row);
         }
     }
 }
@@ -152,6 +143,7 @@ TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain
     if (tint_.has_water()) {
         water_ = terrain::water_mask(overview_->heightfield());
     }
+    no_data_ = terrain::no_data_mask(overview_->heightfield(), overview_->ramp());
     check(reduction >= 1 && imagery.refinement >= 1,
           "an overview of a reduction of at least 1 was expected");
     reduction_.rows = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
@@ -271,6 +263,7 @@ TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProo
     summary.error = overview_->placement().exaggeration() * proof.error;
     summary.is_proven = true;
     summary.has_voids = proof.has_voids;
+    summary.is_all_samples = tile.level == level_of_samples();
     summary.block_shares = proof.block_shares;
     return summary;
 }
@@ -353,23 +346,51 @@ bool TileBuilder::is_lake(glm::dvec2 overview_sample) const {
     return water_.clamped(nearest.x, nearest.y) != 0;
 }
 
-float TileBuilder::void_height(glm::dvec2 sample) const {
-    return static_cast<float>(terrain::bilinear_height(overview_->heightfield().heights.view(),
-                                                       around_overview(on_overview(sample))));
+bool TileBuilder::is_outside(glm::dvec2 overview_sample) const {
+    if (overview_->ramp().no_data || no_data_.empty()) {
+        return overview_->ramp().no_data.has_value();
+    }
+    // The samples around: averages of the overview reach into voids.
+    const glm::ivec2 nearest(glm::round(around_overview(overview_sample)));
+    for (int row = -1; row <= 1; ++row) {
+        for (int col = -1; col <= 1; ++col) {
+            if (no_data_.clamped(nearest.x + col, nearest.y + row) != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights) const {
+    const auto samples = heights.samples();
+    if (std::all_of(samples.begin(), samples.end(), [](float h) { return std::isfinite(h); })) {
+        return {std::move(heights), {}};
+    }
+    const auto overview = overview_->heightfield().heights.view();
+    Grid<float> coarse(heights.cols(), heights.rows());
+    for (int row = 0; row < coarse.rows(); ++row) {
+        for (int col = 0; col < coarse.cols(); ++col) {
+            const glm::dvec2 at = around_overview(on_overview(sample(tile, {col - 1, row - 1})));
+            coarse(col, row) = static_cast<float>(terrain::bilinear_height(overview, at));
+        }
+    }
+    return fill_tile_voids(std::move(heights), coarse);
 }
 
 Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
-                                 const Grid<float>& around, const Grid<std::uint8_t>& voids,
-                                 bool with_overview) const {
+                                 const FilledHeights& filled, bool with_overview) const {
+    const Grid<float>& around = filled.heights;
+    const Grid<std::uint8_t>& voids = filled.was_void;
     Image colors(tile.cells.x + 1, tile.cells.y + 1);
     const glm::vec2 spacing(overview_->heightfield().spacing * (step(tile.id) / reduction_.factor));
     for (int row = 0; row < colors.rows(); ++row) {
         for (int col = 0; col < colors.cols(); ++col) {
-            if (voids(col + 1, row + 1) != 0) {
+            const glm::dvec2 at = on_overview(sample(tile.id, first + glm::ivec2(col, row)));
+            if (!voids.empty() && voids(col + 1, row + 1) != 0 && is_outside(at)) {
                 colors(col, row) = tint_.no_data();
                 continue;
             }
-            const glm::dvec2 at = on_overview(sample(tile.id, first + glm::ivec2(col, row)));
             const bool is_water =
                 tint_.has_water() && (is_sea(around, col + 1, row + 1) || is_lake(at));
             const Rgba8 tint = is_water
@@ -382,24 +403,30 @@ Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,
     return colors;
 }
 
-TerrainTile TileBuilder::make_part(terrain::TreeTile tile, glm::ivec2 first, Grid<float> heights,
+TerrainTile TileBuilder::make_part(terrain::TreeTile tile, glm::ivec2 first, FilledHeights filled,
                                    bool with_overview) const {
     TerrainTile made;
     made.id = tile;
-    made.cells = {heights.cols() - 3, heights.rows() - 3};
-    const Surround around = surround_of(*this, tile, first, std::move(heights));
+    made.cells = {filled.heights.cols() - 3, filled.heights.rows() - 3};
+    const Surround around = surround_of(*this, tile, first, std::move(filled));
     set_places(around, overview_->placement(), made);
     made.up = glm::vec3(overview_->placement().up(made.bounds.center()));
-    made.albedo = vertex_colors(made, first, around.heights, around.voids, with_overview);
+    made.albedo = vertex_colors(made, first, around.filled, with_overview);
     return made;
 }
 
 TerrainTile TileBuilder::make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
-                                   GridView<const float> heights) const {
-    Grid<float> around(4, 4);
-    for (int row = 0; row < around.rows(); ++row) {
-        for (int col = 0; col < around.cols(); ++col) {
-            around(col, row) = heights(vertex.x + col, vertex.y + row);
+                                   const FilledHeights& filled) const {
+    FilledHeights around{Grid<float>(4, 4), {}};
+    if (!filled.was_void.empty()) {
+        around.was_void = Grid<std::uint8_t>(4, 4);
+    }
+    for (int row = 0; row < around.heights.rows(); ++row) {
+        for (int col = 0; col < around.heights.cols(); ++col) {
+            around.heights(col, row) = filled.heights(vertex.x + col, vertex.y + row);
+            if (!around.was_void.empty()) {
+                around.was_void(col, row) = filled.was_void(vertex.x + col, vertex.y + row);
+            }
         }
     }
     return make_part(tile, vertex, std::move(around), true);
@@ -412,7 +439,7 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
           "a tile's heights with one around were expected");
     const double share = overview_->imagery_share();
     const bool with_overview = picture.texels.empty() || (!picture.whole && share == 1.0);
-    TerrainTile made = make_part(tile, {0, 0}, std::move(heights), with_overview);
+    TerrainTile made = make_part(tile, {0, 0}, filled(tile, std::move(heights)), with_overview);
     const Grid<float>& placed = made.heightfield.heights;
     made.range = terrain::height_range(placed, {});
     made.heightfield.range = made.range;
@@ -428,72 +455,6 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
         made.albedo = terrain::composite(picture.texels, made.albedo, share);
     }
     return made;
-}
-
-namespace {
-
-// Metres: over larger tiles the vertical turns by more than a degree.
-constexpr double max_side_with_one_up = 100e3;
-
-glm::vec3 up_at(const TileBuilder& builder, const TerrainTile& tile, glm::ivec2 vertex) {
-    const glm::dvec3 size = tile.bounds.size();
-    return std::max({size.x, size.y, size.z}) <= max_side_with_one_up
-               ? tile.up
-               : glm::vec3(builder.overview().placement().up(tile.place(vertex)));
-}
-
-// `light`: at the vertices, linear.
-Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light, unsigned threads = 0) {
-    Image lit(tile.albedo.cols(), tile.albedo.rows());
-    const auto reflect_row = [&](int row) {
-        for (int col = 0; col < lit.cols(); ++col) {
-            lit(col, row) =
-                rgba8_from_linear(linear_from_rgba8(tile.albedo(col, row)) *
-                                  bilinear(light, tile.vertex_of({col, row}), std::identity()));
-        }
-    };
-    parallel_for(lit.rows(), reflect_row, {threads, {}, {}});
-    return lit;
-}
-
-} // namespace
-
-Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
-               const TerrainIrradiance& irradiance, unsigned threads) {
-    const Grid<float>& overview = builder.overview().heightfield().heights;
-    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
-    Grid<glm::vec3> light(tile.cells.x + 1, tile.cells.y + 1);
-    for (int row = 0; row < light.rows(); ++row) {
-        for (int col = 0; col < light.cols(); ++col) {
-            const glm::dvec2 sample =
-                builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
-            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
-            light(col, row) =
-                irradiance.at(tile.normals(col, row), up_at(builder, tile, {col, row}),
-                              irradiance.visibility(inside), irradiance.openness(inside));
-        }
-    }
-    return reflected(tile, light, threads);
-}
-
-LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
-                            const TerrainIrradiance& irradiance) {
-    const Grid<float>& overview = builder.overview().heightfield().heights;
-    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
-    Grid<glm::vec3> sky(tile.cells.x + 1, tile.cells.y + 1);
-    Grid<glm::vec3> sun(tile.cells.x + 1, tile.cells.y + 1);
-    for (int row = 0; row < sky.rows(); ++row) {
-        for (int col = 0; col < sky.cols(); ++col) {
-            const glm::dvec2 sample =
-                builder.around_overview(builder.on_overview(builder.sample(tile.id, {col, row})));
-            const IrradianceParts parts =
-                irradiance.parts_at(tile.normals(col, row), up_at(builder, tile, {col, row}),
-                                    irradiance.openness(glm::clamp(sample, glm::dvec2(0.0), last)));
-            sky(col, row) = parts.sky;
-            sun(col, row) = parts.sun;
-        }
-    }
-    return {reflected(tile, sky), reflected(tile, sun)};
 }
 
 } // namespace reljef::scene

@@ -13,6 +13,7 @@
 #include "engine/scene/streaming/terrain_light.h"
 #include "engine/scene/streaming/terrain_surface.h"
 #include "engine/scene/streaming/terrain_tile.h"
+#include "engine/scene/streaming/tile_voids.h"
 #include "engine/terrain/field/min_max_pyramid.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/tree/tile_error.h"
@@ -95,16 +96,15 @@ public:
     /// TileSummary::error at the overview's samples, for a tile made from it that is finer than the
     /// overview; 0 for other tiles.
     [[nodiscard]] double overview_error(terrain::TreeTile tile) const;
-    /// `heights`: metres at the vertices and one step around them. The overview fills voids (NaN).
-    /// Precondition: the picture is empty or has picture_size.
+    /// A tile's heights with voids filled from its own heights and the overview's. `heights`:
+    /// metres at the vertices and one step around them; NaN: void.
+    [[nodiscard]] FilledHeights filled(terrain::TreeTile tile, Grid<float> heights) const;
+    /// `heights`: as for filled(). Precondition: the picture is empty or has picture_size.
     [[nodiscard]] TerrainTile make(terrain::TreeTile tile, Grid<float> heights,
                                    const TilePicture& picture = {}) const;
-    /// The four vertices from `vertex` on, without imagery of the tile. `heights`: as for make().
+    /// The four vertices from `vertex` on, without imagery of the tile.
     [[nodiscard]] TerrainTile make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
-                                        GridView<const float> heights) const;
-    /// The overview's height at a sample of the terrain, which fills a void; the same for every
-    /// tile and level.
-    [[nodiscard]] float void_height(glm::dvec2 sample) const;
+                                        const FilledHeights& filled) const;
     [[nodiscard]] Box bounds(terrain::TreeTile tile, terrain::HeightRange range) const;
     /// Between two vertices of a tile.
     [[nodiscard]] Box bounds(terrain::TreeTile tile, glm::ivec2 first_vertex,
@@ -118,11 +118,11 @@ public:
 private:
     [[nodiscard]] Rgba8 color_at(glm::dvec2 overview_sample, Rgba8 tint) const;
     [[nodiscard]] bool is_lake(glm::dvec2 overview_sample) const;
+    [[nodiscard]] bool is_outside(glm::dvec2 overview_sample) const; // of a void
     [[nodiscard]] TerrainTile make_part(terrain::TreeTile tile, glm::ivec2 first,
-                                        Grid<float> heights, bool with_overview) const;
+                                        FilledHeights filled, bool with_overview) const;
     [[nodiscard]] Image vertex_colors(const TerrainTile& tile, glm::ivec2 first,
-                                      const Grid<float>& around, const Grid<std::uint8_t>& voids,
-                                      bool with_overview) const;
+                                      const FilledHeights& filled, bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
     [[nodiscard]] terrain::HeightRange overview_range(terrain::TreeTile tile) const;
     std::shared_ptr<const TerrainSurface> overview_;
@@ -130,7 +130,8 @@ private:
     terrain::Reduction reduction_;
     ImageryDetail imagery_;
     terrain::HeightTint tint_;
-    Grid<std::uint8_t> water_; // of the overview; empty: the ramp draws none
+    Grid<std::uint8_t> water_;   // of the overview; empty: the ramp draws none
+    Grid<std::uint8_t> no_data_; // of the overview; empty: none
 };
 
 /// The lit albedo, sRGB. The light is interpolated between vertices. `threads` as parallel_for().

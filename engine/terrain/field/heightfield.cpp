@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/core/check.h"
+#include "engine/core/parallel_for.h"
 
 namespace reljef::terrain {
 namespace {
@@ -64,18 +65,6 @@ float value_from(const Level& coarse, int col, int row) {
     return static_cast<float>(bilinear_height(coarse.average.view(), sample));
 }
 
-void push(const Level& coarse, Level& fine) {
-    for (int row = 0; row < fine.average.rows(); ++row) {
-        for (int col = 0; col < fine.average.cols(); ++col) {
-            const float w = fine.weight(col, row);
-            if (w < 1.0F) {
-                float& value = fine.average(col, row);
-                value = w * value + (1.0F - w) * value_from(coarse, col, row);
-            }
-        }
-    }
-}
-
 std::vector<Level> pyramid_of(const Grid<float>& heights, const Grid<std::uint8_t>& void_mask) {
     std::vector<Level> levels;
     levels.push_back(pulled(heights.cols(), heights.rows(), heights, [&](int col, int row) {
@@ -87,6 +76,92 @@ std::vector<Level> pyramid_of(const Grid<float>& heights, const Grid<std::uint8_
             pulled(last.average.cols(), last.average.rows(), last.average, last.weight));
     }
     return levels;
+}
+
+/// The samples of a grid without a known height.
+class OpenSamples {
+public:
+    template <class IsOpen> OpenSamples(int cols, int rows, const IsOpen& is_open) {
+        for (int row = 0; row < rows; ++row) {
+            int end = 0;
+            for (int col = 0; col < cols; col = end) {
+                for (end = col; end < cols && is_open(end, row);) {
+                    ++end;
+                }
+                if (end > col) {
+                    runs_.push_back({row, col, end});
+                    count_ += static_cast<std::size_t>(end - col);
+                }
+                end = std::max(end, col + 1);
+            }
+        }
+    }
+
+    template <class Visit> void for_each(const Visit& visit) const {
+        for (const Run& run : runs_) {
+            for (int col = run.first; col < run.end; ++col) {
+                visit(col, run.row);
+            }
+        }
+    }
+
+    /// Successive over-relaxation (Young 1954): each sample approaches the mean of its neighbours.
+    /// At most as many sweeps as there are samples.
+    void relax(Grid<float>& heights, int sweeps, const HeightRange& range) const {
+        const int needed = static_cast<int>(std::min(count_, static_cast<std::size_t>(sweeps)));
+        for (int sweep = 0; sweep < needed; ++sweep) {
+            // Every other sample, and then the others: the result does not depend on the order.
+            relax_color(heights, 0, range);
+            relax_color(heights, 1, range);
+        }
+    }
+
+private:
+    struct Run {
+        int row = 0;
+        int first = 0;
+        int end = 0; ///< the column after its last one
+    };
+
+    void relax_color(Grid<float>& heights, int color, const HeightRange& range) const {
+        constexpr std::size_t per_part = 1U << 16U; // a thread costs as much as some thousands
+        const auto parts = static_cast<int>(1 + std::min(count_ / per_part, runs_.size() / 4));
+        const auto bound = [&](int part) {
+            return runs_.size() * static_cast<std::size_t>(part) / static_cast<std::size_t>(parts);
+        };
+        const auto relax_part = [&](int part) {
+            for (std::size_t i = bound(part); i < bound(part + 1); ++i) {
+                relax_run(heights, runs_[i], color, range);
+            }
+        };
+        parallel_for(parts, relax_part,
+                     {.threads = parts > 1 ? 0U : 1U, .stop = {}, .progress = {}});
+    }
+    static void relax_run(Grid<float>& heights, const Run& run, int color,
+                          const HeightRange& range) {
+        constexpr float over = 1.5F;
+        const auto low = static_cast<float>(range.low);
+        const auto high = static_cast<float>(range.high);
+        for (int col = run.first + ((run.first + run.row + color) & 1); col < run.end; col += 2) {
+            const float mean =
+                0.25F * (heights.clamped(col - 1, run.row) + heights.clamped(col + 1, run.row) +
+                         heights.clamped(col, run.row - 1) + heights.clamped(col, run.row + 1));
+            float& height = heights(col, run.row);
+            height = std::clamp(height + over * (mean - height), low, high);
+        }
+    }
+
+    std::vector<Run> runs_;
+    std::size_t count_ = 0;
+};
+
+/// Fills the open samples of a level from the next coarser one. Sweeps cost less on coarse levels.
+void fill_level(const Level& coarse, std::size_t level, Grid<float>& heights,
+                const OpenSamples& open, const HeightRange& range) {
+    constexpr std::size_t max_doublings = 5;
+    const int sweeps = 16 << std::min(level, max_doublings);
+    open.for_each([&](int col, int row) { heights(col, row) = value_from(coarse, col, row); });
+    open.relax(heights, sweeps, range);
 }
 
 } // namespace
@@ -158,17 +233,17 @@ void fill_voids(Grid<float>& heights, const Grid<std::uint8_t>& void_mask) {
     if (std::all_of(mask.begin(), mask.end(), [](std::uint8_t is_void) { return is_void == 0; })) {
         return;
     }
+    const HeightRange range = height_range(heights, void_mask);
     std::vector<Level> levels = pyramid_of(heights, void_mask);
     for (std::size_t i = levels.size() - 1; i > 0; --i) {
-        push(levels[i], levels[i - 1]);
+        Level& fine = levels[i - 1];
+        const OpenSamples open(fine.average.cols(), fine.average.rows(),
+                               [&](int col, int row) { return fine.weight(col, row) == 0.0F; });
+        fill_level(levels[i], i, fine.average, open, range);
     }
-    for (int row = 0; row < heights.rows(); ++row) {
-        for (int col = 0; col < heights.cols(); ++col) {
-            if (void_mask(col, row) != 0) {
-                heights(col, row) = value_from(levels.front(), col, row);
-            }
-        }
-    }
+    const OpenSamples open(heights.cols(), heights.rows(),
+                           [&](int col, int row) { return void_mask(col, row) != 0; });
+    fill_level(levels.front(), 0, heights, open, range);
 }
 
 } // namespace reljef::terrain

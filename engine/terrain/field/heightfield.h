@@ -61,7 +61,8 @@ double bilinear_height(GridView<const float> heights, glm::dvec2 sample);
 /// Whether a sample that contributes to bilinear_height() is a void.
 bool uses_void(const Heightfield& heightfield, glm::dvec2 sample);
 
-/// Fills voids smoothly from a pyramid of averages (pull-push, Gortler et al. 1996). Voids
+/// Fills voids by a membrane over the heights around them: Laplace's equation on a pyramid of
+/// averages, from coarse to fine. Fills stay between the lowest and the highest known height. Voids
 /// everywhere give 0. Precondition: `void_mask` is empty or has the size of the heights.
 void fill_voids(Grid<float>& heights, const Grid<std::uint8_t>& void_mask);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -14,7 +15,7 @@
 namespace reljef::terrain {
 namespace {
 
-constexpr Rgba8 grey{128, 128, 128, 255};
+constexpr Rgba8 pale{173, 173, 171, 255}; // as the plane beside the terrain
 
 // Whether a sample and its eight neighbours have one height.
 bool is_level(const Grid<float>& heights, int col, int row) {
@@ -102,6 +103,59 @@ private:
     std::size_t lower_ = 0;
 };
 
+// The connected voids that reach the border.
+class OutsideVoids {
+public:
+    explicit OutsideVoids(const Grid<std::uint8_t>& voids)
+        : voids_(voids), outside_(voids.cols(), voids.rows(), 0) {}
+
+    void visit_border() {
+        for (int col = 0; col < voids_.cols(); ++col) {
+            visit({col, 0});
+            visit({col, voids_.rows() - 1});
+        }
+        for (int row = 0; row < voids_.rows(); ++row) {
+            visit({0, row});
+            visit({voids_.cols() - 1, row});
+        }
+    }
+    [[nodiscard]] bool has_any() const { return has_any_; }
+    Grid<std::uint8_t> take() { return std::move(outside_); }
+
+private:
+    void visit(glm::ivec2 from) {
+        samples_.clear();
+        add(from);
+        for (std::size_t next = 0; next < samples_.size(); ++next) {
+            for (const glm::ivec2 step : around) {
+                add(samples_[next] + step);
+            }
+        }
+        constexpr std::size_t min_share = 1000; // of all samples
+        if (!samples_.empty() && min_share * samples_.size() >= voids_.size()) {
+            has_any_ = true;
+        } else {
+            for (const glm::ivec2 sample : samples_) {
+                outside_(sample.x, sample.y) = small;
+            }
+        }
+    }
+    void add(glm::ivec2 at) {
+        const bool is_inside =
+            at.x >= 0 && at.y >= 0 && at.x < voids_.cols() && at.y < voids_.rows();
+        if (is_inside && voids_(at.x, at.y) != 0 && outside_(at.x, at.y) == 0) {
+            outside_(at.x, at.y) = 1;
+            samples_.push_back(at);
+        }
+    }
+
+    static constexpr std::uint8_t small = 2;
+    const Grid<std::uint8_t>& voids_;
+    Grid<std::uint8_t> outside_;
+    std::vector<glm::ivec2> samples_;
+    bool has_any_ = false;
+};
+
 glm::vec2 gradient_at(const Heightfield& heightfield, int col, int row) {
     const Grid<float>& heights = heightfield.heights;
     const glm::vec2 spacing(heightfield.spacing);
@@ -135,7 +189,7 @@ Rgba8 nearest(const Image& beneath, const Image& over, int col, int row) {
 
 HeightTint::HeightTint(const ColorRamp& ramp, const Heightfield& heightfield)
     : colors_(ramp, heightfield), has_water_(ramp.has_water),
-      no_data_(ramp.no_data.value_or(grey)) {}
+      no_data_(ramp.no_data.value_or(pale)) {}
 
 Grid<std::uint8_t> water_mask(const Heightfield& heightfield) {
     const Grid<float>& heights = heightfield.heights;
@@ -149,17 +203,33 @@ Grid<std::uint8_t> water_mask(const Heightfield& heightfield) {
     return water;
 }
 
+Grid<std::uint8_t> no_data_mask(const Heightfield& heightfield, const ColorRamp& ramp) {
+    if (heightfield.void_mask.empty() || ramp.no_data) {
+        return heightfield.void_mask;
+    }
+    OutsideVoids outside(heightfield.void_mask);
+    outside.visit_border();
+    if (!outside.has_any()) {
+        return {};
+    }
+    Grid<std::uint8_t> mask = outside.take();
+    for (std::uint8_t& of_sample : mask.samples()) {
+        of_sample = of_sample == 1 ? 1 : 0;
+    }
+    return mask;
+}
+
 Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp) {
     const auto& heights = heightfield.heights;
     const HeightTint tint(ramp, heightfield);
     const Grid<std::uint8_t> water =
         tint.has_water() ? water_mask(heightfield) : Grid<std::uint8_t>();
+    const Grid<std::uint8_t> no_data = no_data_mask(heightfield, ramp);
     Image image(heights.cols(), heights.rows());
     parallel_for(image.rows(), [&](int row) {
         for (int col = 0; col < image.cols(); ++col) {
-            const bool is_void =
-                !heightfield.void_mask.empty() && heightfield.void_mask(col, row) != 0;
-            image(col, row) = is_void ? tint.no_data()
+            const bool has_data = no_data.empty() || no_data(col, row) == 0;
+            image(col, row) = !has_data ? tint.no_data()
                               : !water.empty() && water(col, row) != 0
                                   ? HeightTint::water
                                   : tint.at(heights(col, row), gradient_at(heightfield, col, row));

@@ -31,7 +31,12 @@ private:
 Grid<std::uint8_t> water_mask(const Heightfield& heightfield);
 inline constexpr int min_lake_samples = 60;
 
-/// HeightTint, water and voids for each sample.
+/// Of each sample, 1: it has the ramp's colour of no data. If the ramp names one, all voids have
+/// it. Else these are the voids outside the data: they are connected with the border, and at least
+/// a thousandth of all samples. Others are filled and coloured as ground. Empty if there are none.
+Grid<std::uint8_t> no_data_mask(const Heightfield& heightfield, const ColorRamp& ramp);
+
+/// HeightTint, water and no data for each sample.
 Image hypsometric_tint(const Heightfield& heightfield, const ColorRamp& ramp);
 
 /// Opaque; mixes encoded values. `share`: of `over`, [0, 1].

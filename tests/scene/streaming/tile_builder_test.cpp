@@ -46,7 +46,8 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     const TerrainTile made = maker().make({0, 3, 3}, std::move(heights));
     EXPECT_NEAR(made.heightfield.heights(59, 59),
                 height_of(glm::dvec2(3 * terrain::tree_tile_cells + 59)), 1e-3);
-    EXPECT_EQ(made.albedo(59, 59), (Rgba8{128, 128, 128, 255}));
+    const Rgba8 beside = made.albedo(58, 59);
+    EXPECT_NEAR(made.albedo(59, 59).r, beside.r, 2) << "no grey: the data lie around it";
 }
 
 TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {

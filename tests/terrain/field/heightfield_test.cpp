@@ -184,6 +184,25 @@ TEST(FillVoids, ASmallHoleInASlopeHasNoSpike) {
     }
 }
 
+// A membrane is the plane over a hole in a plane; averages of an area made a bowl.
+TEST(FillVoids, AWideHoleInASlopeHasNoBowl) {
+    const Grid<float> slope = plane(128, 128, 100.0, 10.0, -5.0);
+    Grid<float> heights = slope;
+    Mask mask(128, 128);
+    for (int row = 40; row < 90; ++row) {
+        for (int col = 30; col < 90; ++col) {
+            mask(col, row) = 1;
+            heights(col, row) = -32768.0F;
+        }
+    }
+    fill_voids(heights, mask);
+    for (int row = 40; row < 90; ++row) {
+        for (int col = 30; col < 90; ++col) {
+            ASSERT_NEAR(heights(col, row), slope(col, row), 10.0) << col << ' ' << row;
+        }
+    }
+}
+
 TEST(FillVoids, AllVoidGivesZeroEverywhere) {
     Grid<float> heights(9, 5, -9999.0F);
     fill_voids(heights, Mask(9, 5, 1));

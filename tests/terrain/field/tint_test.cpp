@@ -11,7 +11,7 @@
 namespace reljef::terrain {
 namespace {
 
-constexpr Rgba8 grey{128, 128, 128, 255};
+constexpr Rgba8 pale{173, 173, 171, 255};
 
 Image tinted(const Heightfield& heightfield) {
     return hypsometric_tint(heightfield, *named_ramp(default_ramp));
@@ -53,7 +53,7 @@ TEST(Tint, IsContinuousInTheHeight) {
     }
 }
 
-TEST(Tint, VoidsAreGreyAndDoNotStretchTheScale) {
+TEST(Tint, OutsideTheDataItIsPaleAndDoesNotStretchTheScale) {
     Heightfield heightfield = test::plane_heightfield(
         test::made_heights(60, 60, [](int col, int) { return 100.0 + col; }));
     const Image whole = tinted(heightfield);
@@ -63,10 +63,37 @@ TEST(Tint, VoidsAreGreyAndDoNotStretchTheScale) {
         heightfield.heights(30, row) = 1e6F;
     }
     const Image holed = tinted(heightfield);
-    EXPECT_EQ(holed(30, 30), grey);
+    EXPECT_EQ(holed(30, 30), pale);
     for (const int col : {5, 20, 45, 58}) {
         EXPECT_LE(std::abs(holed(col, 9).r - whole(col, 9).r), 4);
     }
+}
+
+// Grey patches with stairs showed on a summit.
+TEST(Tint, VoidsInsideTheDataLookLikeTheGroundAround) {
+    Heightfield heightfield = test::plane_heightfield(
+        test::made_heights(60, 60, [](int col, int) { return 100.0 + col; }));
+    const Image whole = tinted(heightfield);
+    heightfield.void_mask = Grid<std::uint8_t>(60, 60, 0);
+    for (int row = 20; row < 40; ++row) {
+        for (int col = 20; col < 30; ++col) {
+            heightfield.void_mask(col, row) = 1;
+        }
+    }
+    heightfield.void_mask(0, 30) = 1; // on the border, but few
+    const Image holed = tinted(heightfield);
+    for (std::size_t i = 0; i < holed.samples().size(); ++i) {
+        ASSERT_LE(std::abs(holed.samples()[i].r - whole.samples()[i].r), 1);
+    }
+}
+
+TEST(Tint, AColorOfNoDataIsThatOfAllVoids) {
+    Heightfield heightfield = test::plane_heightfield(Grid<float>(60, 60, 100.0F));
+    heightfield.void_mask = Grid<std::uint8_t>(60, 60, 0);
+    heightfield.void_mask(30, 30) = 1;
+    ColorRamp ramp = *named_ramp(default_ramp);
+    ramp.no_data = Rgba8{1, 2, 3, 255};
+    EXPECT_EQ(hypsometric_tint(heightfield, ramp)(30, 30), (Rgba8{1, 2, 3, 255}));
 }
 
 // A few cells at one end of a wide void: every hundredth sample met none of them.
@@ -86,12 +113,12 @@ TEST(Tint, FewHeightsInAWideVoidAreSeenAll) {
     EXPECT_NE(tint.at(0.0, {0.0F, 0.0F}), tint.at(6299.0, {0.0F, 0.0F}));
 }
 
-TEST(Tint, AllVoidIsGrey) {
+TEST(Tint, AllVoidIsPale) {
     Heightfield heightfield = test::plane_heightfield(Grid<float>(4, 4, 0.0F));
     heightfield.void_mask = Grid<std::uint8_t>(4, 4, 1);
     const Image image = tinted(heightfield);
     for (const Rgba8& pixel : image.samples()) {
-        EXPECT_EQ(pixel, grey);
+        EXPECT_EQ(pixel, pale);
     }
 }
 
@@ -109,7 +136,7 @@ TEST(Tint, AConstantHeightIsOneColor) {
         const Image image = tinted(test::plane_heightfield(Grid<float>(9, 9, height)));
         for (const Rgba8& pixel : image.samples()) {
             EXPECT_EQ(pixel, image(0, 0));
-            EXPECT_NE(pixel, grey);
+            EXPECT_NE(pixel, pale);
             EXPECT_GT(pixel.g, 60);
         }
     }
