@@ -1,7 +1,6 @@
 #include "app/comparing/compare_option.h"
 
 #include <cstdio>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,26 +30,14 @@ void add_compare_option(CLI::App& command, CompareChoice& choice) {
         ->needs(compare);
 }
 
-Result<Image> compared_frame(const CompareChoice& choice, session::TerrainScene& scene,
-                             session::FrameMaker& maker, Image left,
-                             const ParallelOptions& parallel) {
-    if (!choice.request) {
-        return left;
-    }
-    session::CompareRequest request = *choice.request;
-    request.share = choice.share;
-    session::Log no_log;
-    auto compared = session::compared_picture(scene, maker, left, request, parallel, no_log);
-    if (!compared) {
-        return compared.error();
-    }
+void print_figures(const CompareChoice& choice, const session::TerrainScene& scene,
+                   const std::vector<session::ErrorFigures>& figures) {
     const std::string technique = scene::to_string(scene.materials().front()->technique);
-    fmt::print("{}: {}\n", technique, session::to_string(compared->figures.front()));
-    if (compared->figures.size() > 1) {
-        fmt::print("{}: {}\n", choice.text, session::to_string(compared->figures.back()));
+    fmt::print("{}: {}\n", technique, session::to_string(figures.front()));
+    if (figures.size() > 1) {
+        fmt::print("{}: {}\n", choice.text, session::to_string(figures.back()));
     }
     std::fflush(stdout);
-    return std::move(compared->picture);
 }
 
 } // namespace reljef::app

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/session/comparing/compared_picture.h"
 
@@ -20,9 +21,8 @@ struct CompareChoice {
 /// Adds --compare and --wipe. Wrong values throw CLI::ParseError.
 void add_compare_option(CLI::App& command, CompareChoice& choice);
 
-/// Compares a frame and prints the figures of its errors; the frame itself without a request.
-Result<Image> compared_frame(const CompareChoice& choice, session::TerrainScene& scene,
-                             session::FrameMaker& maker, Image left,
-                             const ParallelOptions& parallel);
+/// Prints the figures of the errors of a frame.
+void print_figures(const CompareChoice& choice, const session::TerrainScene& scene,
+                   const std::vector<session::ErrorFigures>& figures);
 
 } // namespace reljef::app

@@ -53,12 +53,27 @@ void print_stats(const Rendering& run, int drawn) {
     }
 }
 
+// A frame beside what --compare names.
+Result<Image> compared_frame(const Rendering& run, const Image& frame) {
+    session::CompareRequest request = *run.choice.compare.request;
+    request.share = run.choice.compare.share;
+    session::Log no_log;
+    std::optional<cli::ProgressLine> line(std::in_place, "comparing", run.choice.terrain.quiet);
+    auto compared = session::compared_picture(run.scene, run.maker, frame, request,
+                                              frame_options(run, line->callback()), no_log);
+    line.reset();
+    if (!compared) {
+        return compared.error();
+    }
+    print_figures(run.choice.compare, run.scene, compared->figures);
+    return std::move(compared->picture);
+}
+
 // One frame, divided by --compare. `progress` gets the part of it that is drawn.
 Result<Image> draw_frame(const Rendering& run, const std::function<void(double)>& progress) {
     auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
-    if (picture && !run.interrupt.requested()) {
-        picture = compared_frame(run.choice.compare, run.scene, run.maker, std::move(*picture),
-                                 frame_options(run));
+    if (picture && run.choice.compare.request && !run.interrupt.requested()) {
+        picture = compared_frame(run, *picture);
     }
     return run.interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
 }

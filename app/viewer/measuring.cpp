@@ -77,7 +77,7 @@ Result<void> Measuring::save_profile(const std::filesystem::path& file) const {
 
 Result<void> Measuring::begin_viewshed(const std::filesystem::path& file) {
     if (viewshed_ != nullptr) {
-        return Error{"viewshed: one that is not finished found; wait for it"};
+        return Error{"viewshed: an unfinished one found, none was expected; wait for it"};
     }
     if (points_.empty()) {
         return Error{"viewshed: no measured point found, one was expected; X measures"};

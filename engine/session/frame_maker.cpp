@@ -111,14 +111,14 @@ std::string kept_error_text(const view::FrameStats& stats) {
 
 // Triangles may be off by far more for other reasons, also in views that are too narrow.
 bool is_over_by_rounding(const view::FrameStats& stats, const scene::Camera& camera,
-                         glm::ivec2 size, double expected) {
-    const bool by_triangles = stats.rays == 0 &&
+                         glm::ivec2 size, const ExpectedError& bound) {
+    const bool by_triangles = bound.is_named && stats.rays == 0 &&
                               (!stats.choice || stats.choice->tiles_by_rays == 0) &&
                               stats.triangles > 0;
     const double rounding =
-        view::left_of_bound(camera, size, std::max(expected, view::min_error)).vertex_rounding;
+        view::left_of_bound(camera, size, std::max(bound.pixels, view::min_error)).vertex_rounding;
     return stats.exceeded_by_rounding &&
-           (!by_triangles || *stats.kept_error < 4.0 * std::max(rounding, expected));
+           (!by_triangles || *stats.kept_error < 4.0 * std::max(rounding, bound.pixels));
 }
 
 } // namespace
@@ -227,7 +227,7 @@ void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     if (*stats_.kept_error > over.kept_error) {
         over.kept_error = *stats_.kept_error;
         over.expected = *expected;
-        over.by_rounding = is_over_by_rounding(stats_, scene.camera(), size, expected->pixels);
+        over.by_rounding = is_over_by_rounding(stats_, scene.camera(), size, *expected);
     }
     const MemoryForBound needed = memory_for_bound(scene, size);
     const std::size_t triangles = over.counts_triangles ? triangles_needed() : 0;
@@ -262,7 +262,7 @@ void DeviceFrames::note_fewer_vertices(const scene::Scene& scene) {
 
 std::string DeviceFrames::remedy() const {
     if (over_->by_rounding) {
-        return "the view is too narrow, or too far away, for floats";
+        return "the view is too narrow or too far away, or the ground too steep, for floats";
     }
     const MemoryForBound& memory = over_->memory;
     const int now = options_.memory_megabytes;

@@ -16,6 +16,7 @@
 #include "engine/io/cache/cache_file.h"
 #include "engine/io/cache/fnv_hash.h"
 #include "engine/io/index/index_format.h"
+#include "engine/io/index/proof_block.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/tree_tile.h"
 
@@ -32,6 +33,18 @@ namespace {
 /// Cells of the highest of a chunk's levels.
 glm::ivec2 residual_size(const terrain::TileTree& tree, Chunk chunk) {
     return chunk_size(tree, chunk) / (1 << levels_per_chunk);
+}
+
+/// Of the proofs of a chunk.
+std::size_t bytes_of_chunk(const terrain::TileTree& tree, Chunk chunk) {
+    return bytes_of_block(floats_of_proofs(tiles_with_proof(tree, chunk)));
+}
+
+/// Of the proofs of a row of chunks.
+std::size_t bytes_of_row(const terrain::TileTree& tree, Chunk first) {
+    const int last = level_chunks(tree, first.base).x - 1;
+    return static_cast<std::size_t>(last) * bytes_of_chunk(tree, first) +
+           bytes_of_chunk(tree, {first.base, last, first.row});
 }
 
 } // namespace
@@ -77,9 +90,11 @@ ErrorIndex::ErrorIndex(const IndexSource& source, Descriptor file)
     : path_(source.file), tree_(source.tree), fingerprint_(source.fingerprint),
       file_(std::move(file)), places_(static_cast<std::size_t>(tree_.root().level) + 1) {
     std::uint64_t end = sizeof(IndexHeader);
-    for (int level = 0; level <= tree_.root().level; ++level) {
-        places_[static_cast<std::size_t>(level)].proofs = end;
-        end += count_of(level_tiles(tree_, level)) * bytes_of_proof(level);
+    for (int base = 0; base == 0 || base < tree_.root().level; base += levels_per_chunk) {
+        places_[static_cast<std::size_t>(base)].proofs = end;
+        const int last = level_chunks(tree_, base).y - 1;
+        end += static_cast<std::size_t>(last) * bytes_of_row(tree_, {base, 0, 0}) +
+               bytes_of_row(tree_, {base, 0, last});
     }
     for (int level = first_stored_level; level <= tree_.root().level; ++level) {
         places_[static_cast<std::size_t>(level)].tiles = end;
@@ -160,10 +175,12 @@ bool ErrorIndex::has_level(int level) const {
     return level >= 0 && level <= tree_.root().level;
 }
 
-std::uint64_t ErrorIndex::proof_at(TreeTile tile) const {
-    return places_[static_cast<std::size_t>(tile.level)].proofs +
-           index_in(level_tiles(tree_, tile.level), tile.col, tile.row) *
-               bytes_of_proof(tile.level);
+// Row after row: all chunks of a row but the last one have blocks of one length, as have all rows.
+std::uint64_t ErrorIndex::proofs_at(Chunk chunk) const {
+    const Chunk first{chunk.base, 0, chunk.row};
+    return places_[static_cast<std::size_t>(chunk.base)].proofs +
+           static_cast<std::size_t>(chunk.row) * bytes_of_row(tree_, {chunk.base, 0, 0}) +
+           static_cast<std::size_t>(chunk.col) * bytes_of_chunk(tree_, first);
 }
 
 std::uint64_t ErrorIndex::tile_at(TreeTile tile) const {
@@ -226,18 +243,19 @@ Result<void> ErrorIndex::write_block(std::uint64_t place, std::vector<float> flo
     return write_at(place, std::as_bytes(std::span(floats)));
 }
 
+std::optional<std::vector<float>> ErrorIndex::read_proofs(Chunk chunk) const {
+    return read_block(proofs_at(chunk), floats_of_proofs(tiles_with_proof(tree_, chunk)));
+}
+
 std::optional<TileProof> ErrorIndex::find(TreeTile tile) const {
     const glm::ivec2 count = has_level(tile.level) ? level_tiles(tree_, tile.level) : glm::ivec2(0);
     if (tile.col < 0 || tile.row < 0 || tile.col >= count.x || tile.row >= count.y) {
         return std::nullopt;
     }
-    ProofRecord record;
-    const auto bytes = std::as_writable_bytes(std::span(&record, 1));
-    const bool found = read_at(proof_at(tile), bytes.first(bytes_of_proof(tile.level)));
-    return found && record.seal == seal_of(record, tile, fingerprint_)
-               ? std::optional(TileProof{record.low, record.high, record.error,
-                                         record.has_voids != 0, record.block_shares})
-               : std::nullopt;
+    const Chunk chunk = chunk_with_proof(tile);
+    const auto block = read_proofs(chunk);
+    return block ? std::optional(unpacked_proof(tiles_with_proof(tree_, chunk), *block, tile))
+                 : std::nullopt;
 }
 
 std::optional<ErrorIndex::StoredTile> ErrorIndex::stored(TreeTile tile) const {
@@ -266,41 +284,7 @@ std::optional<terrain::Residuals> ErrorIndex::residuals(Chunk chunk) const {
 }
 
 bool ErrorIndex::has(Chunk chunk) const {
-    const int level = std::min(chunk.base + levels_per_chunk, tree_.root().level);
-    const glm::ivec2 first = first_vertex(chunk) / (1 << (level - chunk.base)) / tree_tile_cells;
-    const glm::ivec2 side(
-        std::max(1, terrain::chunk_cells / tree_tile_cells >> (level - chunk.base)));
-    const glm::ivec2 end = glm::min(first + side, level_tiles(tree_, level));
-    for (int row = first.y; row < end.y; ++row) {
-        for (int col = first.x; col < end.x; ++col) {
-            if (!find({level, col, row})) {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-Result<void> ErrorIndex::write_proofs(int level, glm::ivec2 first, const Grid<TileProof>& tiles) {
-    const std::size_t size = bytes_of_proof(level);
-    std::vector<std::byte> records(size * static_cast<std::size_t>(tiles.cols()));
-    for (int row = 0; row < tiles.rows(); ++row) {
-        for (int col = 0; col < tiles.cols(); ++col) {
-            const TileProof& proof = tiles(col, row);
-            ProofRecord record{
-                .low = proof.low, .high = proof.high, .has_voids = proof.has_voids ? 1U : 0U};
-            if (level > 0) {
-                record.error = proof.error;
-                record.block_shares = proof.block_shares;
-            }
-            record.seal = seal_of(record, {level, first.x + col, first.y + row}, fingerprint_);
-            std::memcpy(records.data() + size * static_cast<std::size_t>(col), &record, size);
-        }
-        if (auto written = write_at(proof_at({level, first.x, first.y + row}), records); !written) {
-            return written;
-        }
-    }
-    return {};
+    return read_proofs(chunk).has_value();
 }
 
 Result<void> ErrorIndex::write_tiles(int level, glm::ivec2 first, const terrain::ChunkLevel& made) {
@@ -329,17 +313,13 @@ Result<void> ErrorIndex::write_tiles(int level, glm::ivec2 first, const terrain:
 Result<void> ErrorIndex::write(Chunk chunk, const terrain::ChunkProof& proof) {
     const glm::ivec2 first = first_vertex(chunk) / tree_tile_cells;
     Result<void> written;
-    const auto for_each_level = [&](auto&& act) {
-        for (int i = 0; i < levels_per_chunk && written; ++i) {
-            if (const int level = chunk.base + i + 1; has_level(level)) {
-                written =
-                    act(level, first / (2 << i), proof.levels.at(static_cast<std::size_t>(i)));
-            }
+    for (int i = 0; i < levels_per_chunk && written; ++i) {
+        const int level = chunk.base + i + 1;
+        if (has_level(level) && level >= first_stored_level) {
+            written =
+                write_tiles(level, first / (2 << i), proof.levels.at(static_cast<std::size_t>(i)));
         }
-    };
-    for_each_level([&](int level, glm::ivec2 corner, const terrain::ChunkLevel& made) {
-        return level >= first_stored_level ? write_tiles(level, corner, made) : Result<void>();
-    });
+    }
     if (written && chunk.base + levels_per_chunk < tree_.root().level) {
         const terrain::Residuals& residuals = proof.levels.back().residuals;
         std::vector<float> floats(floats_of_residuals);
@@ -348,38 +328,39 @@ Result<void> ErrorIndex::write(Chunk chunk, const terrain::ChunkProof& proof) {
                   side_of_residuals);
         written = write_block(residuals_at(chunk), std::move(floats));
     }
-    if (written && chunk.base == 0) {
-        written = write_proofs(0, first, proof.base);
-    }
-    for_each_level([&](int level, glm::ivec2 corner, const terrain::ChunkLevel& made) {
-        return write_proofs(level, corner, made.tiles);
-    });
-    return written;
+    return written
+               ? write_block(proofs_at(chunk), packed_proofs(tiles_with_proof(tree_, chunk), proof))
+               : written;
 }
 
 std::vector<ErrorIndex::Level> ErrorIndex::levels() const {
-    std::vector<Level> levels;
-    for (int level = 0; level <= tree_.root().level; ++level) {
-        const glm::ivec2 count = level_tiles(tree_, level);
-        Level found{count_of(count), 0, 0.0F};
-        const std::size_t size = bytes_of_proof(level);
-        std::vector<std::byte> records(size * static_cast<std::size_t>(count.x));
-        for (int row = 0; row < count.y; ++row) {
-            std::fill(records.begin(), records.end(), std::byte{0});
-            static_cast<void>(read_at(proof_at({level, 0, row}), records));
-            for (int col = 0; col < count.x; ++col) {
-                ProofRecord record;
-                std::memcpy(&record, records.data() + size * static_cast<std::size_t>(col), size);
-                const bool is_proven =
-                    record.seal == seal_of(record, {level, col, row}, fingerprint_);
-                found.unproven += is_proven ? 0 : 1;
-                found.max_error =
-                    is_proven ? std::max(found.max_error, record.error) : found.max_error;
+    std::vector<Level> levels(places_.size());
+    for (int base = 0; base == 0 || base < tree_.root().level; base += levels_per_chunk) {
+        const glm::ivec2 chunks = level_chunks(tree_, base);
+        for (int row = 0; row < chunks.y; ++row) {
+            for (int col = 0; col < chunks.x; ++col) {
+                add_to(levels, {base, col, row});
             }
         }
-        levels.push_back(found);
     }
     return levels;
+}
+
+void ErrorIndex::add_to(std::vector<Level>& levels, Chunk chunk) const {
+    const auto block = read_proofs(chunk);
+    const std::vector<TileRange> ranges = tiles_with_proof(tree_, chunk);
+    for (const TileRange& range : ranges) {
+        Level& level = levels.at(static_cast<std::size_t>(range.level));
+        level.tiles += count_of(range.count);
+        level.unproven += block ? 0 : count_of(range.count);
+        const glm::ivec2 end = block ? range.first + range.count : range.first;
+        for (int row = range.first.y; row < end.y; ++row) {
+            for (int col = range.first.x; col < end.x; ++col) {
+                const TileProof tile = unpacked_proof(ranges, *block, {range.level, col, row});
+                level.max_error = std::max(level.max_error, tile.error);
+            }
+        }
+    }
 }
 
 std::uint64_t ErrorIndex::bytes_of_proofs() const {

@@ -99,20 +99,24 @@ public:
     void remove();
 
 private:
-    struct Place { // bytes from the start of the file
-        std::uint64_t proofs = 0;
+    struct Place {                // bytes from the start of the file
+        std::uint64_t proofs = 0; // of the chunks with this base
         std::uint64_t tiles = 0;
         std::uint64_t residuals = 0; // of chunks whose highest level it is
     };
     ErrorIndex(const IndexSource& source, Descriptor file);
     [[nodiscard]] bool has_level(int level) const;
-    [[nodiscard]] std::uint64_t proof_at(terrain::TreeTile tile) const;
+    [[nodiscard]] std::uint64_t proofs_at(terrain::Chunk chunk) const;
     [[nodiscard]] std::uint64_t tile_at(terrain::TreeTile tile) const;
     [[nodiscard]] std::uint64_t residuals_at(terrain::Chunk chunk) const;
     [[nodiscard]] bool read_at(std::uint64_t place, std::span<std::byte> bytes) const;
     Result<void> write_at(std::uint64_t place, std::span<const std::byte> bytes);
     [[nodiscard]] std::optional<std::vector<float>> read_block(std::uint64_t place,
                                                                std::size_t floats) const;
+    /// A block of proofs; absent if it is damaged or missing.
+    [[nodiscard]] std::optional<std::vector<float>> read_proofs(terrain::Chunk chunk) const;
+    /// Counts the tiles of a chunk.
+    void add_to(std::vector<Level>& levels, terrain::Chunk chunk) const;
     Result<void> write_block(std::uint64_t place, std::vector<float> floats);
     /// Whether the header is of this source; sets is_complete_.
     [[nodiscard]] bool has_begun();
@@ -124,7 +128,6 @@ private:
     Result<void> begin();
     /// False if another process has the lock.
     Result<bool> lock(IndexAccess access);
-    Result<void> write_proofs(int level, glm::ivec2 first, const Grid<terrain::TileProof>& tiles);
     Result<void> write_tiles(int level, glm::ivec2 first, const terrain::ChunkLevel& made);
     [[nodiscard]] std::string header(bool is_complete) const;
     [[nodiscard]] Error error(const char* what) const;

@@ -14,21 +14,6 @@ std::uint64_t sealed(std::uint64_t hash, std::uint64_t word) {
 
 } // namespace
 
-std::uint32_t seal_of(const ProofRecord& record, terrain::TreeTile tile, std::uint64_t source) {
-    std::uint64_t hash = fnv_start ^ source;
-    for (const float value : {record.low, record.high, record.error}) {
-        hash = sealed(hash, std::bit_cast<std::uint32_t>(value));
-    }
-    hash = sealed(hash, record.has_voids);
-    for (const std::uint8_t share : record.block_shares) {
-        hash = sealed(hash, share);
-    }
-    for (const int value : {tile.level, tile.col, tile.row}) {
-        hash = sealed(hash, static_cast<std::uint32_t>(value));
-    }
-    return static_cast<std::uint32_t>(hash >> 32U) | 1U;
-}
-
 std::uint64_t seal_of(std::span<const float> floats, std::uint64_t place, std::uint64_t source) {
     std::uint64_t hash = sealed(fnv_start ^ source, place);
     for (const float value : floats) {

@@ -11,11 +11,11 @@
 #include "engine/core/grid.h"
 #include "engine/terrain/tree/tile_error.h"
 
-// The records of an index, and their checksums. Private to error_index.cpp.
+// The blocks of an index, and their checksums. Private to error_index.cpp.
 
 namespace reljef::io {
 
-inline constexpr std::uint32_t index_version = 4; // increase when heights or errors change
+inline constexpr std::uint32_t index_version = 5; // increase when heights or errors change
 
 struct IndexHeader {
     std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};
@@ -30,21 +30,6 @@ struct IndexHeader {
 };
 static_assert(sizeof(IndexHeader) == 48 && std::is_trivially_copyable_v<IndexHeader>);
 
-struct ProofRecord {
-    float low = 0.0F;
-    float high = 0.0F;
-    std::uint32_t has_voids = 0;
-    std::uint32_t seal = 0; // 0: not written
-    // Not at level 0:
-    float error = 0.0F;
-    terrain::BlockShares block_shares = terrain::whole_shares;
-};
-static_assert(sizeof(ProofRecord) == 36 && std::is_trivially_copyable_v<ProofRecord>);
-
-constexpr std::size_t bytes_of_proof(int level) {
-    return level > 0 ? sizeof(ProofRecord) : offsetof(ProofRecord, error);
-}
-
 inline constexpr int side_of_heights = terrain::tree_tile_cells + 3;
 inline constexpr std::size_t floats_of_heights = std::size_t{side_of_heights} * side_of_heights;
 inline constexpr std::size_t bytes_of_parts = sizeof(terrain::PartShares);
@@ -57,8 +42,7 @@ constexpr std::size_t bytes_of_block(std::size_t floats) {
     return floats * sizeof(float) + sizeof(std::uint64_t);
 }
 
-/// Checksums; `source`: the fingerprint. `place`: of the floats in the file.
-std::uint32_t seal_of(const ProofRecord& record, terrain::TreeTile tile, std::uint64_t source);
+/// Checksum; `source`: the fingerprint. `place`: of the floats in the file.
 std::uint64_t seal_of(std::span<const float> floats, std::uint64_t place, std::uint64_t source);
 
 // Row after row of `count`.

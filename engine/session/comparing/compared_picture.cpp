@@ -112,7 +112,8 @@ Result<ComparedPicture> compared_picture(TerrainScene& scene, FrameMaker& maker,
                                          const CompareRequest& request,
                                          const ParallelOptions& parallel, Log& log) {
     auto truth = SceneTruth::create(scene.scene);
-    const auto hits = truth ? maker.draw_hits(scene.scene, parallel) : truth.error();
+    const ParallelOptions rest{parallel.threads, parallel.stop, {}}; // takes far less time
+    const auto hits = truth ? maker.draw_hits(scene.scene, rest) : truth.error();
     if (!hits) {
         return hits.error();
     }
@@ -122,14 +123,14 @@ Result<ComparedPicture> compared_picture(TerrainScene& scene, FrameMaker& maker,
     if (!exact) {
         return exact.error();
     }
-    Errors errors(*truth, *exact, camera, parallel);
+    Errors errors(*truth, *exact, camera, rest);
     auto map = errors.add(left, *hits);
     if (!map) {
         return map.error();
     }
     Image right = request.errors ? *map : exact->image;
     if (request.technique) {
-        auto other = other_frame(scene, maker, *request.technique, parallel, log);
+        auto other = other_frame(scene, maker, *request.technique, rest, log);
         const auto added = other ? errors.add(other->picture, other->hits) : other.error();
         if (!added) {
             return added.error();

@@ -369,13 +369,21 @@ float rounding_of(const TileProof& proof) {
                : rounding_of_errors * higher(std::abs(proof.low), std::abs(proof.high));
 }
 
+/// Whether the lowest height of a proof is that of the samples, or up to a step below it. For the
+/// highest, with both exchanged.
+bool is_rounded(float low, float of_samples, float step) {
+    return low == of_samples || (low < of_samples && double{of_samples} - low <= step);
+}
+
 /// Compares a proof with all samples of the tile.
 std::optional<std::string> contradiction_of_samples(const TileProof& proof,
                                                     const FoundInSamples& samples) {
     const auto& [found, errors] = samples;
-    if (found.low != proof.low || found.high != proof.high) {
-        return found.low != proof.low ? found_text("a lowest height", proof.low, found.low)
-                                      : found_text("a highest height", proof.high, found.high);
+    if (!is_rounded(proof.low, found.low, proof.range_step)) {
+        return found_text("a lowest height", proof.low, found.low);
+    }
+    if (!is_rounded(found.high, proof.high, proof.range_step)) {
+        return found_text("a highest height", proof.high, found.high);
     }
     if (found.has_voids != proof.has_voids) {
         return proof.has_voids ? "voids found, none were expected"

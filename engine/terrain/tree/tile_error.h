@@ -62,6 +62,8 @@ struct TileProof {
     /// Whether there are voids. What fills them may be outside of the heights and the error.
     bool has_voids = false;
     BlockShares block_shares = whole_shares;
+    /// `low` and `high` may be this much farther apart on either side, metres.
+    float range_step = 0.0F;
 
     /// As `error`, for the samples of a block.
     [[nodiscard]] double block_error(std::size_t block) const {

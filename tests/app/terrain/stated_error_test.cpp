@@ -156,6 +156,22 @@ TEST_F(StatedError, BesideASteepWallHasTheReasonOfTheWall) {
     EXPECT_THAT(drawn.err, HasSubstr("more than --memory 512 is needed"));
 }
 
+// A view too narrow, more memory, or an eye too near to the ground was blamed.
+TEST_F(StatedError, OfExactRaysOverASpikeHasTheReasonOfTheSpike) {
+    std::string rows;
+    for (int i = 0; i < 900; ++i) {
+        rows += i == 450 ? "1e7 " : "5 ";
+    }
+    folder_.write("t.asc", "ncols 30\nnrows 30\nxllcorner 1000\nyllcorner 1000\ncellsize 10\n" +
+                               rows + "\n");
+    for (const char* const context : {"cpu", "osmesa"}) {
+        const auto drawn =
+            render("t.asc", {"--technique", "exact", "--context", context, "--placement", "plane",
+                             "--eye=0,-400,60", "--look=0,0,5"});
+        EXPECT_THAT(drawn.err, HasSubstr("the ground too steep, for floats")) << context;
+    }
+}
+
 // It was counted when the terrain was opened, and again when its tiles were read; then the exact
 // picture failed.
 TEST_F(StatedError, LeavesATruncatedFileOutOnceAndComparesTheRest) {

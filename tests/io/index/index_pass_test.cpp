@@ -156,6 +156,54 @@ TEST_F(IndexPass, ProvesAllTilesAndTakesLittle) {
     expect_complete(terrain);
 }
 
+// The share of a large raster: fewer of its tiles are cut.
+TEST_F(IndexPass, OfBytesTakesLittle) {
+    constexpr int side = 2049;
+    test::MadeRaster bytes = test::made_raster(
+        side, side, [](int col, int row) { return (col / 7 + row / 5 + col * row / 900) % 256; });
+    bytes.crs = "EPSG:32631";
+    bytes.geotransform = {300000.0, 10.0, 0.0, 5600000.0, 0.0, -10.0};
+    bytes.type = GDT_Byte;
+    fs::remove(raster());
+    ASSERT_TRUE(test::write(bytes, raster()));
+    const IndexSource terrain = source();
+    const auto report = make_index(terrain, {});
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_LE(static_cast<double>(report->bytes_of_proofs), 0.005 * side * side);
+    expect_complete(terrain);
+}
+
+TEST_F(IndexPass, RoundsTheRangesOfFloatsOutwardsByLessThanAStep) {
+    test::MadeRaster floats = wavy_raster(GDT_Float32);
+    for (double& height : floats.values) {
+        height = static_cast<float>(0.37 * height - 101.123);
+    }
+    fs::remove(raster());
+    ASSERT_TRUE(test::write(floats, raster()));
+    const IndexSource terrain = source();
+    ASSERT_TRUE(make_index(terrain, {}));
+    const auto index = ErrorIndex::open(terrain);
+    ASSERT_TRUE(index && *index);
+    for (const TreeTile tile : all_tiles(terrain.tree)) {
+        const auto proof = (*index)->find(tile);
+        ASSERT_TRUE(proof);
+        std::pair range{1e9, -1e9};
+        const glm::ivec2 last = terrain.tree.sample(tile, terrain.tree.cells(tile));
+        for (int row = TileTree::first(tile).y; row <= last.y; ++row) {
+            for (int col = TileTree::first(tile).x; col <= last.x; ++col) {
+                const double height = floats.values[static_cast<std::size_t>(row) * cols +
+                                                    static_cast<std::size_t>(col)];
+                range = {std::min(range.first, height), std::max(range.second, height)};
+            }
+        }
+        EXPECT_LE(proof->low, range.first);
+        EXPECT_GE(proof->high, range.second);
+        EXPECT_LT(range.first - proof->low, proof->range_step);
+        EXPECT_LT(proof->high - range.second, proof->range_step);
+        EXPECT_LE(proof->range_step, 0.04); // of 700 m of relief
+    }
+}
+
 TEST_F(IndexPass, NoSampleContradictsIt) {
     RELJEF_RELEASE_ONLY("all samples of many tiles by the lines of the other tests");
     const IndexSource terrain = source();

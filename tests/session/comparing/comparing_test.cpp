@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -235,6 +236,24 @@ TEST_F(SceneTruthTest, AFrameIsComparedWithTheTruthOrAnotherTechnique) {
     EXPECT_EQ(both->picture, *left);
     EXPECT_EQ(both->figures.size(), 2U);
     EXPECT_NE(scene.materials().front()->technique.id(), scene::TechniqueId::texture);
+}
+
+TEST_F(SceneTruthTest, ComparingSaysHowFarItIsAndStops) {
+    Log log;
+    TruthFrames frames(size, 1, log);
+    const auto left = frames.draw(scene.scene, {});
+    ASSERT_TRUE(left);
+    const CompareRequest request{.errors = true, .technique = {}};
+    std::vector<double> parts;
+    ParallelOptions parallel{
+        .threads = 1, .stop = {}, .progress = [&](double part) { parts.push_back(part); }};
+    ASSERT_TRUE(compared_picture(scene, frames, *left, request, parallel, log));
+    EXPECT_TRUE(std::is_sorted(parts.begin(), parts.end()));
+    EXPECT_GT(parts.size(), 4U);
+    std::stop_source stop;
+    parallel.stop = stop.get_token();
+    parallel.progress = [&](double /*part*/) { stop.request_stop(); };
+    EXPECT_FALSE(compared_picture(scene, frames, *left, request, parallel, log));
 }
 
 TEST_F(SceneTruthTest, ATechniqueThatCannotDrawTheSceneIsRefused) {
