@@ -277,7 +277,8 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     }
     std::vector<view::MeshDraw> casters;
     if (!hits) {
-        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size, stats); !prepared) {
+        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size, stats);
+            !prepared) {
             return prepared;
         }
         casters = mesh_shadow_.casters_beside(list);

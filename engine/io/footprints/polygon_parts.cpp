@@ -172,7 +172,8 @@ std::vector<glm::uvec3> triangles_of(const OGRPolygon& polygon,
 }
 
 Geometry repaired_polygon(const OGRPolygon& polygon) {
-    const CPLStringList by_structure(std::vector<std::string>{"METHOD=STRUCTURE"});
+    CPLStringList by_structure;
+    by_structure.SetNameValue("METHOD", "STRUCTURE");
     return Geometry(polygon.MakeValid(by_structure.List()));
 }
 
