@@ -171,10 +171,22 @@ std::vector<glm::uvec3> triangles_of(const OGRPolygon& polygon,
     return triangles;
 }
 
+Geometry repaired_by_structure(const OGRPolygon& polygon) {
+    CPLStringList method;
+    method.SetNameValue("METHOD", "STRUCTURE");
+    return Geometry(polygon.MakeValid(method.List()));
+}
+
+// What lies within the outer ring: GEOS makes a polygon of a hole beside it. Null if GEOS fails.
 Geometry repaired_polygon(const OGRPolygon& polygon) {
-    CPLStringList by_structure;
-    by_structure.SetNameValue("METHOD", "STRUCTURE");
-    return Geometry(polygon.MakeValid(by_structure.List()));
+    Geometry repaired = repaired_by_structure(polygon);
+    if (polygon.getNumInteriorRings() == 0 || repaired == nullptr) {
+        return repaired;
+    }
+    OGRPolygon outer;
+    outer.addRingDirectly(polygon.getExteriorRing()->clone()); // takes it over
+    const Geometry within = repaired_by_structure(outer);
+    return within != nullptr ? Geometry(repaired->Intersection(within.get())) : nullptr;
 }
 
 // Appends the footprint of a valid polygon.

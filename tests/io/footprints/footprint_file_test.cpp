@@ -243,8 +243,9 @@ TEST_F(FootprintFileTest, AnOutlineAcrossTheAntimeridianIsNotTurnedOver) {
 }
 
 TEST_F(FootprintFileTest, AMirroredCoordinateSystemKeepsItsBuildings) {
-    const auto file = read({polygon_feature(rectangle(1043000, 743000, 1043020, 743020))}, {},
-                           "EPSG::5513"); // Krovak: south and west
+    const auto file =
+        read({polygon_feature("[" + rectangle(1043000, 743000, 1043020, 743020) + "]")}, {},
+             "EPSG::5513"); // Krovak: south and west
     ASSERT_TRUE(file) << file.error().message;
     ASSERT_EQ(file->footprints.size(), 1U);
     EXPECT_GT(building::signed_area(file->footprints[0].shape.rings[0]), 0.0);
