@@ -138,20 +138,11 @@ public:
                 parts_done_ += views.size();
                 continue;
             }
-            if (city->note()) {
-                note(*city->note());
-            }
-            for (const ObjectsView& view : views) {
-                if (stop_.stop_requested()) {
-                    return {};
-                }
-                if (auto done = run_view(*city, view); !done) {
-                    return done;
-                }
-                line_.update(static_cast<double>(++parts_done_) / static_cast<double>(parts_));
+            if (auto done = run_city(*city, views); !done || stop_.stop_requested()) {
+                return done;
             }
         }
-        return results_.rows.empty() && !stop_.stop_requested()
+        return results_.rows.empty()
                    ? Result<void>(Error{
                          fmt::format("no city was measured: {}", fmt::join(results_.notes, "; "))})
                    : Result<void>();
@@ -201,6 +192,22 @@ private:
             RowObjects{std::string(form_name), city.buildings(), view.distance, view.down, 0};
         made.renderer = std::make_unique<session::SceneRenderer>(std::move(*renderer));
         return made;
+    }
+
+    Result<void> run_city(CityForms& city, const std::vector<ObjectsView>& views) {
+        if (city.note()) {
+            note(*city.note());
+        }
+        for (const ObjectsView& view : views) {
+            if (stop_.stop_requested()) {
+                return {};
+            }
+            if (auto done = run_view(city, view); !done) {
+                return done;
+            }
+            line_.update(static_cast<double>(++parts_done_) / static_cast<double>(parts_));
+        }
+        return {};
     }
 
     Result<void> run_view(CityForms& city, const ObjectsView& view) {

@@ -30,7 +30,7 @@ PointBounds bounds_of_layers(std::span<const TileLayer> layers) {
 }
 
 /// At most terrain::max_tree_samples; see grid_step.
-int count_of(double low, double high, double step) {
+int samples_between(double low, double high, double step) {
     return clamped_int((high - low) / step + near_sample, 0, terrain::max_tree_samples - 1) + 1;
 }
 
@@ -59,8 +59,8 @@ TileGrid grid_in_shared_crs(std::span<const TileLayer> layers, std::vector<std::
     const glm::dvec2 steps(std::floor((finest.x0 - box.low.x) / step.x + near_sample),
                            std::floor((box.high.y - finest.y0) / step.y + near_sample));
     grid.first = {finest.x0 - steps.x * step.x, finest.y0 + steps.y * step.y};
-    grid.cols = count_of(grid.first.x, box.high.x, step.x);
-    grid.rows = count_of(box.low.y, grid.first.y, step.y);
+    grid.cols = samples_between(grid.first.x, box.high.x, step.x);
+    grid.rows = samples_between(box.low.y, grid.first.y, step.y);
     return grid;
 }
 
@@ -74,8 +74,8 @@ TileGrid grid_in_degrees(std::span<const TileLayer> layers, const DegreeBox& box
     const glm::dvec2 step = grid_step({east - west, north - south}, spacing / metres, notes);
     return {{west, north},
             {step.x, -step.y},
-            count_of(west, east, step.x),
-            count_of(south, north, step.y)};
+            samples_between(west, east, step.x),
+            samples_between(south, north, step.y)};
 }
 
 DegreeBox box_around(std::span<const TileLayer> layers) {

@@ -94,6 +94,10 @@ private:
         }
     }
 
+    [[nodiscard]] bool is_inside(glm::ivec2 at) const {
+        return at.x > 1 && at.y > 1 && at.x < last_.x && at.y < last_.y;
+    }
+
     void fill_inside() {
         Range range;
         Grid<float> corrections(last_.x, last_.y);
@@ -101,9 +105,8 @@ private:
         for (int row = 0; row < last_.y; ++row) {
             for (int col = 0; col < last_.x; ++col) {
                 const glm::ivec2 at(col + 1, row + 1);
-                const bool is_inside = col > 0 && row > 0 && at.x < last_.x && at.y < last_.y;
                 add_to(range, at);
-                open(col, row) = is_inside && is_void(at) ? 1 : 0;
+                open(col, row) = is_inside(at) && is_void(at) ? 1 : 0;
                 corrections(col, row) = open(col, row) != 0 ? 0.0F : correction(at);
             }
         }
