@@ -145,7 +145,12 @@ MeshHit point_on(const scene::Mesh& mesh, const Ray& local, MeshHit hit) {
 }
 
 // Embree aborts on rays of larger numbers; what is scaled down so far cannot be seen.
-bool can_be_cast(const glm::dmat4& local_from_relative) {
+bool can_be_cast(const glm::dmat4& relative_from_local) {
+    const double volume = std::abs(glm::determinant(relative_from_local));
+    if (!(volume >= std::numeric_limits<double>::min())) {
+        return false;
+    }
+    const glm::dmat4 local_from_relative = glm::inverse(relative_from_local);
     constexpr double largest = 0x1p59;
     bool all = true;
     for (int column = 0; column < 4; ++column) {
@@ -258,7 +263,7 @@ Result<PlacedMeshes> MeshTrees::place(std::span<const view::MeshDraw> seen,
         for (const view::MeshDraw& draw : draws) {
             glm::dmat4 relative_from_local = draw.world_from_local;
             relative_from_local[3] -= glm::dvec4(eye, 0.0);
-            if (!can_be_cast(glm::inverse(relative_from_local))) {
+            if (!can_be_cast(relative_from_local)) {
                 continue;
             }
             const auto tree = tree_of(view::drawn_mesh(draw));

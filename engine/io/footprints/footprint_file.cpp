@@ -122,8 +122,11 @@ public:
 private:
     Result<void> add(const OGRFeature& feature, int field) {
         const OGRGeometry* const geometry = feature.GetGeometryRef();
-        const std::unique_ptr<OGRGeometry> placed(
-            geometry != nullptr ? geometry->getLinearGeometry() : nullptr);
+        if (geometry == nullptr) {
+            ++file_.counts.no_polygons;
+            return {};
+        }
+        const std::unique_ptr<OGRGeometry> placed(geometry->getLinearGeometry());
         if (placed == nullptr || !has_polygon(*placed)) {
             ++file_.counts.no_polygons;
             return {};

@@ -23,6 +23,7 @@ bool is_on_earth(const std::vector<glm::dvec2>& corners) {
 
 std::vector<glm::dvec2> corners_of(const OGRLinearRing& ring) {
     std::vector<glm::dvec2> corners;
+    corners.reserve(static_cast<std::size_t>(ring.getNumPoints()));
     for (int i = 0; i < ring.getNumPoints(); ++i) {
         corners.emplace_back(ring.getX(i), ring.getY(i));
     }

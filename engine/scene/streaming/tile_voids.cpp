@@ -111,6 +111,11 @@ private:
             }
         }
         terrain::fill_voids(corrections, open);
+        set_inside(corrections, open, range);
+    }
+
+    void set_inside(const Grid<float>& corrections, const Grid<std::uint8_t>& open,
+                    const Range& range) {
         for (int row = 0; row < last_.y; ++row) {
             for (int col = 0; col < last_.x; ++col) {
                 if (open(col, row) != 0) {
