@@ -105,9 +105,9 @@ void add_object_options(CLI::App& command, std::vector<io::ObjectDescription>& o
             "mesh (OBJ, or glTF 2.0: .gltf, .glb) that stands on the terrain; may be repeated. "
             "at: latitude and longitude, or x and y in scene metres on terrain that is not "
             "georeferenced; height: of its lowest point above the ground, metres (0); heading: "
-            "degrees clockwise from north (0); scale (1). If the ground keeps an error bound "
-            "(--max-error), view and pictures of a path draw far objects with fewer triangles, "
-            "within it. In the gallery, FILE alone is shown with every technique")
+            "degrees clockwise from north (0); scale: 1e-6 to 10000 (1). If the ground keeps an "
+            "error bound (--max-error), view and pictures of a path draw far objects with fewer "
+            "triangles, within it. In the gallery, FILE alone is shown with every technique")
         ->allow_extra_args(false)
         ->type_name(form);
     add_footprints_option(command, footprints);

@@ -277,8 +277,11 @@ Result<void> Driver::prepare(const view::DrawList& list, bool hits, view::FrameS
     }
     std::vector<view::MeshDraw> casters;
     if (!hits) {
-        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size, stats);
+        if (auto prepared = ground_shadow_.prepare(list, limits_.max_texture_size, stats);
             !prepared) {
+            return prepared;
+        }
+        if (auto prepared = mesh_shadow_.prepare(list, limits_.max_texture_size); !prepared) {
             return prepared;
         }
         casters = mesh_shadow_.casters_beside(list);
@@ -359,6 +362,17 @@ Result<void> Driver::draw_pass(const view::DrawList& list, const gl::Framebuffer
     return draw_content(list, picture, false, stats);
 }
 
+// What programs read of shadows and point lights.
+Result<void> Driver::set_light(const view::DrawList& list, DrawState& state) const {
+    if (mesh_shadow_.is_cast() || ground_shadow_.is_on_ground()) {
+        if (auto bound = mesh_shadow_.bind(state); !bound) {
+            return bound;
+        }
+    }
+    const bool has_points = !list.point_lights.empty() || view::has_surface_shader(list);
+    return has_points ? state.set(point_light_block(list)) : Result<void>();
+}
+
 Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuffer& picture,
                                   bool hits, view::FrameStats& stats) {
     DrawState state(shaders_, blocks_, options_.software, stats);
@@ -375,14 +389,9 @@ Result<void> Driver::draw_content(const view::DrawList& list, const gl::Framebuf
         .skips = options_.skips,
         .state = state,
         .mesh_shadows = !hits && mesh_shadow_.is_cast() ? feature_mesh_shadows : 0U,
-        .ground_shadow = hits ? nullptr : &mesh_shadow_.of_ground()};
+        .ground_shadow = hits ? nullptr : &ground_shadow_};
     if (!hits) {
-        if (auto bound = mesh_shadow_.bind(state); !bound) {
-            return bound;
-        }
-    }
-    if (!hits && (!list.point_lights.empty() || view::has_surface_shader(list))) {
-        if (auto set = state.set(point_light_block(list)); !set) {
+        if (auto set = set_light(list, state); !set) {
             return set;
         }
     }

@@ -13,6 +13,7 @@
 #include "engine/gl/limits.h"
 #include "engine/gl/timer_query.h"
 #include "engine/render/passes/beams.h"
+#include "engine/render/passes/ground_shadow.h"
 #include "engine/render/passes/mesh_shadow.h"
 #include "engine/render/passes/sample_target.h"
 #include "engine/render/passes/skips.h"
@@ -86,6 +87,7 @@ private:
     Result<void> draw_sample_pass(const view::DrawList& list, int pass, view::FrameStats& stats);
     Result<void> draw_pass(const view::DrawList& list, const gl::Framebuffer& picture,
                            view::FrameStats& stats);
+    Result<void> set_light(const view::DrawList& list, DrawState& state) const;
     Result<void> draw_content(const view::DrawList& list, const gl::Framebuffer& picture, bool hits,
                               view::FrameStats& stats);
     Result<void> draw_work(const view::DrawList& list, const gl::Framebuffer& picture);
@@ -100,6 +102,7 @@ private:
     BeamTarget beam_target_;
     BeamTarget counted_beams_{true};
     MeshShadow mesh_shadow_; // of the last picture
+    GroundShadow ground_shadow_;
     gl::Buffer frame_block_;
     gl::VertexArray no_vertices_;
     ShaderLibrary shaders_;

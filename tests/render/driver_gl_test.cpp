@@ -166,7 +166,7 @@ TEST_F(DriverGlTest, NoPartOfAFrameIsTimedTwice) {
     world.terrain->get<scene::TerrainNode>()->material.technique = {scene::Polygons{}};
     test::must(made.draw(world.scene));
     for (int frame = 0; frame < 5; ++frame) {
-        const Stopwatch whole;
+        const Stopwatch whole; // its parts are no longer, however busy the machine is
         const view::FrameStats stats = test::must(made.draw(world.scene, true));
         EXPECT_LE(stats.cpu_ms + stats.gpu_ms, whole.milliseconds());
         EXPECT_GE(stats.cpu_ms, 0.0);

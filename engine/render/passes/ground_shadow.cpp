@@ -10,6 +10,7 @@
 #include "engine/render/residency/uploads.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/sun_maps.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/light/sun_visibility.h"
 
@@ -136,7 +137,8 @@ glm::mat4 GroundShadow::place_on(const view::DrawList& list, const view::MeshDra
         return glm::dvec3((glm::dvec2(sample) / ground.step + 0.5) / texels, sample.z);
     };
     const glm::dvec3 middle = box.center();
-    const double reach = std::max(0.25 * glm::length(box.size()), 1e-3);
+    constexpr double min_reach = 1e-3; // metres: of a mesh that is a point
+    const double reach = std::max(0.25 * glm::length(box.size()), min_reach);
     glm::dmat4 matrix(1.0);
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 away(0.0);

@@ -36,14 +36,9 @@ bool is_in_map(const SunMap& map, const view::MeshDraw& draw, glm::dvec3 eye) {
 
 } // namespace
 
-Result<void> MeshShadow::prepare(const view::DrawList& list, int max_side,
-                                 view::FrameStats& stats) {
+Result<void> MeshShadow::prepare(const view::DrawList& list, int max_side) {
     const int side = side_of_maps(list, max_side);
     maps_ = sun_maps(list, side / 2);
-    if (auto prepared = ground_.prepare(list, max_side, stats); !prepared) {
-        maps_.clear();
-        return prepared;
-    }
     if (!is_cast() || depth_.side() == side) {
         return {};
     }
@@ -100,8 +95,7 @@ Result<void> MeshShadow::bind(DrawState& state) const {
         depth_.bind_texture(bindings::mesh_shadow_unit);
         ++state.stats().state_changes;
     }
-    return is_cast() || ground_.is_on_ground() ? state.set(mesh_shadow_block(maps_))
-                                               : Result<void>();
+    return state.set(mesh_shadow_block(maps_));
 }
 
 } // namespace reljef::render

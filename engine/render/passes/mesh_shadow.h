@@ -5,26 +5,21 @@
 #include "engine/core/result.h"
 #include "engine/gl/depth_map.h"
 #include "engine/render/passes/draw_state.h"
-#include "engine/render/passes/ground_shadow.h"
 #include "engine/render/residency/residency.h"
 #include "engine/render/shaders/sun_maps.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::render {
 
-/// The shadows of the meshes of a frame, as depth maps from the sun, and those of ground on them.
+/// The shadows of the meshes of a frame, as depth maps from the sun.
 class MeshShadow {
 public:
-    /// Chooses the maps, see sun_maps(), and uploads the shadow of the ground. `max_side`: of
-    /// textures, texels. Fails without memory.
-    Result<void> prepare(const view::DrawList& list, int max_side, view::FrameStats& stats);
+    /// Chooses the maps, see sun_maps(). `max_side`: of textures, texels. Fails without memory.
+    Result<void> prepare(const view::DrawList& list, int max_side);
 
     /// Whether meshes may cast shadows into the picture. Without any, nothing is drawn and no
     /// program of meshes reads the maps.
     [[nodiscard]] bool is_cast() const { return !maps_.empty(); }
-
-    /// The shadow of ground on triangles and meshes. Precondition: prepared.
-    [[nodiscard]] const GroundShadow& of_ground() const { return ground_; }
 
     /// The meshes beside the picture that are drawn into the maps. Precondition: prepared.
     [[nodiscard]] std::vector<view::MeshDraw> casters_beside(const view::DrawList& list) const;
@@ -34,13 +29,12 @@ public:
     Result<void> draw(const view::DrawList& list, const Residency& residency,
                       DrawState& state) const;
 
-    /// Sets what programs with feature_mesh_shadows read, if there are shadows.
+    /// Sets what programs with feature_mesh_shadows read: also that there are no maps.
     Result<void> bind(DrawState& state) const;
 
 private:
     std::vector<SunMap> maps_;
     gl::DepthMap depth_; // made for the first shadow
-    GroundShadow ground_;
 };
 
 } // namespace reljef::render
