@@ -23,8 +23,12 @@ Result<void> measure_distance(BenchmarkScene& scene, double distance, session::D
         if (!measured) {
             return measured.error();
         }
+        const auto hidden = scene.hidden_percent(device.renderer());
+        if (!hidden) {
+            return hidden.error();
+        }
         results.rows.push_back(
-            {scene.name(), distance, scene::to_string(technique), measured->error});
+            {scene.name(), distance, scene::to_string(technique), measured->error, *hidden});
     }
     return {};
 }
@@ -83,6 +87,7 @@ FigureTable figure_table(const DistanceResults& results) {
                                   {"/label", "technique"},
                                   {"/error/reprojection_px/rms", "error px", 3},
                                   {"/error/wrong_percent", "wrong %", 1},
+                                  {"/error/hidden_percent", "hidden %", 1},
                                   {"/error/flip", "FLIP", 3}},
                       .end = results.end};
     table.heading = fmt::format("errors over the distance of the eye, {}, {}",
@@ -93,7 +98,7 @@ FigureTable figure_table(const DistanceResults& results) {
     for (const DistanceRow& row : results.rows) {
         table.rows.push_back({row.scene, distance_text(row.distance), row.label,
                               json_rms(row.error.reprojection_px), row.error.wrong_percent,
-                              row.error.flip});
+                              row.hidden_percent, row.error.flip});
     }
     return table;
 }

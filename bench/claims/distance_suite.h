@@ -24,6 +24,7 @@ struct DistanceRow {
     double distance = 0.0; ///< metres
     std::string label;     ///< of the technique
     RowError error;
+    double hidden_percent = 0.0; ///< see truth::hidden_places()
 };
 
 struct DistanceResults {

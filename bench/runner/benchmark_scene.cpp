@@ -9,8 +9,10 @@
 #include "app/cli/console_log.h"
 #include "app/cli/program.h"
 #include "bench/runner/gallery_tiles.h"
+#include "engine/core/check.h"
 #include "engine/io/formats/scene_file.h"
 #include "engine/session/calibration/calibration.h"
+#include "engine/truth/hidden_places.h"
 
 namespace reljef::bench {
 namespace {
@@ -254,10 +256,24 @@ Result<truth::GeometricErrors> BenchmarkScene::errors(const HitBuffer& shown,
     if (detail_) {
         return detail_->errors(scene().camera(), shown, truth, threads);
     }
+    return truth::geometric_errors(surface_view(), shown, truth, threads);
+}
+
+truth::SurfaceView BenchmarkScene::surface_view() const {
     const scene::TerrainSurface& surface = *terrain().get<scene::TerrainNode>()->surface;
-    const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
-                                  terrain().world_from_local(), scene().camera()};
-    return truth::geometric_errors(view, shown, truth, threads);
+    return {surface.heightfield().heights.view(), surface.placement(), terrain().world_from_local(),
+            scene().camera()};
+}
+
+Result<double> BenchmarkScene::hidden_percent(session::SceneRenderer& renderer) const {
+    check(caster_ && !caster_->terrains().empty(), "measure_error() of a terrain before");
+    const auto hits = renderer.draw_hits(scene());
+    if (!hits) {
+        return hits.error();
+    }
+    return truth::hidden_places(surface_view(), caster_->terrains().front().caster, *hits,
+                                static_cast<unsigned>(options_.threads))
+        .hidden_percent();
 }
 
 Result<MeasuredError> BenchmarkScene::measure_error(const scene::Technique& technique,

@@ -105,6 +105,10 @@ public:
     Result<MeasuredError> measure_error(const scene::Technique& technique,
                                         session::SceneRenderer& renderer,
                                         const std::stop_token& stop);
+    /// Of the terrain's pixels in the picture of the last technique, those that show a place which
+    /// the terrain itself hides from the eye; see truth::hidden_places(). Precondition: a terrain,
+    /// and measure_error() before.
+    [[nodiscard]] Result<double> hidden_percent(session::SceneRenderer& renderer) const;
 
 private:
     struct TruePicture {
@@ -119,6 +123,7 @@ private:
         : name_(std::move(name)), scene_(std::move(scene)), options_(options) {}
     Result<truth::Picture> draw_truth(const ParallelOptions& parallel);
     Result<const TruePicture*> truth(const std::stop_token& stop); // kept for the next call
+    [[nodiscard]] truth::SurfaceView surface_view() const;
     [[nodiscard]] Result<truth::GeometricErrors> errors(const HitBuffer& shown,
                                                         const HitBuffer& truth) const;
 

@@ -114,10 +114,15 @@ Result<void> Context::make_current() {
     return {};
 }
 
-bool Context::is_software() const {
+bool is_software_renderer(std::string_view renderer) {
     constexpr std::array rasterizers{"llvmpipe", "softpipe", "swrast", "SWR"};
-    return std::any_of(rasterizers.begin(), rasterizers.end(),
-                       [&](const char* name) { return renderer_.find(name) != std::string::npos; });
+    return std::any_of(rasterizers.begin(), rasterizers.end(), [&](const char* name) {
+        return renderer.find(name) != std::string_view::npos;
+    });
+}
+
+bool Context::is_software() const {
+    return is_software_renderer(renderer_);
 }
 
 RendererInfo info_of(const Context& context) {

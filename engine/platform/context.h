@@ -59,6 +59,9 @@ private:
     std::string version_;
 };
 
+/// Whether GL_RENDERER names a CPU rasterizer (llvmpipe, softpipe, swrast).
+bool is_software_renderer(std::string_view renderer);
+
 /// What draws, for reports.
 struct RendererInfo {
     std::string renderer;

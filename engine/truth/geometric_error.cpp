@@ -16,7 +16,6 @@ namespace {
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();
 constexpr float no_error = std::numeric_limits<float>::quiet_NaN();
-constexpr double max_texels_off = 1.0;
 
 // Infinity for NaN and for values beyond float's range.
 double bounded(double error) {

@@ -38,6 +38,9 @@ struct PixelErrors {
     std::optional<Distribution> distribution; ///< of the finite errors; absent without any
 };
 
+/// Two hits at most so far apart show one place, texels.
+inline constexpr double max_texels_off = 1.0;
+
 /// A pixel of a technique compared with the truth.
 enum class Verdict : unsigned char {
     no_terrain, ///< neither shows terrain
