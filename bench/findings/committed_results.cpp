@@ -32,6 +32,8 @@ QuantityInfo info_of(Quantity quantity) {
         return {.pointer = "/ms/median", .low = min_ms};
     case Quantity::wrong:
         return {.pointer = "/error/wrong_percent", .high = 100.0};
+    case Quantity::hidden:
+        return {.pointer = "/error/hidden_percent", .high = 100.0};
     case Quantity::error_px:
         return {"/error/reprojection_px/rms"};
     case Quantity::flip:
@@ -120,10 +122,29 @@ Result<std::optional<double>> value_at(const json& row, const QuantityInfo& info
     return std::optional<double>(number);
 }
 
-// Rows of a suite without a noise floor count as noisy as a row may be that is not marked noisy.
+// The farther end of the interval of a median, a share of the median; 0 without an interval.
+Result<double> spread_of(const json& row, double median) {
+    double spread = 0.0;
+    for (const char* const pointer : {"/ms/interval/0", "/ms/interval/1"}) {
+        const auto end = value_at(row, {.pointer = pointer});
+        if (!end) {
+            return end.error();
+        }
+        spread = std::max(spread, std::abs(end->value_or(median) - median) / median);
+    }
+    return spread;
+}
+
+// Of a time, a share. Rows of a suite without a noise floor count as noisy as a row may be that is
+// not marked noisy.
 Result<double> noise_of(const json& row) {
     const auto floor = value_at(row, {.pointer = "/noise_floor"});
-    return floor ? Result<double>(floor->value_or(max_noise)) : Result<double>(floor.error());
+    const auto median = value_at(row, info_of(Quantity::ms));
+    if (!floor || !median) {
+        return floor ? median.error() : floor.error();
+    }
+    const auto spread = *median ? spread_of(row, **median) : Result<double>(0.0);
+    return spread ? Result<double>(std::max(floor->value_or(max_noise), *spread)) : spread;
 }
 
 } // namespace
@@ -200,8 +221,11 @@ std::optional<Machine> CommittedResults::machine(const std::string& file) const 
     }
     const json* const threads = at(found->second, "/environment/threads");
     const bool has_threads = threads != nullptr && threads->is_number_unsigned();
-    return Machine{text("/environment/cpu"), text("/environment/renderer"),
-                   has_threads ? threads->get<unsigned>() : 1U, text("/environment/commit")};
+    const Environment where{.renderer = text("/environment/renderer"),
+                            .context = text("/environment/context")};
+    return Machine{text("/environment/cpu"), where.renderer,
+                   has_threads ? threads->get<unsigned>() : 1U, text("/environment/commit"),
+                   where.has_gpu()};
 }
 
 } // namespace reljef::bench

@@ -25,6 +25,7 @@ struct Machine {
     std::string renderer;
     unsigned threads = 1;
     std::string commit;
+    bool has_gpu = false; ///< that drew
 };
 
 /// Results files of any suite, by their names.

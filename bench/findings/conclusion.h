@@ -13,6 +13,7 @@ namespace reljef::bench {
 enum class Quantity {
     ms,        ///< median time of a frame; its uncertainty is the noise floor of the row
     wrong,     ///< pixels that show a wrong point, percent
+    hidden,    ///< pixels that show a point which the terrain hides, percent
     error_px,  ///< root mean square of the reprojection error, pixels
     flip,      ///< mean FLIP of the picture
     triangles, ///< drawn
@@ -65,6 +66,7 @@ struct Conclusion {
     std::string rule;   ///< the ranges of the figures and their reason; empty: there is no claim
     std::vector<Figure> figures; ///< empty: nothing that reljef has measures it
     std::string note = {};       ///< after the figures; may be empty
+    std::string reason = {};     ///< why it does not hold; shown below the table unless it does
 };
 
 /// Conclusions that answer one question.
@@ -76,8 +78,15 @@ struct Chapter {
     };
 
     std::string question;
-    std::vector<Sentence> answer = {};
+    std::vector<Sentence> answer = {}; ///< those without figures always hold
     std::vector<Conclusion> conclusions = {};
+};
+
+/// All that a page says.
+struct Findings {
+    std::vector<Chapter::Sentence> summary = {};
+    std::vector<Chapter> chapters = {};
+    std::vector<std::string> limits = {}; ///< of validity, one sentence each
 };
 
 } // namespace reljef::bench

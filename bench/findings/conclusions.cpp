@@ -2,9 +2,11 @@
 
 namespace reljef::bench {
 
-std::vector<Chapter> findings_chapters() {
-    return {relief_chapter(), parallax_chapter(), triangles_chapter(), search_chapter(),
-            view_chapter(),   light_chapter(),    options_chapter(),   data_chapter()};
+Findings all_findings() {
+    return {findings_summary(),
+            {relief_chapter(), parallax_chapter(), triangles_chapter(), objects_chapter(),
+             search_chapter(), view_chapter(), light_chapter(), options_chapter(), data_chapter()},
+            findings_limits()};
 }
 
 } // namespace reljef::bench

@@ -7,12 +7,15 @@
 namespace reljef::bench {
 
 /// All conclusions of the sources: D (Dachsbacher), M (Mile 2008), J (Janković 2010).
-std::vector<Chapter> findings_chapters();
+Findings all_findings();
 
-// Their chapters.
+// Their parts.
+std::vector<Chapter::Sentence> findings_summary();
+std::vector<std::string> findings_limits();
 Chapter relief_chapter();
 Chapter parallax_chapter();
 Chapter triangles_chapter();
+Chapter objects_chapter();
 Chapter search_chapter();
 Chapter view_chapter();
 Chapter light_chapter();

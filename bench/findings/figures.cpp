@@ -51,11 +51,10 @@ RowName seen(const View& view, const scene::Technique& technique) {
             {{"scene", view.scene}, {"pose", view.pose}, {"label", scene::to_string(technique)}}};
 }
 
-RowName city(const std::string& scene, int distance, const std::string& form,
-             const scene::Technique& technique) {
-    return {"objects.json",
-            {{"scene", scene},
-             {"test", fmt::format("from {} m, 15 degrees down", distance)},
+RowName city(const CityView& view, const std::string& form, const scene::Technique& technique) {
+    return {view.file,
+            {{"scene", view.scene},
+             {"test", fmt::format("from {} m, {} degrees down", view.distance, view.down)},
              {"label", fmt::format("{}: {}", form, scene::to_string(technique))}}};
 }
 
@@ -105,12 +104,32 @@ Figure frame_rate(const std::string& words, const RowName& row, const Range& ran
     return figure;
 }
 
-ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests) {
+std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure>& more) {
+    figures.insert(figures.end(), more.begin(), more.end());
+    return figures;
+}
+
+std::vector<Figure> and_on_gpu(std::vector<Figure> figures) {
+    const std::size_t count = figures.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        Figure figure = figures[i];
+        figure.row.file = "h100/" + figure.row.file;
+        if (figure.base) {
+            figure.base->file = "h100/" + figure.base->file;
+        }
+        figures.push_back(std::move(figure));
+    }
+    return figures;
+}
+
+ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests,
+                       std::optional<int> machine) {
     ThesisDrop drop{.lowest = 100.0, .highest = -100.0};
     double count = 0.0;
     for (const SourceMeasurement& measured : source_measurements()) {
         const bool is_asked = std::find(tests.begin(), tests.end(), measured.test) != tests.end();
-        if (!is_asked || measured.technique != technique) {
+        if (!is_asked || measured.technique != technique ||
+            (machine && measured.configuration != *machine)) {
             continue;
         }
         const double texture = frames_per_second(measured, "texture");

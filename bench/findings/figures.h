@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,15 @@ struct View {
     std::string pose;
 };
 RowName seen(const View& view, const scene::Technique& technique);
-/// A city from a distance in metres, 15 degrees down, in objects.json. `form`: a name of
-/// building::city_form_names.
-RowName city(const std::string& scene, int distance, const std::string& form,
-             const scene::Technique& technique);
+/// A city from a distance.
+struct CityView {
+    std::string file; ///< "objects.json"
+    std::string scene;
+    int distance = 0; ///< metres
+    int down = 15;    ///< degrees that the eye looks down
+};
+/// `form`: a name of building::city_form_names.
+RowName city(const CityView& view, const std::string& form, const scene::Technique& technique);
 /// A grazing view of `terrain`, "10 degrees" above the horizon, in stress.json.
 RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique);
@@ -38,6 +44,10 @@ Figure ratio(const std::string& words, Quantity quantity, const RowName& row, co
 /// Loss of frame rate against `base`, percent.
 Figure drop(const std::string& words, const RowName& row, const RowName& base, const Range& range);
 Figure frame_rate(const std::string& words, const RowName& row, const Range& range);
+std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure>& more);
+/// The figures, and then the same of a machine with a GPU. Precondition: their results exist in
+/// h100, too.
+std::vector<Figure> and_on_gpu(std::vector<Figure> figures);
 
 /// The mean loss of frame rate of a technique in J's own table, percent.
 struct ThesisDrop {
@@ -47,9 +57,10 @@ struct ThesisDrop {
     double lowest = 0.0; ///< of a single test
     double highest = 0.0;
 };
-/// `tests`: "relief-1" …; both machines where both were measured. Precondition: all are in the
-/// table.
-ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests);
+/// `tests`: "relief-1" …; `machine`: 1 or 2, or both where both were measured. Precondition: all
+/// are in the table.
+ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests,
+                       std::optional<int> machine = {});
 Figure thesis_mean(const std::string& words, const ThesisDrop& drop, double text);
 
 } // namespace reljef::bench

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "bench/findings/conclusions.h"
+#include "bench/findings/distance_plot.h"
 #include "bench/findings/judgement.h"
 
 namespace reljef::bench {
@@ -28,6 +29,8 @@ conclusions with what reljef measures. Left out are predictions, and how easy so
 )";
 
 constexpr std::string_view how_to_read = R"(
+## How to read the tables
+
 The numbers after D, M and J are chapters. A conclusion is
 
 - **confirmed** if each figure keeps the rule in the column *confirmed if*,
@@ -38,14 +41,15 @@ The numbers after D, M and J are chapters. A conclusion is
 
 Words such as "much" and "good" have no figure in the sources. Then the rule is our reading of them, and the column
 says so. *Wrong* is the share of pixels that show a point more than one texel from the correct one. The error in pixels
-is the distance between where a point is shown and its true place (root mean square). A number with × is a ratio. Times
-are as uncertain as the noise floor of their run, or by 10 % if the run has none. The last column names the results, with the
-command that measures them again, and the machine by a letter; both are listed below.
+is the distance between where a point is shown and its true place (root mean square). A number with × is a ratio. A time
+is as uncertain as the noise floor of its run (10 % if the run has none), or as the interval of its median if that is wider.
+*CPU* stands for a software renderer, *GPU* for a graphics card; without either word, it is a software renderer. The last
+column names the results, with the command that measures them again, and the machine by a letter; both are listed below.
 )";
 
 constexpr std::string_view page_end = R"(
-`reljef-bench findings --markdown docs/findings.md` writes this page from the results in `bench/results`. A test
-compares both.
+`reljef-bench findings --markdown docs/findings.md --plot docs/pictures/distance.svg` writes this page and its plot from
+the results in `bench/results`. A test compares them.
 )";
 
 constexpr std::string_view table_head =
@@ -80,14 +84,38 @@ std::string figure_text(const Figure& figure, const std::optional<Number>& numbe
     return figure.words.empty() ? text : fmt::format("{}: {}", figure.words, text);
 }
 
-std::string figures_text(const Conclusion& conclusion, const Judgement& judgement) {
-    std::vector<std::string> texts;
+bool has_gpu(const Figure& figure, const CommittedResults& results) {
+    const auto machine = results.machine(figure.row.file);
+    return machine && machine->has_gpu;
+}
+
+// Those of a CPU and of a GPU are lines of their own, if there are both.
+std::string figures_text(const Conclusion& conclusion, const Judgement& judgement,
+                         const CommittedResults& results) {
+    std::vector<std::string> cpu;
+    std::vector<std::string> gpu;
     for (std::size_t i = 0; i < conclusion.figures.size(); ++i) {
-        texts.push_back(figure_text(conclusion.figures[i], judgement.numbers[i]));
+        const Figure& figure = conclusion.figures[i];
+        (has_gpu(figure, results) ? gpu : cpu).push_back(figure_text(figure, judgement.numbers[i]));
     }
-    std::string text = fmt::format("{}", fmt::join(texts, "; "));
+    std::string text = fmt::format("{}", fmt::join(cpu, "; "));
+    if (!gpu.empty()) {
+        text = fmt::format("{}{}GPU: {}", cpu.empty() ? "" : "CPU: " + text,
+                           cpu.empty() ? "" : "<br>", fmt::join(gpu, "; "));
+    }
     const char* const separator = text.empty() || conclusion.note.empty() ? "" : "; ";
     return text + separator + conclusion.note;
+}
+
+// Without the end of its file.
+std::string name_of(const RowName& row) {
+    return std::filesystem::path(row.file).replace_extension().generic_string();
+}
+
+// Of a heading on GitHub, without characters that are no letters, digits or hyphens.
+std::string anchor_of(std::string name) {
+    std::erase(name, '/');
+    return name;
 }
 
 // The results files of a conclusion, with the letter of the machine.
@@ -103,9 +131,9 @@ std::string data_text(const Conclusion& conclusion, const PageContext& context) 
             add("J's table");
             continue;
         }
-        const std::string name = std::filesystem::path(figure.row.file).stem().string();
+        const std::string name = name_of(figure.row);
         const auto machine = context.results.machine(figure.row.file);
-        add(fmt::format("[{0}](findings.md#{0}){1}", name,
+        add(fmt::format("[{}](findings.md#{}){}", name, anchor_of(name),
                         machine ? fmt::format(", {}", context.letters.at(name_of(*machine))) : ""));
     }
     return texts.empty() ? "–" : fmt::format("{}", fmt::join(texts, "; "));
@@ -123,15 +151,16 @@ Result<std::string> sentence_text(const Chapter::Sentence& sentence,
         numbers.push_back(*number);
         texts.push_back(*number ? number_text(figure, **number) : "");
     }
-    return verdict_of(sentence.figures, numbers) == Finding::confirmed
-               ? fmt::vformat(sentence.text, texts)
-               : std::string();
+    const bool holds =
+        sentence.figures.empty() || verdict_of(sentence.figures, numbers) == Finding::confirmed;
+    return holds ? fmt::vformat(sentence.text, texts) : std::string();
 }
 
 // The sentences that hold, one a line; empty if none does.
-Result<std::string> answer_text(const Chapter& chapter, const CommittedResults& results) {
+Result<std::string> answer_text(std::span<const Chapter::Sentence> sentences,
+                                const CommittedResults& results) {
     std::string text;
-    for (const Chapter::Sentence& sentence : chapter.answer) {
+    for (const Chapter::Sentence& sentence : sentences) {
         const auto shown = sentence_text(sentence, results);
         if (!shown) {
             return shown.error();
@@ -141,17 +170,26 @@ Result<std::string> answer_text(const Chapter& chapter, const CommittedResults& 
     return text.empty() ? text : text + "\n";
 }
 
+// Why a conclusion does not hold.
+std::string reason_text(const Conclusion& conclusion, Finding verdict) {
+    const bool holds = verdict != Finding::refuted && verdict != Finding::depends;
+    return holds || conclusion.reason.empty()
+               ? std::string()
+               : fmt::format("- *{}* {}\n", conclusion.claim, conclusion.reason);
+}
+
 struct ChapterText {
     std::string text;
     std::vector<Finding> verdicts;
 };
 
 Result<ChapterText> chapter_text(const Chapter& chapter, const PageContext& context) {
-    const auto answer = answer_text(chapter, context.results);
+    const auto answer = answer_text(chapter.answer, context.results);
     if (!answer) {
         return answer.error();
     }
     ChapterText shown{fmt::format("\n## {}\n\n{}{}", chapter.question, *answer, table_head), {}};
+    std::string reasons;
     for (const Conclusion& conclusion : chapter.conclusions) {
         const auto judgement = judge(conclusion, context.results);
         if (!judgement) {
@@ -160,9 +198,11 @@ Result<ChapterText> chapter_text(const Chapter& chapter, const PageContext& cont
         shown.verdicts.push_back(judgement->verdict);
         shown.text += fmt::format("| {} | {} | {} | {} | **{}** | {} |\n", conclusion.source,
                                   conclusion.claim, conclusion.rule.empty() ? "–" : conclusion.rule,
-                                  figures_text(conclusion, *judgement),
+                                  figures_text(conclusion, *judgement, context.results),
                                   to_string(judgement->verdict), data_text(conclusion, context));
+        reasons += reason_text(conclusion, judgement->verdict);
     }
+    shown.text += reasons.empty() ? "" : "\nWhy some do not hold:\n\n" + reasons;
     return shown;
 }
 
@@ -177,6 +217,30 @@ std::string counts_text(const std::vector<Finding>& verdicts) {
         verdicts.size(), count(Finding::confirmed), count(Finding::refuted),
         count(Finding::depends), count(Finding::answered),
         missing == 0 ? "" : fmt::format(", and {} are not measured yet", missing));
+}
+
+// The sentences that hold, as a list.
+Result<std::string> summary_text(std::span<const Chapter::Sentence> sentences,
+                                 const CommittedResults& results) {
+    std::string text;
+    for (const Chapter::Sentence& sentence : sentences) {
+        const auto shown = sentence_text(sentence, results);
+        if (!shown) {
+            return shown.error();
+        }
+        text += shown->empty() ? "" : fmt::format("- {}\n", *shown);
+    }
+    if (!text.empty() && results.has("distance.json")) {
+        text += fmt::format("\n![Error and time over the distance of the eye from a city]({})\n",
+                            distance_plot_file);
+    }
+    return text.empty() ? text : "\n## In short\n\n" + text;
+}
+
+std::string limits_text(std::span<const std::string> limits) {
+    return limits.empty()
+               ? std::string()
+               : fmt::format("\n## How far this holds\n\n- {}\n", fmt::join(limits, "\n- "));
 }
 
 std::string machines_text(const PageContext& context) {
@@ -215,7 +279,7 @@ std::string number_text(const Figure& figure, const Number& number) {
     case Figure::Form::constant:
         return fmt::format("{:.1f}\u00a0%", value);
     case Figure::Form::rate:
-        return fmt::format("{:.1f}\u00a0per second", value);
+        return fmt::format("{:.{}f}\u00a0a second", value, value < 100.0 ? 1 : 0);
     case Figure::Form::plain:
         break;
     }
@@ -223,6 +287,7 @@ std::string number_text(const Figure& figure, const Number& number) {
     case Quantity::ms:
         return fmt::format("{:.1f}\u00a0ms", value);
     case Quantity::wrong:
+    case Quantity::hidden:
     case Quantity::percent:
         return fmt::format("{:.1f}\u00a0%", value);
     case Quantity::error_px:
@@ -238,13 +303,16 @@ std::string number_text(const Figure& figure, const Number& number) {
     return {};
 }
 
-Result<std::string> findings_page(std::span<const Chapter> chapters,
-                                  std::span<const ResultsSource> sources,
+Result<std::string> findings_page(const Findings& findings, std::span<const ResultsSource> sources,
                                   const CommittedResults& results) {
     const PageContext context{sources, results, letters_of(sources, results)};
+    const auto summary = summary_text(findings.summary, results);
+    if (!summary) {
+        return summary.error();
+    }
     std::vector<Finding> verdicts;
     std::string text;
-    for (const Chapter& chapter : chapters) {
+    for (const Chapter& chapter : findings.chapters) {
         const auto shown = chapter_text(chapter, context);
         if (!shown) {
             return shown.error();
@@ -252,24 +320,24 @@ Result<std::string> findings_page(std::span<const Chapter> chapters,
         text += shown->text;
         verdicts.insert(verdicts.end(), shown->verdicts.begin(), shown->verdicts.end());
     }
-    text = std::string(page_head) + counts_text(verdicts) + std::string(how_to_read) + text;
-    text += machines_text(context);
+    text = std::string(page_head) + *summary + counts_text(verdicts) + std::string(how_to_read) +
+           text + limits_text(findings.limits) + machines_text(context);
     for (const ResultsSource& source : sources) {
         text += source_text(source, context);
     }
     return text + std::string(page_end);
 }
 
-Result<std::string> findings_page(const std::filesystem::path& folder) {
+Result<CommittedResults> read_all_results(const std::filesystem::path& folder) {
     const std::vector<ResultsSource> sources = results_sources();
     std::vector<std::string> files;
     std::transform(sources.begin(), sources.end(), std::back_inserter(files),
                    [](const ResultsSource& source) { return source.file(); });
-    const auto results = CommittedResults::read(folder, files);
-    if (!results) {
-        return results.error();
-    }
-    return findings_page(findings_chapters(), sources, *results);
+    return CommittedResults::read(folder, files);
+}
+
+Result<std::string> findings_page(const CommittedResults& results) {
+    return findings_page(all_findings(), results_sources(), results);
 }
 
 } // namespace reljef::bench

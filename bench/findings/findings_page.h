@@ -16,11 +16,13 @@ namespace reljef::bench {
 std::string number_text(const Figure& figure, const Number& number);
 
 /// The page as GitHub Markdown, for a file in docs. Fails as CommittedResults::number.
-Result<std::string> findings_page(std::span<const Chapter> chapters,
-                                  std::span<const ResultsSource> sources,
+Result<std::string> findings_page(const Findings& findings, std::span<const ResultsSource> sources,
                                   const CommittedResults& results);
 
-/// The page of findings_chapters() from the results in a folder. Fails as CommittedResults.
-Result<std::string> findings_page(const std::filesystem::path& folder);
+/// The page of all_findings(). Fails as CommittedResults::number.
+Result<std::string> findings_page(const CommittedResults& results);
+
+/// Those of results_sources() in a folder. Fails as CommittedResults::read.
+Result<CommittedResults> read_all_results(const std::filesystem::path& folder);
 
 } // namespace reljef::bench

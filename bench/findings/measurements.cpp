@@ -1,6 +1,19 @@
 #include "bench/findings/measurements.h"
 
+#include <fmt/format.h>
+
 namespace reljef::bench {
+
+namespace {
+
+std::string city_command(const std::string& city) {
+    return fmt::format("reljef-bench objects --rounds 5 --size 512x384 --context osmesa "
+                       "--terrain {0}.toml --json bench/results/objects-{0}.json "
+                       "--markdown bench/results/objects-{0}.md",
+                       city);
+}
+
+} // namespace
 
 // The commands of bench/results/README.md.
 std::vector<ResultsSource> results_sources() {
@@ -33,6 +46,17 @@ std::vector<ResultsSource> results_sources() {
         {"objects", "The same city as heights and as meshes, by distance, angle and size.",
          "reljef-bench objects --rounds 5 --context osmesa --json bench/results/objects.json "
          "--markdown bench/results/objects.md"},
+        {"objects-delft", "The same for Delft, from a surface model of 5 m and its outlines.",
+         city_command("delft")},
+        {"objects-annarbor", "The same for Ann Arbor, from lidar and its outlines.",
+         city_command("annarbor")},
+        {"h100/tables", "The tests of J with a graphics card, by an earlier version.",
+         "reljef-bench tables --context egl --calibration egl.json --rounds 100 "
+         "--json bench/results/h100/tables.json --markdown bench/results/h100/tables.md"},
+        {"h100/oblique", "Every technique from the pose oblique with a graphics card, likewise.",
+         "reljef-bench tables --context egl --terrain bench/scenes/urban-s05.toml "
+         "--terrain natural --pose oblique --rounds 60 --json bench/results/h100/oblique.json "
+         "--markdown bench/results/h100/oblique.md"},
         {"guesses", "Heights guessed from colours, against the true ones, by exact rays.",
          "reljef-bench tables --guesses --terrain urban --terrain natural "
          "--terrain bench/scenes/crater-lake.toml --json bench/results/guesses.json "

@@ -26,11 +26,22 @@ Figure brick_time(const std::string& words, const Technique& technique, const Te
 }
 
 // The error of guessed heights over that of flat ground.
-Figure guess(const std::string& words, const std::string& scene, const std::string& heights) {
+Figure guess(const std::string& words, const std::string& scene, const std::string& heights,
+             const Range& range) {
     const auto row = [&](const std::string& kind) {
         return RowName{"guesses.json", {{"scene", scene}, {"heights", kind}}};
     };
-    return ratio(words, Quantity::error_px, row(heights), row("flat"), at_most(0.5));
+    return ratio(words, Quantity::error_px, row(heights), row("flat"), range);
+}
+
+std::vector<Figure> all_guesses() {
+    const Range good = at_most(0.5);
+    return {guess("city", "urban", "guessed", good),
+            guess("landscape", "natural", "guessed", good),
+            guess("Crater Lake", "crater lake", "guessed", good),
+            guess("city, fitted", "urban", "fitted", good),
+            guess("landscape, fitted", "natural", "fitted", good),
+            guess("Crater Lake, fitted", "crater lake", "fitted", good)};
 }
 
 // Rows of claims.json.
@@ -95,12 +106,21 @@ Technique outlined_relief() {
 
 Chapter light_chapter() {
     const Technique texture{scene::Texture{}};
+    const std::string not_small = "Without a graphics card, each read of a map and each product "
+                                  "counts beside a plain texture, which hardly computes.";
     Chapter chapter{"What can light alone show?"};
+    chapter.answer = {
+        {"On bricks, normal maps cost {} of the frame rate of a plain texture. Light alone moves "
+         "nothing, so {} of the pixels show a wrong point.",
+         {brick_cost("", {scene::Normal{}}, texture, at_least(0.0)),
+          plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), {})}}};
     chapter.conclusions = {
         {"J 2.2",
          "Bump mapping looks good at a small cost.",
          "at most 25 % of the frame rate (J's range)",
-         {brick_cost("", {scene::Bump{}}, texture, at_most(small_loss))}},
+         {brick_cost("", {scene::Bump{}}, texture, at_most(small_loss))},
+         "",
+         not_small},
         {"M 3.3",
          "Emboss bump mapping is fast.",
          "less time than normal maps",
@@ -108,11 +128,15 @@ Chapter light_chapter() {
         {"M 3.4",
          "Normal maps need little computing.",
          "at most 25 % of the frame rate (J's range)",
-         {brick_cost("", {scene::Normal{}}, texture, at_most(small_loss))}},
+         {brick_cost("", {scene::Normal{}}, texture, at_most(small_loss))},
+         "",
+         not_small},
         {"M 4",
          "With normal maps, one sees the missing shape in special cases only.",
          "at most 10 % of the pixels wrong (our limit)",
-         {plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), at_most(10.0))}},
+         {plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), at_most(10.0))},
+         "",
+         "This counts places, not impressions: an eye may take right light for shape."},
         {"J 2.7.2",
          "A plain texture gives no impression of depth.",
          "more than half of the pixels wrong (our reading)",
@@ -126,6 +150,12 @@ Chapter options_chapter() {
     const Technique relief{scene::Relief{}};
     const Technique smooth = smooth_relief();
     Chapter chapter{"What do shadows, edges and layers cost?"};
+    chapter.answer = {
+        {"On bricks, hard shadows take {} the time of relief without them, soft ones {}, and true "
+         "outlines {}. Smooth edges cost {} of the frame rate.",
+         {brick_time("", shadowed_relief(0.0), relief, {}),
+          brick_time("", shadowed_relief(scene::Shadow{}.depth), relief, {}),
+          brick_time("", outlined_relief(), relief, {}), brick_cost("", smooth, relief, {})}}};
     chapter.conclusions = {
         {"M 3.6.7, figure 34",
          "The frame rates with and without smooth edges are left blank.",
@@ -175,15 +205,18 @@ Chapter options_chapter() {
 
 Chapter data_chapter() {
     Chapter chapter{"Which data does it need?"};
+    chapter.answer = {
+        {"True heights. Those guessed from a picture are {} (city), {} (landscape) and {} (Crater "
+         "Lake) as wrong as flat ground.",
+         {guess("", "urban", "guessed", at_least(1.0)),
+          guess("", "natural", "guessed", at_least(1.0)),
+          guess("", "crater lake", "guessed", at_least(1.0))}}};
     chapter.conclusions = {
-        {"J 2.7, 3",
-         "Heights guessed from the brightness of a picture are enough.",
-         "at most half of the error of flat ground (our reading)",
-         {guess("city", "urban", "guessed"), guess("landscape", "natural", "guessed"),
-          guess("Crater Lake", "crater lake", "guessed"), guess("city, fitted", "urban", "fitted"),
-          guess("landscape, fitted", "natural", "fitted"),
-          guess("Crater Lake, fitted", "crater lake", "fitted")},
-         "fitted: scaled as well as possible to the true heights"},
+        {"J 2.7, 3", "Heights guessed from the brightness of a picture are enough.",
+         "at most half of the error of flat ground (our reading)", all_guesses(),
+         "fitted: scaled as well as possible to the true heights",
+         "A picture is bright where snow, sand and light roofs lie, not where the ground is high. "
+         "Even the best scale leaves about the error of flat ground."},
         {"J 3", "Relief only over the city, with one height everywhere else, saves time.",
          "less time, and fewer taps, than relief over everything", relief_over_city(),
          "level ground without buildings has a plain texture"},

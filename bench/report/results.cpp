@@ -31,6 +31,10 @@ Environment environment_of(const platform::RendererInfo& info, int threads) {
             {}};
 }
 
+bool Environment::has_gpu() const {
+    return (context == "egl" || context == "glfw") && !platform::is_software_renderer(renderer);
+}
+
 Setting setting_of(const scene::Technique& technique) {
     const scene::TechniqueInfo& info = scene::technique_info(technique.id());
     Setting setting{std::string(info.name), {}, scene::to_string(technique)};

@@ -22,13 +22,16 @@ namespace reljef::bench {
 
 /// Where a run was measured. Times of different environments are not comparable.
 struct Environment {
-    std::string renderer; ///< GL_RENDERER
-    std::string gl;       ///< GL_VERSION
-    std::string context;  ///< "osmesa", "egl", "glfw"
-    unsigned threads = 1; ///< of a software renderer
-    std::string cpu;      ///< model name, or "unknown"
-    std::string commit;   ///< of the configured sources; "unknown" without git
-    std::string costs;    ///< that `auto` chooses by, see session::costs_text; empty: unknown
+    std::string renderer = {}; ///< GL_RENDERER
+    std::string gl = {};       ///< GL_VERSION
+    std::string context = {};  ///< "osmesa", "egl", "glfw"
+    unsigned threads = 1;      ///< of a software renderer
+    std::string cpu = {};      ///< model name, or "unknown"
+    std::string commit = {};   ///< of the configured sources; "unknown" without git
+    std::string costs = {};    ///< that `auto` chooses by, see session::costs_text; empty: unknown
+
+    /// Whether a graphics card drew.
+    [[nodiscard]] bool has_gpu() const;
 
     friend bool operator==(const Environment&, const Environment&) = default;
 };

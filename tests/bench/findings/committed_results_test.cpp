@@ -112,6 +112,21 @@ TEST_F(ReadCommittedResults, SkipsNullRows) {
               "");
 }
 
+TEST_F(ReadCommittedResults, AreAsUncertainAsTheIntervalIfItIsWiderThanTheNoise) {
+    const auto uncertainty = [&](const char* const interval) {
+        const auto results = read(with_rows(
+            std::string(R"({"label": "a", "noise_floor": 0.02, "ms": {"median": 2, "interval": )") +
+            interval + "}}"));
+        const auto number = results->number({"r.json", {{"label", "a"}}}, Quantity::ms);
+        return number && *number ? (*number)->uncertainty : -1.0;
+    };
+    EXPECT_DOUBLE_EQ(uncertainty("[1.99, 2.01]"), 0.04);
+    EXPECT_DOUBLE_EQ(uncertainty("[1.5, 2.25]"), 0.5);
+    EXPECT_DOUBLE_EQ(uncertainty("[1.75, 3]"), 1.0);
+    EXPECT_DOUBLE_EQ(uncertainty("null"), 0.04);
+    EXPECT_DOUBLE_EQ(uncertainty("[1.5, \"many\"]"), -1.0);
+}
+
 // A byte of committed results is another one: the page or one sentence, nothing else.
 TEST(DamagedResults, AreAPageOrOneSentence) {
     const std::filesystem::path source = std::filesystem::path(RELJEF_SOURCE) / "bench" / "results";
@@ -127,7 +142,8 @@ TEST(DamagedResults, AreAPageOrOneSentence) {
             damaged[place(random)] = static_cast<char>(byte(random));
         }
         folder.write("tables.json", round % 10 == 9 ? damaged.substr(0, place(random)) : damaged);
-        const auto page = findings_page(folder.path());
+        const auto results = read_all_results(folder.path());
+        const auto page = results ? findings_page(*results) : results.error();
         if (!page) {
             EXPECT_THAT(page.error().message,
                         AllOf(HasSubstr("tables.json"), Not(HasSubstr("\n"))));

@@ -11,7 +11,9 @@
 #include "app/cli/parser.h"
 #include "bench/commands.h"
 #include "bench/findings/conclusions.h"
+#include "bench/findings/distance_plot.h"
 #include "bench/findings/figures.h"
+#include "bench/findings/judgement.h"
 #include "tests/bench/bench_program.h"
 #include "tests/support/plain_words.h"
 #include "tests/support/temporary_folder.h"
@@ -30,12 +32,21 @@ std::string committed_page() {
     return test::read_bytes(source_folder() / "docs" / "findings.md");
 }
 
+std::vector<Chapter::Sentence> all_sentences() {
+    const Findings findings = all_findings();
+    std::vector<Chapter::Sentence> sentences = findings.summary;
+    for (const Chapter& chapter : findings.chapters) {
+        sentences.insert(sentences.end(), chapter.answer.begin(), chapter.answer.end());
+    }
+    return sentences;
+}
+
 std::vector<Figure> all_figures() {
     std::vector<Figure> figures;
-    for (const Chapter& chapter : findings_chapters()) {
-        for (const Chapter::Sentence& sentence : chapter.answer) {
-            figures.insert(figures.end(), sentence.figures.begin(), sentence.figures.end());
-        }
+    for (const Chapter::Sentence& sentence : all_sentences()) {
+        figures.insert(figures.end(), sentence.figures.begin(), sentence.figures.end());
+    }
+    for (const Chapter& chapter : all_findings().chapters) {
         for (const Conclusion& conclusion : chapter.conclusions) {
             figures.insert(figures.end(), conclusion.figures.begin(), conclusion.figures.end());
         }
@@ -66,11 +77,16 @@ std::vector<std::vector<std::string>> commands_on(const std::string& page) {
     return commands;
 }
 
-// Written again by reljef-bench findings --markdown docs/findings.md.
+// Written again by the command at the end of the page.
 TEST(Findings, CommittedPageIsTheOneOfTheCommittedResults) {
-    const auto page = findings_page(source_folder() / "bench" / "results");
+    const auto results = read_all_results(source_folder() / "bench" / "results");
+    ASSERT_TRUE(results) << results.error().message;
+    const auto page = findings_page(*results);
     ASSERT_TRUE(page) << page.error().message;
     EXPECT_EQ(committed_page(), *page);
+    const auto plot = distance_plot(*results);
+    ASSERT_TRUE(plot) << plot.error().message;
+    EXPECT_EQ(test::read_bytes(source_folder() / "docs" / distance_plot_file), *plot);
 }
 
 TEST(Findings, EveryCommandOnThePageIsOneThatTheProgramTakes) {
@@ -113,11 +129,11 @@ TEST(Findings, UseNoTimesOfABusyMachineAndNoOtherFiles) {
 }
 
 TEST(Findings, AreSentencesWithAFigureForEachPlace) {
+    for (const Chapter::Sentence& sentence : all_sentences()) {
+        EXPECT_EQ(occurrences(sentence.text, "{}"), sentence.figures.size()) << sentence.text;
+    }
     std::set<std::string> claims;
-    for (const Chapter& chapter : findings_chapters()) {
-        for (const Chapter::Sentence& sentence : chapter.answer) {
-            EXPECT_EQ(occurrences(sentence.text, "{}"), sentence.figures.size()) << sentence.text;
-        }
+    for (const Chapter& chapter : all_findings().chapters) {
         for (const Conclusion& conclusion : chapter.conclusions) {
             EXPECT_TRUE(claims.insert(conclusion.source + conclusion.claim).second)
                 << conclusion.claim;
@@ -136,10 +152,13 @@ TEST(Findings, UsePlainWords) {
 
 TEST(Findings, WithoutResultsNothingIsMeasuredAndNothingIsClaimed) {
     const test::TemporaryFolder folder;
-    const auto page = findings_page(folder.path());
+    const auto results = read_all_results(folder.path());
+    ASSERT_TRUE(results) << results.error().message;
+    const auto page = findings_page(*results);
     ASSERT_TRUE(page) << page.error().message;
+    EXPECT_THAT(*page, Not(HasSubstr("distance.svg)")));
     // J's table against J's text is all that is left.
-    EXPECT_EQ(occurrences(*page, "| **refuted** |"), 1U);
+    EXPECT_EQ(occurrences(*page, "| **refuted** |"), 2U);
     EXPECT_EQ(occurrences(*page, "| **confirmed** |"), 1U);
     EXPECT_EQ(occurrences(*page, "| **depends** |"), 0U);
     EXPECT_THAT(*page, Not(HasSubstr("In return")));
@@ -153,19 +172,26 @@ TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
     const auto results = CommittedResults::read(folder.path(), files);
     ASSERT_TRUE(results);
     const RowName row = source_test("relief-1", {scene::Texture{}});
-    const std::vector<Chapter> chapters{
-        {"What?",
-         {{"At most 30: {}.", {plain("", Quantity::wrong, row, at_most(30.0))}},
-          {"At most 10: {}.", {plain("", Quantity::wrong, row, at_most(10.0))}}},
-         {{"J 1",
-           "It is small.",
-           "at most 10 %",
-           {plain("it", Quantity::wrong, row, at_most(10.0))}},
-          {"J 2",
-           "It is large.",
-           "over 10 %",
-           {plain("it", Quantity::wrong, row, at_least(10.0))}}}}};
-    const auto page = findings_page(chapters, {}, *results);
+    Findings findings;
+    findings.summary = {{"Over 10: {}.", {plain("", Quantity::wrong, row, at_least(10.0))}},
+                        {"Over 30: {}.", {plain("", Quantity::wrong, row, at_least(30.0))}}};
+    findings.limits = {"Only here."};
+    findings.chapters = {{"What?",
+                          {{"At most 30: {}.", {plain("", Quantity::wrong, row, at_most(30.0))}},
+                           {"At most 10: {}.", {plain("", Quantity::wrong, row, at_most(10.0))}}},
+                          {{"J 1",
+                            "It is small.",
+                            "at most 10 %",
+                            {plain("it", Quantity::wrong, row, at_most(10.0))},
+                            "",
+                            "It grew."},
+                           {"J 2",
+                            "It is large.",
+                            "over 10 %",
+                            {plain("it", Quantity::wrong, row, at_least(10.0))},
+                            "",
+                            "It shrank."}}}};
+    const auto page = findings_page(findings, {}, *results);
     ASSERT_TRUE(page) << page.error().message;
     EXPECT_THAT(*page, HasSubstr("At most 30: 20.0\u00a0%.\n"));
     EXPECT_THAT(*page, Not(HasSubstr("At most 10")));
@@ -174,6 +200,51 @@ TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
     EXPECT_THAT(*page,
                 HasSubstr("| J 2 | It is large. | over 10 % | it: 20.0\u00a0% | **confirmed** |"));
     EXPECT_THAT(*page, HasSubstr("Of 2 conclusions, 1 are confirmed, 1 are refuted"));
+    EXPECT_THAT(*page, HasSubstr("## In short\n\n- Over 10: 20.0\u00a0%.\n"));
+    EXPECT_THAT(*page, Not(HasSubstr("Over 30")));
+    EXPECT_THAT(*page, HasSubstr("Why some do not hold:\n\n- *It is small.* It grew.\n"));
+    EXPECT_THAT(*page, Not(HasSubstr("It shrank")));
+    EXPECT_THAT(*page, HasSubstr("## How far this holds\n\n- Only here.\n"));
+}
+
+TEST(Findings, GiveAReasonForEachConclusionThatDoesNotHold) {
+    const auto results = read_all_results(source_folder() / "bench" / "results");
+    ASSERT_TRUE(results) << results.error().message;
+    for (const Chapter& chapter : all_findings().chapters) {
+        EXPECT_FALSE(chapter.answer.empty()) << chapter.question;
+        for (const Conclusion& conclusion : chapter.conclusions) {
+            const auto judgement = judge(conclusion, *results);
+            ASSERT_TRUE(judgement) << judgement.error().message;
+            const bool fails =
+                judgement->verdict == Finding::refuted || judgement->verdict == Finding::depends;
+            EXPECT_TRUE(!fails || conclusion.reason.ends_with('.')) << conclusion.claim;
+        }
+    }
+}
+
+TEST(Findings, ShowTheFiguresOfAGpuApart) {
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "h100");
+    const std::string row = R"("rows": [{"test": "relief-1", "label": "texture", "noise_floor": 0,)"
+                            R"( "ms": {"median": 4}}]})";
+    folder.write("tables.json", R"({"schema": "reljef-bench/1", "environment": {"cpu": "slow",)"
+                                R"( "context": "egl", "renderer": "llvmpipe"}, )" +
+                                    row);
+    folder.write("h100/tables.json", R"({"schema": "reljef-bench/1", "environment": {)"
+                                     R"("cpu": "fast", "context": "egl", "renderer": "H100"}, )" +
+                                         row);
+    const std::vector<ResultsSource> sources{{"tables", "", ""}, {"h100/tables", "", ""}};
+    const std::vector<std::string> files{"tables.json", "h100/tables.json"};
+    const auto results = CommittedResults::read(folder.path(), files);
+    ASSERT_TRUE(results) << results.error().message;
+    const Figure rate = frame_rate("", source_test("relief-1", {scene::Texture{}}), at_least(1.0));
+    Findings findings;
+    findings.chapters = {{"What?", {}, {{"J 1", "It is fast.", "always", and_on_gpu({rate})}}}};
+    const auto page = findings_page(findings, sources, *results);
+    ASSERT_TRUE(page) << page.error().message;
+    EXPECT_THAT(*page, HasSubstr("| CPU: 250\u00a0a second<br>GPU: 250\u00a0a second |"));
+    EXPECT_THAT(*page, HasSubstr("[tables](findings.md#tables), A; "
+                                 "[h100/tables](findings.md#h100tables), B |"));
 }
 
 TEST(FindingsCommand, PrintsThePageOrWritesIt) {
@@ -181,11 +252,16 @@ TEST(FindingsCommand, PrintsThePageOrWritesIt) {
     EXPECT_EQ(test::reljef_bench({"findings", "--results", results}).out, committed_page());
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "page.md";
-    const auto run =
-        test::reljef_bench({"findings", "--results", results, "--markdown", file.string()});
+    const auto plot = folder.path() / "plot.svg";
+    const auto run = test::reljef_bench(
+        {"findings", "--results", results, "--markdown", file.string(), "--plot", plot.string()});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(test::read_bytes(file), committed_page());
+    EXPECT_THAT(test::read_bytes(plot), HasSubstr("</svg>"));
+    const auto refused = test::reljef_bench(
+        {"findings", "--results", results, "--markdown", file.string(), "--plot", file.string()});
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
 }
 
 } // namespace

@@ -1,0 +1,96 @@
+// What the findings come down to, and how far they hold.
+#include <fmt/format.h>
+
+#include "bench/findings/conclusions.h"
+#include "bench/findings/figures.h"
+
+namespace reljef::bench {
+namespace {
+
+using scene::Technique;
+
+Figure lost(const std::string& test, const Technique& technique, const Range& range) {
+    return drop("", source_test(test, technique), source_test(test, {scene::Texture{}}), range);
+}
+
+Figure wrong(const std::string& test, const Technique& technique, const Range& range) {
+    return plain("", Quantity::wrong, source_test(test, technique), range);
+}
+
+Figure from_afar(const std::string& distance, const Technique& technique, const Range& range) {
+    return plain("", Quantity::error_px,
+                 {"distance.json",
+                  {{"scene", "urban"}, {"at", distance}, {"label", scene::to_string(technique)}}},
+                 range);
+}
+
+Figure with_gpu(const Figure& figure) {
+    return and_on_gpu({figure}).back();
+}
+
+Figure of_objects(const CityView& view, const Range& range) {
+    return ratio("", Quantity::ms, city(view, "heights", {scene::Relief{}}),
+                 city(view, "meshes", {scene::Polygons{.error = 1.0}}), range);
+}
+
+} // namespace
+
+std::vector<Chapter::Sentence> findings_summary() {
+    const Technique relief{scene::Relief{}};
+    const Technique parallax{scene::Parallax{}};
+    const Technique bounded{scene::Polygons{.error = 1.0}};
+    const Figure over_relief = ratio("", Quantity::ms, source_test("relief-4", bounded),
+                                     source_test("relief-4", relief), at_most(1.0));
+    return {
+        {"**Relief is accurate and dear, as J says.** Over a landscape it costs {} of the frame "
+         "rate on a CPU and {} on a GPU, and {} of its pixels are wrong. What has changed is the "
+         "hardware: from a graphics card, they come at {}.",
+         {lost("relief-4", relief, at_least(50.0)),
+          with_gpu(lost("relief-4", relief, at_least(50.0))),
+          wrong("relief-4", relief, at_most(10.0)),
+          with_gpu(frame_rate("", source_test("relief-4", relief), at_least(60.0)))}},
+        {"**Parallax is cheap and wrong.** It costs {} on a CPU and {} on a GPU, and {} of its "
+         "pixels over a landscape show a wrong point. J judged it by eye.",
+         {lost("parallax-3", parallax, {}), with_gpu(lost("parallax-3", parallax, at_most(25.0))),
+          wrong("parallax-3", parallax, at_least(10.0))}},
+        {"**Relief of a city pays at middle distances, as J says.** From 1 km it is off by {}, and "
+         "parallax by {}. From 100 m relief is off by {}, too, and from 10 km parallax by {} only.",
+         {from_afar("1 km", relief, at_most(1.0)), from_afar("1 km", parallax, at_least(1.0)),
+          from_afar("100 m", relief, at_least(1.0)), from_afar("10 km", parallax, at_most(1.0))}},
+        {"**It can replace buildings there.** From 1 km, it takes {} the time of objects over the "
+         "built-in city, {} over Delft and {} over Ann Arbor.",
+         {of_objects({"objects.json", "urban 1024", 1000}, at_most(1.0)),
+          of_objects({"objects-delft.json", "Delft", 1000}, at_most(1.0)),
+          of_objects({"objects-annarbor.json", "Ann Arbor", 1000}, at_most(1.0))}},
+        {"**On terrain, triangles win, if a bound on their error chooses them.** Within one pixel, "
+         "they take {} the time of relief on a CPU and {} on a GPU. J's five levels are faster "
+         "still, and {} of their pixels are wrong.",
+         {over_relief, with_gpu(over_relief),
+          wrong("relief-4", {scene::Polygons{.max_levels = 5}}, {})}},
+        {"**Heights cannot be guessed from colours.** Over Crater Lake the guess is {} as wrong as "
+         "no heights at all.",
+         {ratio("", Quantity::error_px,
+                {"guesses.json", {{"scene", "crater lake"}, {"heights", "guessed"}}},
+                {"guesses.json", {{"scene", "crater lake"}, {"heights", "flat"}}}, at_least(1.0))}},
+    };
+}
+
+std::vector<std::string> findings_limits() {
+    return {
+        "The sources did not publish their terrains and programs. The city and the landscape are "
+        "built in; real are Delft, Ann Arbor, Crater Lake and the Alps beside Irrlicht.",
+        "*Wrong* counts places, not impressions. An eye may forgive a wrong place with the right "
+        "light, and none of our figures says when.",
+        "The words of the sources are vague. Where a limit is ours, another one may give another "
+        "verdict; the figure stands beside it.",
+        "Frames have 1024 × 768 pixels, on a CPU with two threads. More pixels cost techniques of "
+        "rays more and triangles little more.",
+        "One graphics card was measured, made for data centres, with an earlier version; only "
+        "rows with *GPU* know it. Bump and normal maps, shadows, edges, layers and objects were "
+        "measured without one.",
+        "A time holds for its machine, a ratio within its run. Rows that name no GPU say nothing "
+        "about one.",
+    };
+}
+
+} // namespace reljef::bench
