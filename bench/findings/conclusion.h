@@ -86,7 +86,7 @@ struct Chapter {
 struct Findings {
     std::vector<Chapter::Sentence> summary = {};
     std::vector<Chapter> chapters = {};
-    std::vector<std::string> limits = {}; ///< of validity, one sentence each
+    std::string limits = {}; ///< of validity, a list in Markdown
 };
 
 } // namespace reljef::bench

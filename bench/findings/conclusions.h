@@ -11,7 +11,7 @@ Findings all_findings();
 
 // Their parts.
 std::vector<Chapter::Sentence> findings_summary();
-std::vector<std::string> findings_limits();
+std::string findings_limits();
 Chapter relief_chapter();
 Chapter parallax_chapter();
 Chapter triangles_chapter();

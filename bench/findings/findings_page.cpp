@@ -237,10 +237,8 @@ Result<std::string> summary_text(std::span<const Chapter::Sentence> sentences,
     return text.empty() ? text : "\n## In short\n\n" + text;
 }
 
-std::string limits_text(std::span<const std::string> limits) {
-    return limits.empty()
-               ? std::string()
-               : fmt::format("\n## How far this holds\n\n- {}\n", fmt::join(limits, "\n- "));
+std::string limits_text(const std::string& limits) {
+    return limits.empty() ? limits : "\n## How far this holds\n\n" + limits;
 }
 
 std::string machines_text(const PageContext& context) {

@@ -75,22 +75,19 @@ std::vector<Chapter::Sentence> findings_summary() {
     };
 }
 
-std::vector<std::string> findings_limits() {
-    return {
-        "The sources did not publish their terrains and programs. The city and the landscape are "
-        "built in; real are Delft, Ann Arbor, Crater Lake and the Alps beside Irrlicht.",
-        "*Wrong* counts places, not impressions. An eye may forgive a wrong place with the right "
-        "light, and none of our figures says when.",
-        "The words of the sources are vague. Where a limit is ours, another one may give another "
-        "verdict; the figure stands beside it.",
-        "Frames have 1024 × 768 pixels, on a CPU with two threads. More pixels cost techniques of "
-        "rays more and triangles little more.",
-        "One graphics card was measured, made for data centres, with an earlier version; only "
-        "rows with *GPU* know it. Bump and normal maps, shadows, edges, layers and objects were "
-        "measured without one.",
-        "A time holds for its machine, a ratio within its run. Rows that name no GPU say nothing "
-        "about one.",
-    };
+std::string findings_limits() {
+    return R"(- The sources did not publish their terrains and programs. The city and the landscape are built in; real are Delft, Ann
+  Arbor, Crater Lake and, beside Irrlicht, the Alps.
+- *Wrong* counts places, not impressions. An eye may forgive a wrong place with the right light, and none of our figures
+  says when.
+- The words of the sources are vague. Where a limit is ours, another one may give another verdict; the figure stands
+  beside it.
+- The tests of J have frames of 1024 × 768 pixels, on a CPU with two threads. More pixels cost techniques of rays more,
+  and triangles little more.
+- One graphics card was measured, made for data centres, with an earlier version; only rows with *GPU* know it. Bump and
+  normal maps, shadows, edges, layers and objects were measured without one.
+- A time holds for its machine, a ratio within its run.
+)";
 }
 
 } // namespace reljef::bench

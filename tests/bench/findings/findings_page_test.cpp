@@ -175,7 +175,7 @@ TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
     Findings findings;
     findings.summary = {{"Over 10: {}.", {plain("", Quantity::wrong, row, at_least(10.0))}},
                         {"Over 30: {}.", {plain("", Quantity::wrong, row, at_least(30.0))}}};
-    findings.limits = {"Only here."};
+    findings.limits = "- Only here.\n";
     findings.chapters = {{"What?",
                           {{"At most 30: {}.", {plain("", Quantity::wrong, row, at_most(30.0))}},
                            {"At most 10: {}.", {plain("", Quantity::wrong, row, at_most(10.0))}}},
