@@ -39,9 +39,7 @@ struct FlightResults {
 /// Fails without a terrain, path or context.
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
+/// Without a row if there is no frame.
 FigureTable figure_table(const FlightResults& results);
-
-/// As report() of a table. Also fails without a frame, and if files of the terrain were skipped.
-Result<void> report(const FlightResults& results, const std::filesystem::path& json);
 
 } // namespace reljef::bench
