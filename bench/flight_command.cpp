@@ -7,7 +7,6 @@
 #include "bench/commands.h"
 #include "bench/options/output_options.h"
 #include "bench/suites/flight_suite.h"
-#include "engine/session/terrain_source.h"
 
 namespace reljef::bench {
 namespace {
@@ -34,7 +33,7 @@ Result<void> run_flight_command(const FlightChoice& choice, const std::string& t
         return results->end.stopped.value_or(Error{"no frames found, some were expected"});
     }
     auto reported = report(figure_table(*results), choice.outputs);
-    return reported ? session::report_errors(terrain, results->failed_files) : reported;
+    return reported ? check_files(*results) : reported;
 }
 
 } // namespace

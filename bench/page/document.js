@@ -141,7 +141,7 @@ function showRun() {
     const text = Number.isInteger(value) && !isBytes ? grouped(value) : figure(isBytes ? value / megabyte : value);
     return tile(words[0].toUpperCase() + words.slice(1), text, unit, key in met ? (met[key] ? 'target met' : 'target missed') : '');
   });
-  if (tiles.length) byId('summary').append(element('div', {class: 'tiles'}, tiles));
+  if (tiles.length) byId('summary').append(element('div', {class: tiles.length > 5 ? 'tiles many' : 'tiles'}, tiles));
 }
 
 function showDocument() {

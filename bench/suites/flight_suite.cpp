@@ -161,6 +161,10 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     return results;
 }
 
+Result<void> check_files(const FlightResults& results) {
+    return session::report_errors(results.options.terrain.terrain, results.failed_files);
+}
+
 FigureTable figure_table(const FlightResults& results) {
     const FlightOptions& options = results.options;
     const std::size_t budget = static_cast<std::size_t>(options.terrain.memory_megabytes) << 20U;

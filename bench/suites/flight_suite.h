@@ -39,6 +39,9 @@ struct FlightResults {
 /// Fails without a terrain, path or context.
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
+/// Fails if files of the terrain were skipped.
+Result<void> check_files(const FlightResults& results);
+
 /// Without a row if there is no frame.
 FigureTable figure_table(const FlightResults& results);
 
