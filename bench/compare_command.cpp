@@ -3,12 +3,16 @@
 #include <filesystem>
 #include <memory>
 #include <stop_token>
+#include <utility>
+#include <vector>
 
 #include "app/cli/message.h"
 #include "app/cli/parsed_option.h"
 #include "bench/commands.h"
+#include "bench/options/output_options.h"
+#include "bench/report/document.h"
 #include "bench/report/result_parts.h"
-#include "bench/suites/compare.h"
+#include "bench/suites/compare_figures.h"
 
 namespace reljef::bench {
 namespace {
@@ -17,6 +21,7 @@ struct CompareChoice {
     std::filesystem::path before;
     std::filesystem::path after;
     double threshold_percent = 10.0;
+    OutputChoice outputs;
 };
 
 Result<double> parse_percent(const std::string& text) {
@@ -33,23 +38,72 @@ void exit_at_once() {
     std::_Exit(1);
 }
 
-Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& interrupt) {
-    const std::stop_callback on_stop(interrupt.token(), exit_at_once);
-    const auto before = read_result_parts(choice.before);
-    if (!before) {
-        return before.error();
+std::vector<cli::NamedFile> files_of(const CompareChoice& choice) {
+    std::vector<cli::NamedFile> files;
+    for (const auto& [what, name] :
+         {std::pair("BEFORE", &choice.before), {"AFTER", &choice.after}}) {
+        for (const std::filesystem::path& file : part_files(*name)) {
+            files.push_back({what, file});
+        }
     }
-    const auto after = read_result_parts(choice.after);
-    if (!after) {
-        return after.error();
+    return files;
+}
+
+const Environment& machine_of(const Document& document) {
+    const auto* const table = std::get_if<FigureTable>(&document);
+    return table != nullptr ? table->environment : std::get<Results>(document).environment;
+}
+
+// Fails with one sentence if the runs cannot be compared.
+Result<Comparison> compare_documents(const CompareChoice& choice, const Document& before,
+                                     const Document& after) {
+    const std::string suite = suite_of(before);
+    const std::string other = suite_of(after);
+    if (before.index() != after.index() || (suite != other && !suite.empty() && !other.empty())) {
+        return Error{
+            fmt::format("{} has results of {}, and {} of {}; two of one suite were expected",
+                        choice.before.string(), cli::printable(suite), choice.after.string(),
+                        cli::printable(other))};
     }
-    const Comparison comparison = compare(*before, *after, 0.01 * choice.threshold_percent);
+    const double threshold = 0.01 * choice.threshold_percent;
+    const auto* const table = std::get_if<FigureTable>(&before);
+    Comparison comparison =
+        table != nullptr ? compare(*table, std::get<FigureTable>(after), threshold)
+                         : compare(std::get<Results>(before), std::get<Results>(after), threshold);
     if (comparison.changes.empty() && comparison.untimed.empty()) {
         return Error{fmt::format("{} and {}: no row found in both, some were expected",
                                  choice.before.string(), choice.after.string())};
     }
-    fmt::print("{}", comparison_report(comparison));
-    const std::size_t regressions = comparison.regressions();
+    return comparison;
+}
+
+Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& interrupt) {
+    const std::stop_callback on_stop(interrupt.token(), exit_at_once);
+    if (auto good = check_outputs(choice.outputs, files_of(choice)); !good) {
+        return good;
+    }
+    const auto before = read_document_parts(choice.before);
+    if (!before) {
+        return before.error();
+    }
+    const auto after = read_document_parts(choice.after);
+    if (!after) {
+        return after.error();
+    }
+    const auto comparison = compare_documents(choice, *before, *after);
+    if (!comparison) {
+        return comparison.error();
+    }
+    const FigureTable table =
+        figure_table(*comparison, {.before = choice.before.string(),
+                                   .after = choice.after.string(),
+                                   .suite = suite_of(*after),
+                                   .threshold = 0.01 * choice.threshold_percent,
+                                   .environment = machine_of(*after)});
+    if (auto reported = report(table, choice.outputs, comparison_report(*comparison)); !reported) {
+        return reported;
+    }
+    const std::size_t regressions = comparison->regressions();
     return regressions == 0
                ? Result<void>()
                : Error{fmt::format("{}: {} figure{} worse or gone, against {}",
@@ -60,8 +114,8 @@ Result<void> run_compare(const CompareChoice& choice, const cli::Interrupt& inte
 } // namespace
 
 cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
-    auto* arguments =
-        program.add_subcommand("compare", "changes of frame time and error between two runs");
+    auto* arguments = program.add_subcommand(
+        "compare", "changes of times and errors between two runs of a suite");
     auto choice = std::make_shared<CompareChoice>();
     arguments
         ->add_option("BEFORE", choice->before,
@@ -71,16 +125,19 @@ cli::Command add_compare_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->add_option("AFTER", choice->after, "results of the second run")->required();
     cli::add_parsed(*arguments, "--threshold", choice->threshold_percent, parse_percent,
                     "ignore changes of at most PERCENT percent (10)", "PERCENT");
+    add_output_options(*arguments, choice->outputs);
     arguments->footer(
         "Parts of a run are read as one: 'part-%d.json' is part-0.json, part-1.json, …\n"
         "A change counts if it is larger than the threshold and the noise of both runs. Times of\n"
-        "rows with fewer than 5 frames are not compared. The exit status is 1 if a figure is "
-        "worse\n"
-        "or a row is missing.\n"
+        "rows with fewer than 5 frames are not compared. Times of other machines are not "
+        "compared\n"
+        "either, but for ratios to texture. The exit status is 1 if a figure is worse or a row is\n"
+        "missing.\n"
         "Examples:\n"
         "  reljef-bench compare before.json after.json\n"
         "  reljef-bench compare before.json after.json --threshold 5\n"
-        "  reljef-bench compare before.json 'part-%d.json'");
+        "  reljef-bench compare peers-before.json peers-after.json --html changes\n"
+        "  reljef-bench compare before.json 'part-%d.json' --json changes.json");
     return {arguments, [choice, &interrupt] { return run_compare(*choice, interrupt); }};
 }
 

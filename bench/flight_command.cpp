@@ -13,7 +13,7 @@ namespace {
 
 struct FlightChoice {
     FlightOptions options;
-    OutputChoice outputs; // only `json` is used
+    OutputChoice outputs;
 };
 
 // `terrain` is as given: standard input has another name while it is read.
@@ -29,7 +29,11 @@ Result<void> run_flight_command(const FlightChoice& choice, const std::string& t
         return results.error();
     }
     results->options.terrain.terrain = terrain;
-    return report(*results, choice.outputs.json);
+    if (results->times.drawing_ms.empty()) {
+        return results->end.stopped.value_or(Error{"no frames found, some were expected"});
+    }
+    auto reported = report(figure_table(*results), choice.outputs);
+    return reported ? check_files(*results) : reported;
 }
 
 } // namespace
@@ -46,7 +50,7 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->add_flag(
         "!--no-wait", choice->options.waits_for_tiles,
         "draw each frame at once, with the tiles that are there, while others are read");
-    add_json_option(*arguments, choice->outputs);
+    add_output_options(*arguments, choice->outputs);
     arguments->callback([choice] {
         cli::check_view_options(choice->options.view);
         if (choice->options.view.path.empty()) {
@@ -64,7 +68,7 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         "flight.json\n"
         "  reljef-bench flight alps.tif --placement plane --path flyover --frames 500 --context "
         "cpu "
-        "--no-wait");
+        "--no-wait --html flight");
     return {arguments, [choice, &interrupt] {
                 const std::string terrain = choice->options.terrain.terrain;
                 return cli::with_standard_input(

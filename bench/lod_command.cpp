@@ -44,7 +44,7 @@ Result<void> check_error_bound(const LodChoice& choice, const std::stop_token& s
     options.automatic = choice.automatic;
     options.flight_errors = {0.25, 0.5, 1.0, 2.0, 4.0};
     const ErrorBoundResults results = run_error_bound(options, stop);
-    auto reported = report(figure_table(results), choice.outputs.json);
+    auto reported = report(figure_table(results), choice.outputs);
     return reported && !results.within_bound()
                ? Error{"pixels farther off than stated, or holes, found; none were expected"}
                : reported;
@@ -54,7 +54,7 @@ Result<void> measure_selection(const LodChoice& choice, const std::stop_token& s
     SelectionOptions options;
     options.suite = choice.suite;
     options.rounds = choice.suite.quick ? 100 : options.rounds;
-    return report(figure_table(run_selection(options, stop)), choice.outputs.json);
+    return report(figure_table(run_selection(options, stop)), choice.outputs);
 }
 
 Result<void> measure_scaling(const LodChoice& choice, const std::stop_token& stop) {
@@ -65,8 +65,7 @@ Result<void> measure_scaling(const LodChoice& choice, const std::stop_token& sto
     if (choice.suite.quick) {
         options.sides = {512, 1024, 4096};
     }
-    return report(figure_table(run_scaling(options, stop)), choice.outputs.json,
-                  choice.outputs.markdown);
+    return report(figure_table(run_scaling(options, stop)), choice.outputs);
 }
 
 Result<void> measure_tables(const LodChoice& choice, const std::stop_token& stop) {
@@ -136,21 +135,8 @@ std::string replacement(const LodChoice& choice) {
                               : "";
 }
 
-void check_outputs_of(const std::string& option, const OutputChoice& outputs) {
-    const bool is_scaling = option == "--growth";
-    if (!outputs.csv.empty() || !outputs.html.empty() ||
-        (!is_scaling && !outputs.markdown.empty())) {
-        cli::fail_usage(fmt::format("{}: --csv{} or --html found, only --json{} expected with it",
-                                    option, is_scaling ? "" : ", --markdown",
-                                    is_scaling ? " and --markdown were" : " was"));
-    }
-}
-
 void check_lod_options(const LodChoice& choice, const CLI::App& command) {
     const std::string option = replacement(choice);
-    if (!option.empty()) {
-        check_outputs_of(option, choice.outputs);
-    }
     if ((choice.scaling || choice.selection) && !choice.terrains.empty()) {
         cli::fail_usage(option + ": --terrain found, none was expected with it");
     }
@@ -186,8 +172,8 @@ cli::Command add_lod_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench lod --quick\n"
         "  reljef-bench lod --terrain N45E006.hgt --json lod.json\n"
         "  reljef-bench lod --terrain N45E006.hgt --poses 10000 --max-error 1\n"
-        "  reljef-bench lod --growth --json growth.json\n"
-        "  reljef-bench lod --selection");
+        "  reljef-bench lod --growth --json growth.json --html growth\n"
+        "  reljef-bench lod --selection --csv selection.csv");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_lod_command(*choice, *arguments, interrupt);
             }};

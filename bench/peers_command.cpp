@@ -14,7 +14,7 @@ constexpr glm::ivec2 peers_quick_size{512, 384};
 
 struct PeersChoice {
     BaselineOptions options;
-    OutputChoice outputs; // only `json` is used
+    OutputChoice outputs;
 };
 
 Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& command,
@@ -25,7 +25,7 @@ Result<void> run_peers_command(const PeersChoice& choice, const CLI::App& comman
     }
     BaselineOptions options = choice.options;
     options.suite = with_quick_size(options.suite, command, peers_quick_size);
-    return report(figure_table(run_baselines(options, interrupt.token())), choice.outputs.json);
+    return report(figure_table(run_baselines(options, interrupt.token())), choice.outputs);
 }
 
 } // namespace
@@ -39,7 +39,7 @@ cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
                      "natural, urban, a scene file (.toml) or a DEM file (natural)")
         ->type_name("TERRAIN");
     add_suite_options(*arguments, choice->options.suite);
-    add_json_option(*arguments, choice->outputs);
+    add_output_options(*arguments, choice->outputs);
     arguments->footer(
         "All draw the same 2^n+1 x 2^n+1 samples of the terrain's middle, without light, from the\n"
         "poses overview and low, one frame after the other. One table for each kind of work:\n"
@@ -57,8 +57,9 @@ cli::Command add_peers_command(CLI::App& program, cli::Interrupt& interrupt) {
         "when the suite runs (apt-get install povray). The suite needs a display; xvfb-run "
         "provides\n"
         "one.\n"
-        "Example:\n"
-        "  xvfb-run -a reljef-bench peers --terrain N45E006.hgt --json peers.json");
+        "Examples:\n"
+        "  xvfb-run -a reljef-bench peers --terrain N45E006.hgt --json peers.json\n"
+        "  xvfb-run -a reljef-bench peers --quick --html peers");
     return {arguments, [arguments, choice, &interrupt] {
                 return run_peers_command(*choice, *arguments, interrupt);
             }};

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -12,7 +11,6 @@
 #include "bench/options/output_options.h"
 #include "bench/options/part_options.h"
 #include "bench/options/suite_arguments.h"
-#include "bench/page/page.h"
 #include "bench/report/result_parts.h"
 #include "bench/stress/stress_suite.h"
 
@@ -28,15 +26,6 @@ struct StressChoice {
     PartChoice part;
 };
 
-Result<void> write_stress(const StressResults& results, const OutputChoice& outputs) {
-    std::string json = figure_json(figure_table(results));
-    return write_report(outputs, {.json = [&] { return json; },
-                                  .page =
-                                      [&](const std::filesystem::path& folder) {
-                                          return prepare_stress_page(folder, json);
-                                      }});
-}
-
 Result<void> report_stress(const StressResults& results, const OutputChoice& outputs) {
     if (results.rows.empty()) {
         const Shard& shard = results.options.shard;
@@ -45,13 +34,8 @@ Result<void> report_stress(const StressResults& results, const OutputChoice& out
                                    : fmt::format("--shard: {} found, but there are fewer stresses",
                                                  cli::shard_text(shard))});
     }
-    auto written = write_stress(results, outputs);
-    fmt::print("{}", stress_text(results));
-    if (std::fflush(stdout) != 0 || !written) {
-        return written;
-    }
-    if (results.end.stopped) {
-        return *results.end.stopped;
+    if (auto reported = report(figure_table(results), outputs, stress_text(results)); !reported) {
+        return reported;
     }
     const std::size_t failures = results.failures();
     return failures == 0 ? Result<void>()
@@ -134,8 +118,7 @@ void add_stress_options(CLI::App& command, StressChoice& choice) {
                     "N");
     add_suite_options(command, choice.options.suite);
     add_drawing_options(command, choice.options.suite);
-    add_json_option(command, choice.outputs);
-    add_page_option(command, choice.outputs);
+    add_output_options(command, choice.outputs);
     add_part_options(command, choice.part, "stresses");
 }
 

@@ -94,8 +94,6 @@ void check_tables_options(const TablesChoice& choice) {
     forbid(!choice.claims && choice.options.suite.rounds > 0, "--rounds");
     forbid(choice.options.suite.moving, "--moving");
     forbid(choice.options.suite.cold, "--cold");
-    forbid(!choice.outputs.csv.empty(), "--csv");
-    forbid(!choice.outputs.html.empty(), "--html");
     forbid(!choice.distances && !choice.options.techniques.empty(), "--technique");
     forbid(choice.claims && !choice.options.terrains.empty(), "--terrain");
 }
@@ -110,7 +108,7 @@ Result<void> measure_distances(const TablesOptions& tables, const OutputChoice& 
     if (!tables.techniques.empty()) {
         options.techniques = tables.techniques;
     }
-    return report(figure_table(run_distances(options, stop)), outputs.json, outputs.markdown);
+    return report(figure_table(run_distances(options, stop)), outputs);
 }
 
 Result<void> measure_guesses(const TablesOptions& tables, const OutputChoice& outputs,
@@ -120,7 +118,7 @@ Result<void> measure_guesses(const TablesOptions& tables, const OutputChoice& ou
     if (!tables.terrains.empty()) {
         options.terrains = tables.terrains;
     }
-    return report(figure_table(run_guesses(options, stop)), outputs.json, outputs.markdown);
+    return report(figure_table(run_guesses(options, stop)), outputs);
 }
 
 Result<void> measure_claims(const TablesOptions& tables, const OutputChoice& outputs,
@@ -128,7 +126,7 @@ Result<void> measure_claims(const TablesOptions& tables, const OutputChoice& out
     ClaimOptions options;
     options.suite = tables.suite;
     options.lone.threads = static_cast<unsigned>(tables.suite.threads);
-    return report(figure_table(run_claims(options, stop)), outputs.json, outputs.markdown);
+    return report(figure_table(run_claims(options, stop)), outputs);
 }
 
 Result<void> run_tables_command(const TablesChoice& choice, const CLI::App& command,
@@ -175,7 +173,7 @@ cli::Command add_tables_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef-bench tables --moving --technique polygons:error=1 --technique auto --pose low\n"
         "  reljef-bench tables --cold --technique polygons:error=1 --technique auto --terrain "
         "natural\n"
-        "  reljef-bench tables --distances --json distance.json\n"
+        "  reljef-bench tables --distances --json distance.json --html distance\n"
         "  reljef-bench tables --guesses --terrain my-scene.toml\n"
         "  reljef-bench tables --claims --json claims.json");
     return {arguments, [arguments, choice, &interrupt] {

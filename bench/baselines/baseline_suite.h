@@ -51,7 +51,7 @@ struct BaselineResults {
     RunEnd end = {};
 };
 
-/// A table of BaselineWork::levels, and below it those of the other works.
+/// A table for each work and pose.
 FigureTable figure_table(const BaselineResults& results);
 
 /// Draws the same heights and colours, without light and sky, with other programs and with reljef,

@@ -1,8 +1,5 @@
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "app/cli/message.h"
 #include "bench/baselines/baseline_suite.h"
 
 namespace reljef::bench {
@@ -32,80 +29,49 @@ void add_distribution(FigureJson& values, const std::optional<truth::Distributio
     }
 }
 
-FigureJson level_values(const BaselineResults& results, const BaselineRow& row) {
-    FigureJson values{scene::to_string(row.pose),
-                      row.what,
-                      row.moving ? "moving" : "still",
-                      row.frames,
-                      row.ms.median,
-                      row.ms.p95,
-                      row.ms.p99,
-                      1000.0 / row.ms.median,
-                      times_reference(results, row),
-                      row.triangles};
-    add_distribution(values, row.error);
-    return values;
-}
-
-FigureJson other_values(const BaselineResults& results, const BaselineRow& row) {
+FigureJson values_of(const BaselineResults& results, const BaselineRow& row) {
+    const bool has_levels = row.work == BaselineWork::levels;
     FigureJson values{to_string(row.work),
                       scene::to_string(row.pose),
                       row.what,
+                      has_levels ? FigureJson(row.moving ? "moving" : "still") : FigureJson(),
                       row.frames,
                       row.ms.median,
                       row.ms.p95,
                       row.ms.p99,
                       times_reference(results, row),
-                      row.wrong_percent};
+                      row.triangles > 0 ? FigureJson(row.triangles) : FigureJson(),
+                      has_levels ? FigureJson() : FigureJson(row.wrong_percent)};
     add_distribution(values, row.hit_error);
     add_distribution(values, row.error);
     return values;
 }
 
-// The rows of a work; absent: of all but the levels.
-FigureTable other_table(const BaselineResults& results, std::optional<BaselineWork> work) {
-    FigureTable table{.heading = work ? fmt::format("\n{}", to_string(*work)) : "",
-                      .settings = FigureJson::object(),
-                      .columns = {{"/work", ""},
-                                  {"/pose", "pose"},
-                                  {"/what", "what"},
-                                  {"/frames", "frames"},
-                                  {"/ms/median", "ms"},
-                                  {"/ms/p95", "p95"},
-                                  {"/ms/p99", ""},
-                                  {"/times_reljef", "x reljef"},
-                                  {"/wrong_percent", "wrong %", 3},
-                                  {"/hit_texels/median", ""},
-                                  {"/hit_texels/p95", ""},
-                                  {"/hit_texels/p99", "p99 texels", 3},
-                                  {"/hit_texels/max", ""},
-                                  {"/hit_texels/rms", "rms texels", 3},
-                                  {"/hit_texels/count", ""},
-                                  {"/reprojection_px/median", ""},
-                                  {"/reprojection_px/p95", ""},
-                                  {"/reprojection_px/p99", "p99 px", 3},
-                                  {"/reprojection_px/max", "max px", 3},
-                                  {"/reprojection_px/rms", "rms px", 3},
-                                  {"/reprojection_px/count", ""}}};
-    for (const BaselineRow& row : results.rows) {
-        if (work ? row.work == *work : row.work != BaselineWork::levels) {
-            table.rows.push_back(other_values(results, row));
-        }
-    }
-    return table;
-}
-
-std::string other_text(const BaselineResults& results) {
-    std::string text;
-    for (const BaselineWork work : {BaselineWork::triangles, BaselineWork::relief,
-                                    BaselineWork::hits, BaselineWork::picture}) {
-        const FigureTable table = other_table(results, work);
-        text += table.rows.empty() ? "" : figure_text(table);
-    }
-    for (const std::string& note : results.notes) {
-        text += "note: " + cli::printable(note) + "\n";
-    }
-    return text;
+std::vector<FigureColumn> baseline_columns() {
+    using namespace columns;
+    return {group("/work", "work"),
+            group("/pose", "pose"),
+            name("/what", "what"),
+            name("/camera", "camera"),
+            plain("/frames", "frames"),
+            less("/ms/median", "median", "ms"),
+            less("/ms/p95", "p95", "ms"),
+            detail(less("/ms/p99", "p99", "ms")),
+            plain("/times_reljef", "x reljef"),
+            less("/triangles", "triangles"),
+            less("/wrong_percent", "wrong", "%", 3),
+            detail(less("/hit_texels/median", "median", "texels", 3)),
+            detail(less("/hit_texels/p95", "p95", "texels", 3)),
+            less("/hit_texels/p99", "p99", "texels", 3),
+            detail(less("/hit_texels/max", "max", "texels", 3)),
+            less("/hit_texels/rms", "rms", "texels", 3),
+            detail(plain("/hit_texels/count", "pixels with a hit")),
+            detail(less("/reprojection_px/median", "median", "px", 3)),
+            detail(less("/reprojection_px/p95", "p95", "px", 3)),
+            less("/reprojection_px/p99", "p99", "px", 3),
+            less("/reprojection_px/max", "max", "px", 3),
+            less("/reprojection_px/rms", "rms", "px", 3),
+            detail(plain("/reprojection_px/count", "pixels with an error"))};
 }
 
 } // namespace
@@ -127,42 +93,19 @@ std::string_view to_string(BaselineWork work) {
 }
 
 FigureTable figure_table(const BaselineResults& results) {
-    const glm::ivec2 size = results.options.suite.size;
-    FigureTable table{
-        .schema = "reljef-bench-peers/1",
-        .heading = fmt::format("{}, {} x {} samples, {}, {}, {} threads",
-                               cli::printable(results.options.terrain), results.side, results.side,
-                               size_text(size), cli::printable(results.environment.renderer),
-                               results.environment.threads),
-        .settings = {{"environment", json_of(results.environment)},
-                     {"terrain", results.options.terrain},
-                     {"side", results.side},
-                     {"size", size_text(size)},
-                     {"notes", results.notes},
-                     {"other_work",
-                      FigureJson::parse(figure_json(other_table(results, {}))).at("rows")}},
-        .columns = {{"/pose", "pose"},
-                    {"/what", "what"},
-                    {"/camera", "camera"},
-                    {"/frames", "frames"},
-                    {"/ms/median", "ms"},
-                    {"/ms/p95", "p95"},
-                    {"/ms/p99", ""},
-                    {"/fps", ""},
-                    {"", "x error=1"},
-                    {"/triangles", "triangles"},
-                    {"/reprojection_px/median", ""},
-                    {"/reprojection_px/p95", ""},
-                    {"/reprojection_px/p99", "p99 px", 3},
-                    {"/reprojection_px/max", "max px", 3},
-                    {"/reprojection_px/rms", "rms px", 3},
-                    {"/reprojection_px/count", ""}},
-        .summary = other_text(results),
-        .end = results.end};
+    FigureTable table{.suite = "peers",
+                      .environment = results.environment,
+                      .shard = {},
+                      .settings = {{"terrain", results.options.terrain},
+                                   {"side", results.side},
+                                   {"size", size_text(results.options.suite.size)}},
+                      .summary = {},
+                      .columns = baseline_columns(),
+                      .rows = {},
+                      .notes = results.notes,
+                      .end = results.end};
     for (const BaselineRow& row : results.rows) {
-        if (row.work == BaselineWork::levels) {
-            table.rows.push_back(level_values(results, row));
-        }
+        table.rows.push_back(values_of(results, row));
     }
     return table;
 }

@@ -22,8 +22,6 @@
 namespace reljef::bench {
 namespace {
 
-constexpr double bytes_a_megabyte = 1e6;
-
 // What draws a city.
 struct ClaimVariant {
     std::vector<CityPiece> pieces;
@@ -89,10 +87,6 @@ scene::Camera camera_over(const CutCity& city, scene::Pose pose) {
 
 FigureJson rms_figure(const std::optional<RowError::Geometric>& error) {
     return error ? FigureJson(error->distribution.rms) : FigureJson();
-}
-
-template <class T> FigureJson json_or_null(const std::optional<T>& value) {
-    return value ? FigureJson(*value) : FigureJson();
 }
 
 class ClaimRun {
@@ -307,40 +301,33 @@ ClaimResults run_claims(const ClaimOptions& options, const std::stop_token& stop
 }
 
 FigureTable figure_table(const ClaimResults& results) {
-    FigureTable table{.schema = "reljef-bench-claims/1",
-                      .columns = {{"/test", "test"},
-                                  {"/scene", "scene"},
-                                  {"/pose", "pose"},
-                                  {"/form", "drawn as"},
-                                  {"/label", "technique"},
-                                  {"/ms/median", "ms"},
-                                  {"/noise_floor", "noise", 3},
-                                  {"/frames", "frames"},
-                                  {"/nodes", "nodes"},
-                                  {"/triangles", "triangles"},
-                                  {"/objects/bytes", ""},
-                                  {"", "MB sent", 2},
-                                  {"/taps", "taps", 1},
-                                  {"/error/wrong_percent", "wrong %"},
-                                  {"/error/reprojection_px/rms", "error px", 3},
-                                  {"/error/flip", "FLIP", 4}},
-                      .end = results.end};
-    table.heading =
-        fmt::format("claims of the sources, {}, {}", size_text(results.options.suite.size),
-                    cli::printable(results.environment.renderer));
-    table.settings = {{"environment", json_of(results.environment)},
-                      {"size", size_text(results.options.suite.size)}};
+    using namespace columns;
+    FigureColumn ms = less("/ms/median", "median", "ms");
+    ms.noise = "/noise_floor";
+    FigureTable table{
+        .suite = "tables-claims",
+        .environment = results.environment,
+        .shard = {},
+        .settings = {{"size", size_text(results.options.suite.size)},
+                     {"rounds", results.options.suite.rounds},
+                     {"quick", results.options.suite.quick}},
+        .summary = {},
+        .columns = {group("/test", "test"), group("/scene", "scene"), group("/pose", "pose"),
+                    name("/form", "drawn as"), name("/label", "technique"), ms,
+                    plain("/noise_floor", "noise", "", 3), plain("/frames", "frames"),
+                    plain("/nodes", "nodes"), less("/triangles", "triangles"),
+                    less("/objects/bytes", "sent", "bytes"), less("/taps", "taps", "", 1),
+                    less("/error/wrong_percent", "wrong", "%"),
+                    less("/error/reprojection_px/rms", "error", "px", 3),
+                    less("/error/flip", "FLIP", "", 4)}};
+    table.end = results.end;
     for (const ClaimRow& row : results.rows) {
-        const bool has_bytes = row.bytes > 0;
         table.rows.push_back(
             {row.test, row.scene, std::string(scene::to_string(row.pose)), row.form, row.label,
              row.timing.ms.median, json_or_null(row.timing.noise_floor), row.timing.frames,
              row.nodes, row.timing.stats.triangles,
-             has_bytes ? FigureJson(row.bytes) : FigureJson(),
-             has_bytes ? FigureJson(static_cast<double>(row.bytes) / bytes_a_megabyte)
-                       : FigureJson(),
-             json_or_null(row.taps), row.error.wrong_percent, rms_figure(row.error.reprojection_px),
-             row.error.flip});
+             row.bytes > 0 ? FigureJson(row.bytes) : FigureJson(), json_or_null(row.taps),
+             row.error.wrong_percent, rms_figure(row.error.reprojection_px), row.error.flip});
     }
     return table;
 }

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/cli/message.h"
 #include "app/cli/progress_line.h"
-#include "bench/report/report_json.h"
 #include "bench/runner/benchmark_scene.h"
 
 namespace reljef::bench {
@@ -81,22 +79,22 @@ DistanceResults run_distances(const DistanceOptions& options, const std::stop_to
 }
 
 FigureTable figure_table(const DistanceResults& results) {
-    FigureTable table{.schema = "reljef-bench-distance/1",
-                      .columns = {{"/scene", "terrain"},
-                                  {"/at", "distance"},
-                                  {"/label", "technique"},
-                                  {"/error/reprojection_px/rms", "error px", 3},
-                                  {"/error/wrong_percent", "wrong %", 1},
-                                  {"/error/hidden_percent", "hidden %", 1},
-                                  {"/error/flip", "FLIP", 3}},
-                      .end = results.end};
-    table.heading = fmt::format("errors over the distance of the eye, {}, {}",
-                                size_text(results.options.suite.size),
-                                cli::printable(results.environment.renderer));
-    table.settings = {{"environment", json_of(results.environment)},
-                      {"size", size_text(results.options.suite.size)}};
+    using namespace columns;
+    FigureTable table{
+        .suite = "tables-distances",
+        .environment = results.environment,
+        .shard = {},
+        .settings = FigureJson::object({{"size", size_text(results.options.suite.size)}}),
+        .summary = {},
+        .columns = {group("/scene", "terrain"), name("/at", "distance"),
+                    detail(plain("/distance_m", "distance", "m", 0)), name("/label", "technique"),
+                    less("/error/reprojection_px/rms", "error", "px", 3),
+                    less("/error/wrong_percent", "wrong", "%", 1),
+                    less("/error/hidden_percent", "hidden", "%", 1),
+                    less("/error/flip", "FLIP", "", 3)}};
+    table.end = results.end;
     for (const DistanceRow& row : results.rows) {
-        table.rows.push_back({row.scene, distance_text(row.distance), row.label,
+        table.rows.push_back({row.scene, distance_text(row.distance), row.distance, row.label,
                               json_rms(row.error.reprojection_px), row.error.wrong_percent,
                               row.hidden_percent, row.error.flip});
     }

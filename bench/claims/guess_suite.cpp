@@ -175,17 +175,18 @@ GuessResults run_guesses(const GuessOptions& options, const std::stop_token& sto
 }
 
 FigureTable figure_table(const GuessResults& results) {
-    FigureTable table{.schema = "reljef-bench-guess/1",
-                      .heading = fmt::format("heights guessed from colours, pose overview, {}",
-                                             size_text(results.options.suite.size)),
-                      .settings = {{"environment", json_of(results.environment)},
-                                   {"size", size_text(results.options.suite.size)}},
-                      .columns = {{"/scene", "terrain"},
-                                  {"/heights", "heights"},
-                                  {"/correlation", "correlation"},
-                                  {"/error/reprojection_px/rms", "error px"},
-                                  {"/error/wrong_percent", "wrong %", 1}},
-                      .end = results.end};
+    using namespace columns;
+    FigureTable table{
+        .suite = "tables-guesses",
+        .environment = results.environment,
+        .shard = {},
+        .settings = {{"size", size_text(results.options.suite.size)}, {"pose", "overview"}},
+        .summary = {},
+        .columns = {group("/scene", "terrain"), name("/heights", "heights"),
+                    plain("/correlation", "correlation"),
+                    less("/error/reprojection_px/rms", "error", "px"),
+                    less("/error/wrong_percent", "wrong", "%", 1)}};
+    table.end = results.end;
     for (const GuessRow& row : results.rows) {
         table.rows.push_back({row.scene, row.heights, row.correlation,
                               row.reprojection.distribution.rms, row.wrong_percent});

@@ -50,13 +50,6 @@ QuantityInfo info_of(Quantity quantity) {
     return {};
 }
 
-constexpr std::string_view schema_start = "reljef-bench";
-constexpr std::string_view schema_end = "/1";
-
-bool is_known(std::string_view schema) {
-    return schema.starts_with(schema_start) && schema.ends_with(schema_end);
-}
-
 Result<void> check_results(const json& results, const std::string& file) {
     const json* const schema =
         results.is_object() && results.contains("schema") ? &results.at("schema") : nullptr;
@@ -65,9 +58,9 @@ Result<void> check_results(const json& results, const std::string& file) {
             fmt::format("{}: no schema found, results of reljef-bench were expected", file)};
     }
     const auto& name = schema->get_ref<const std::string&>();
-    if (!is_known(name)) {
-        return Error{fmt::format("{}: schema '{}' found, {}{} was expected", file,
-                                 cli::printable(name), schema_start, schema_end)};
+    if (name != schema_name) {
+        return Error{fmt::format("{}: schema '{}' found, {} was expected", file,
+                                 cli::printable(name), schema_name)};
     }
     if (results.contains("rows") && !results.at("rows").is_array()) {
         return Error{fmt::format("{}: rows: no array found, one was expected", file)};

@@ -127,6 +127,7 @@ public:
             return device.error();
         }
         results_.environment = environment_of(*device, options_.suite.threads);
+        results_.settings = run_settings(options_.suite);
         is_software_ = device->info().is_software;
         const auto cities = cities_of(options_);
         const auto views = views_of(options_);

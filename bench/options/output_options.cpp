@@ -22,6 +22,15 @@ std::vector<cli::NamedFile> output_files(const OutputChoice& choice) {
     return outputs;
 }
 
+Result<void> write_outputs(const FigureTable& table, const OutputChoice& choice) {
+    return write_report(
+        choice,
+        {.json = [&] { return figure_json(table); },
+         .csv = [&] { return figure_csv(table); },
+         .markdown = [&] { return figure_markdown(table); },
+         .page = [&](const std::filesystem::path& folder) { return prepare_page(folder, table); }});
+}
+
 Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
     return write_report(choice, {.json = [&] { return json_report(results); },
                                  .csv = [&] { return csv_report(results); },
@@ -34,22 +43,14 @@ Result<void> write_outputs(const Results& results, const OutputChoice& choice) {
 
 } // namespace
 
-void add_json_option(CLI::App& command, OutputChoice& choice) {
+void add_output_options(CLI::App& command, OutputChoice& choice) {
     command.add_option("--json", choice.json, "also write the results as JSON")->type_name("FILE");
-}
-
-void add_page_option(CLI::App& command, OutputChoice& choice) {
+    command.add_option("--csv", choice.csv, "also write the results as CSV, one line per row")
+        ->type_name("FILE");
     command
         .add_option("--html", choice.html,
                     "also write a page with tables, plots and pictures: FOLDER/index.html")
         ->type_name("FOLDER");
-}
-
-void add_output_options(CLI::App& command, OutputChoice& choice) {
-    add_json_option(command, choice);
-    command.add_option("--csv", choice.csv, "also write the results as CSV, one line per row")
-        ->type_name("FILE");
-    add_page_option(command, choice);
     command.add_option("--markdown", choice.markdown, "also write the tables as Markdown")
         ->type_name("FILE");
 }
@@ -112,6 +113,18 @@ Result<void> report(const Results& results, const OutputChoice& choice) {
         return written;
     }
     return results.stopped ? Result<void>(*results.stopped) : Result<void>();
+}
+
+Result<void> report(const FigureTable& table, const OutputChoice& choice, const std::string& text) {
+    if (table.rows.empty()) {
+        return table.end.stopped.value_or(Error{"no rows found, some were expected"});
+    }
+    auto written = table.end.failed ? Result<void>() : write_outputs(table, choice);
+    fmt::print("{}", text.empty() ? figure_text(table) : text);
+    if (std::fflush(stdout) != 0 || !written) {
+        return written;
+    }
+    return table.end.stopped ? Result<void>(*table.end.stopped) : Result<void>();
 }
 
 } // namespace reljef::bench

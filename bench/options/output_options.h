@@ -7,6 +7,7 @@
 
 #include "app/cli/output_files.h"
 #include "bench/page/page.h"
+#include "bench/report/figure_table.h"
 #include "bench/report/results.h"
 
 namespace CLI {
@@ -22,9 +23,6 @@ struct OutputChoice {
     std::filesystem::path markdown;
     std::filesystem::path html; ///< a folder
 };
-
-void add_json_option(CLI::App& command, OutputChoice& choice);
-void add_page_option(CLI::App& command, OutputChoice& choice);
 
 /// Adds --json, --csv, --markdown and --html.
 void add_output_options(CLI::App& command, OutputChoice& choice);
@@ -47,5 +45,9 @@ Result<void> write_report(const OutputChoice& choice, const ReportForms& forms);
 /// Writes all files and the page, or none if one fails, and prints the table. Keeps earlier files
 /// if the run failed or has no rows. Also fails with Results::stopped.
 Result<void> report(const Results& results, const OutputChoice& choice);
+
+/// The same for a table. Also fails with RunEnd::stopped. `text` is printed; empty: figure_text().
+Result<void> report(const FigureTable& table, const OutputChoice& choice,
+                    const std::string& text = {});
 
 } // namespace reljef::bench

@@ -39,6 +39,10 @@ function percent(share, decimals = 1) {
   return isNumber(share) ? (100 * share).toFixed(decimals) : absent;
 }
 
+function withUnit(title, unit) {
+  return title + (unit ? ', ' + unit : '');
+}
+
 function counted(count, thing, things = thing + 's') {
   return count + ' ' + (count === 1 ? thing : things);
 }

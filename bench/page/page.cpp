@@ -18,6 +18,7 @@ using PageJson = nlohmann::ordered_json;
 
 constexpr std::string_view page_name = "index.html";
 constexpr std::string_view stress_skeleton = "stress.html";
+constexpr std::string_view figures_skeleton = "document.html";
 
 struct Album {
     std::vector<std::string> uris;
@@ -167,8 +168,9 @@ Result<PreparedPage> prepare_page(const fs::path& folder, const Results& results
                                      safe_in_script(pictures_as_json(results.rows))));
 }
 
-Result<PreparedPage> prepare_stress_page(const fs::path& folder, std::string_view report) {
-    return prepare(folder, assembled(stress_skeleton, safe_in_script(report), {}));
+Result<PreparedPage> prepare_page(const fs::path& folder, const FigureTable& table) {
+    const std::string_view skeleton = table.suite == "stress" ? stress_skeleton : figures_skeleton;
+    return prepare(folder, assembled(skeleton, safe_in_script(figure_json(table)), {}));
 }
 
 std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/report/figure_table.h"
 #include "bench/report/results.h"
 #include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
@@ -35,9 +36,9 @@ struct PreparedPage {
 /// in an existing parent. Rows with the same truth share its picture.
 Result<PreparedPage> prepare_page(const std::filesystem::path& folder, const Results& results);
 
-/// The same for a report of the suite stress as JSON (figure_json).
-Result<PreparedPage> prepare_stress_page(const std::filesystem::path& folder,
-                                         std::string_view report);
+/// The same for rows with columns: sorted tables, and plots of the suites that have one. The suite
+/// stress has a page of its own.
+Result<PreparedPage> prepare_page(const std::filesystem::path& folder, const FigureTable& table);
 
 /// "data:image/png;base64,…" (RFC 2397, RFC 4648).
 std::string data_uri(std::string_view media_type, std::span<const std::byte> bytes);

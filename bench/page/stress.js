@@ -86,14 +86,12 @@ function countTile(name, count, note) {
 }
 
 function showHead() {
-  const environment = report.environment || {};
   byId('heading').append(
     element('p', {class: 'overline'}, 'reljef-bench stress'),
     element('h1', {}, 'Numerical stability'),
-    element('p', {class: 'lede'}, report.size.replace('x', ' × ') + ' pixels' + (report.quick ? ', quick' : '') +
+    element('p', {class: 'lede'}, report.settings.size.replace('x', ' × ') + ' pixels' + (report.settings.quick ? ', quick' : '') +
       '. Every figure is the worst of its cases.'),
-    element('dl', {class: 'environment'}, Object.entries(environment).map(([name, value]) =>
-      element('div', {}, element('dt', {}, name), element('dd', {}, String(value))))));
+    environmentList(report.environment));
   if (report.stopped) {
     byId('heading').append(element('div', {class: 'notice', role: 'note'}, element('p', {}, 'The run ended early: ' + report.stopped + '.')));
   }

@@ -1,25 +1,45 @@
 #include "bench/report/figure_table.h"
 
 #include <cmath>
-#include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "app/cli/message.h"
-#include "bench/report/report_table.h"
-#include "engine/core/atomic_file.h"
+#include "bench/report/report_json.h"
 
 namespace reljef::bench {
 namespace {
 
+const char* role_word(FigureColumn::Role role) {
+    return role == FigureColumn::Role::group  ? "group"
+           : role == FigureColumn::Role::name ? "name"
+                                              : "measured";
+}
+
+FigureJson column_json(const FigureColumn& column) {
+    FigureJson json{
+        {"key", column.key}, {"heading", column.heading}, {"role", role_word(column.role)}};
+    const auto add = [&](const char* key, const std::string& text) {
+        if (!text.empty()) {
+            json[key] = text;
+        }
+    };
+    add("unit", column.unit);
+    if (column.better != FigureColumn::Better::none) {
+        json["better"] = column.better == FigureColumn::Better::less ? "less" : "more";
+    }
+    add("noise", column.noise);
+    add("limit", column.limit);
+    if (column.is_detail) {
+        json["detail"] = true;
+    }
+    return json;
+}
+
 FigureJson row_object(const FigureTable& table, const FigureJson& row) {
     FigureJson object = FigureJson::object();
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        if (table.columns[i].pointer.empty()) {
-            continue;
-        }
-        const FigureJson::json_pointer pointer(table.columns[i].pointer);
+        const FigureJson::json_pointer pointer(table.columns[i].key);
         const FigureJson& value = row.at(i);
         const bool is_infinite = value.is_number_float() && !std::isfinite(value.get<double>());
         if (!value.is_null()) {
@@ -33,37 +53,51 @@ FigureJson row_object(const FigureTable& table, const FigureJson& row) {
     return object;
 }
 
-std::string cell_text(const FigureJson& value, int decimals) {
-    if (value.is_null()) {
-        return "–";
-    }
-    if (value.is_number_float()) {
-        return fmt::format("{:.{}f}", value.get<double>(), decimals);
-    }
-    return value.is_string() ? cli::printable(value.get<std::string>())
-                             : value.dump(-1, ' ', false, FigureJson::error_handler_t::replace);
-}
-
-std::vector<std::vector<std::string>> lines_of(const FigureTable& table) {
-    std::vector<std::vector<std::string>> lines(1 + table.rows.size());
-    for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        const FigureColumn& column = table.columns[i];
-        if (column.heading.empty()) {
-            continue;
-        }
-        lines[0].push_back(column.heading);
-        for (std::size_t row = 0; row < table.rows.size(); ++row) {
-            lines[row + 1].push_back(cell_text(table.rows[row].at(i), column.decimals));
-        }
-    }
-    return lines;
-}
-
 } // namespace
 
-std::string size_text(glm::ivec2 size) {
-    return fmt::format("{}x{}", size.x, size.y);
+namespace columns {
+
+FigureColumn group(std::string key, std::string heading) {
+    return {.key = std::move(key),
+            .heading = std::move(heading),
+            .unit = {},
+            .role = FigureColumn::Role::group};
 }
+
+FigureColumn name(std::string key, std::string heading) {
+    return {.key = std::move(key),
+            .heading = std::move(heading),
+            .unit = {},
+            .role = FigureColumn::Role::name};
+}
+
+FigureColumn plain(std::string key, std::string heading, std::string unit, int decimals) {
+    return {.key = std::move(key),
+            .heading = std::move(heading),
+            .unit = std::move(unit),
+            .role = FigureColumn::Role::measured,
+            .better = FigureColumn::Better::none,
+            .decimals = decimals};
+}
+
+FigureColumn less(std::string key, std::string heading, std::string unit, int decimals) {
+    FigureColumn column = plain(std::move(key), std::move(heading), std::move(unit), decimals);
+    column.better = FigureColumn::Better::less;
+    return column;
+}
+
+FigureColumn more(std::string key, std::string heading, std::string unit, int decimals) {
+    FigureColumn column = plain(std::move(key), std::move(heading), std::move(unit), decimals);
+    column.better = FigureColumn::Better::more;
+    return column;
+}
+
+FigureColumn detail(FigureColumn column) {
+    column.is_detail = true;
+    return column;
+}
+
+} // namespace columns
 
 RunEnd run_end(const Result<void>& done, const std::stop_token& stop, bool has_rows) {
     if (stop.stop_requested()) {
@@ -74,65 +108,31 @@ RunEnd run_end(const Result<void>& done, const std::stop_token& stop, bool has_r
     return done ? RunEnd{} : RunEnd{done.error(), true};
 }
 
-FigureJson json_of(const Summary& summary) {
-    return {{"median", summary.median}, {"p95", summary.p95}, {"p99", summary.p99}};
+std::string size_text(glm::ivec2 size) {
+    return fmt::format("{}x{}", size.x, size.y);
 }
 
 std::string figure_json(const FigureTable& table) {
-    FigureJson json{{"schema", table.schema},
-                    {"complete", !table.end.stopped.has_value()},
-                    {"stopped", nullptr}};
-    if (table.end.stopped) {
-        json["stopped"] = table.end.stopped->message;
+    FigureJson json = json_of(ReportHead{.suite = table.suite,
+                                         .complete = !table.end.stopped.has_value(),
+                                         .stopped = table.end.stopped,
+                                         .notes = table.notes,
+                                         .environment = table.environment,
+                                         .shard = table.shard});
+    json["settings"] = table.settings;
+    if (!table.summary.is_null()) {
+        json["summary"] = table.summary;
     }
-    json.update(table.settings);
-    if (!table.columns.empty()) {
-        json["rows"] = FigureJson::array();
-        for (const FigureJson& row : table.rows) {
-            json["rows"].push_back(row_object(table, row));
-        }
+    json["columns"] = FigureJson::array();
+    for (const FigureColumn& column : table.columns) {
+        json["columns"].push_back(column_json(column));
+    }
+    json["rows"] = FigureJson::array();
+    for (const FigureJson& row : table.rows) {
+        json["rows"].push_back(row_object(table, row));
     }
     // File names need not be UTF-8.
     return json.dump(2, ' ', false, FigureJson::error_handler_t::replace) + "\n";
-}
-
-std::string figure_text(const FigureTable& table) {
-    const auto lines = lines_of(table);
-    const std::vector<std::size_t> widths = column_widths(lines);
-    std::string text = table.heading + "\n";
-    for (const auto& line : lines) {
-        text += line.empty() ? "" : padded_line(line, widths);
-    }
-    return text + table.summary;
-}
-
-std::string figure_markdown(const FigureTable& table) {
-    std::string text = table.heading + "\n\n";
-    const auto lines = lines_of(table);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        text += fmt::format("| {} |\n", fmt::join(lines[i], " | "));
-        text += i == 0 ? markdown_rule(lines[i].size()) : "";
-    }
-    return text + "\n" + table.summary;
-}
-
-Result<void> report(const FigureTable& table, const std::filesystem::path& json,
-                    const std::filesystem::path& markdown) {
-    if (!table.columns.empty() && table.rows.empty()) {
-        return table.end.stopped.value_or(Error{"no rows found, some were expected"});
-    }
-    Result<void> written;
-    if (!table.end.failed && !json.empty()) {
-        written = write_text_file(json, figure_json(table));
-    }
-    if (written && !table.end.failed && !markdown.empty()) {
-        written = write_text_file(markdown, figure_markdown(table));
-    }
-    fmt::print("{}", figure_text(table));
-    if (std::fflush(stdout) != 0 || !written) {
-        return written;
-    }
-    return table.end.stopped ? Result<void>(*table.end.stopped) : Result<void>();
 }
 
 } // namespace reljef::bench

@@ -123,6 +123,8 @@ public:
 
     /// Whether the key exists and is not null.
     [[nodiscard]] bool has(const char* key) const { return !at(key).is_null(); }
+    /// The value of a key; null if it is absent.
+    [[nodiscard]] const nlohmann::json& value(const char* key) const { return at(key); }
     /// Sets the error, if there is none yet: the value of `key` is not `expected`.
     void fail(const char* key, const std::string& expected);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/report_table.h"
+
 namespace reljef::bench {
 namespace {
 
@@ -13,25 +15,15 @@ constexpr std::string_view csv_names =
     "hit_max_texels,wrong_percent,holes,rmse,psnr_db,ssim,flip,source_fps,source_ratio,"
     "unproven_search\n";
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) {
-        return text;
-    }
-    std::string result = "\"";
-    for (const char c : text) {
-        result += c == '"' ? std::string(2, c) : std::string(1, c);
-    }
-    return result + "\"";
-}
-
 std::string or_empty(const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "";
 }
 
 std::string csv_description(const Row& row) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{}", quoted(row.suite), quoted(row.test),
-                       quoted(row.scene), scene::to_string(row.pose), quoted(row.setting.label),
-                       row.null_row, false, row.noisy(), row.size.x, row.size.y);
+    return fmt::format("{},{},{},{},{},{},{},{},{},{}", csv_quoted(row.suite), csv_quoted(row.test),
+                       csv_quoted(row.scene), scene::to_string(row.pose),
+                       csv_quoted(row.setting.label), row.null_row, false, row.noisy(), row.size.x,
+                       row.size.y);
 }
 
 std::string csv_interval(const std::optional<ConfidenceInterval>& interval) {
@@ -74,10 +66,21 @@ std::string csv_source(const std::optional<SourceFigure>& source) {
 
 // What `auto` drew without a proof.
 std::string csv_unproven(const std::optional<view::Choice>& choice) {
-    return choice && choice->typical ? quoted(choice->typical->technique) : "";
+    return choice && choice->typical ? csv_quoted(choice->typical->technique) : "";
 }
 
 } // namespace
+
+std::string csv_quoted(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+        return text;
+    }
+    std::string result = "\"";
+    for (const char c : text) {
+        result += c == '"' ? std::string(2, c) : std::string(1, c);
+    }
+    return result + "\"";
+}
 
 std::string csv_report(const Results& results) {
     std::string text(csv_names);

@@ -35,6 +35,14 @@ static void describe(Fields& fields, typename Fields::template Of<Environment>& 
 }
 
 template <class Fields>
+static void describe(Fields& fields, typename Fields::template Of<RunSettings>& settings) {
+    fields.field("quick", settings.quick);
+    fields.field("rounds", settings.rounds);
+    fields.field("moving", settings.moving);
+    fields.field("cold", settings.cold);
+}
+
+template <class Fields>
 static void describe(Fields& fields,
                      typename Fields::template Of<view::FrameStats::Skipped>& skipped) {
     fields.field("invisible_nodes", skipped.invisible_nodes);
@@ -256,26 +264,13 @@ Shard read_shard(JsonReader& fields) {
     return shard ? *shard : Shard();
 }
 
-// Files of earlier versions lack some keys.
-Results read_results(JsonReader& fields) {
-    Results results;
-    PartOrigin origin = read_origin(fields);
-    results.shard = origin.shard;
-    results.environment = std::move(origin.environment);
-    fields.later_field("notes", results.notes);
-    if (fields.has("left_out")) {
-        fields.array("left_out", results.left_out);
+std::optional<Error> read_stopped(JsonReader& document, bool is_complete) {
+    if (!document.has("stopped")) {
+        return is_complete ? std::nullopt : std::optional(Error{"the run ended early"});
     }
-    results.stopped = read_stopped(fields);
-    if (results.stopped && !fields.has("stopped") && !results.left_out.empty()) {
-        results.stopped.reset(); // it is not complete because it left settings out
-    }
-    fields.array("rows", results.rows);
-    std::erase_if(results.rows, [](const Row& row) { return row.timing.frames == 0; });
-    if (fields.has("fronts")) {
-        fields.array("fronts", results.fronts);
-    }
-    return results;
+    Error stopped;
+    document.field("stopped", stopped.message);
+    return stopped;
 }
 
 Result<nlohmann::json> parse(const std::string& text, const std::string& file) {
@@ -304,20 +299,47 @@ nlohmann::ordered_json json_of(const Environment& environment) {
     return fields.json;
 }
 
-std::string json_report(const Results& results) {
+nlohmann::ordered_json json_of(const ReportHead& head) {
     JsonWriter fields;
     fields.field("schema", schema_name);
-    fields.field("complete", results.complete());
+    fields.field("suite", head.suite);
+    fields.field("complete", head.complete);
     fields.json["stopped"] = nullptr;
-    if (results.stopped) {
-        fields.field("stopped", results.stopped->message);
+    if (head.stopped) {
+        fields.field("stopped", head.stopped->message);
     }
-    fields.field("notes", results.notes);
+    fields.field("notes", head.notes);
+    fields.json["environment"] = json_of(head.environment);
+    if (!head.shard.is_whole()) {
+        fields.field("shard", cli::shard_text(head.shard));
+    }
+    return fields.json;
+}
+
+// Files of earlier versions lack some keys.
+ReportHead read_head(JsonReader& document) {
+    ReportHead head;
+    document.later_field("suite", head.suite);
+    document.field("complete", head.complete);
+    head.stopped = read_stopped(document, head.complete);
+    document.later_field("notes", head.notes);
+    document.object("environment", [&](auto& inner) { describe(inner, head.environment); });
+    head.shard = read_shard(document);
+    return head;
+}
+
+std::string json_report(const Results& results) {
+    JsonWriter fields;
+    fields.json = json_of(ReportHead{
+        .suite = results.rows.empty() ? "" : results.rows.front().suite,
+        .complete = results.complete(),
+        .stopped = results.stopped,
+        .notes = results.notes,
+        .environment = results.environment,
+        .shard = results.shard,
+    });
     fields.array("left_out", results.left_out);
-    fields.json["environment"] = json_of(results.environment);
-    if (!results.shard.is_whole()) {
-        fields.field("shard", cli::shard_text(results.shard));
-    }
+    fields.object("settings", results.settings);
     fields.array("rows", results.rows);
     if (!results.fronts.empty()) {
         fields.array("fronts", results.fronts);
@@ -339,7 +361,7 @@ Result<nlohmann::json> read_result_json(const fs::path& file) {
     return parse(*text, file.string());
 }
 
-Result<void> read_report(const fs::path& file, std::string_view schema,
+Result<void> read_report(const fs::path& file,
                          const std::function<void(JsonReader& document)>& read) {
     const auto json = read_result_json(file);
     if (!json) {
@@ -349,35 +371,45 @@ Result<void> read_report(const fs::path& file, std::string_view schema,
     JsonReader document(*json, "", error);
     std::string found;
     document.field("schema", found);
-    if (found != schema) {
-        document.fail("schema", fmt::format("\"{}\"", schema));
+    if (found != schema_name) {
+        document.fail("schema", fmt::format("\"{}\"", schema_name));
     }
     read(document);
     return error ? Result<void>(Error{fmt::format("{}: {}", file.string(), error->message)})
                  : Result<void>();
 }
 
-PartOrigin read_origin(JsonReader& document) {
-    PartOrigin origin{read_shard(document), {}};
-    document.object("environment", [&](auto& inner) { describe(inner, origin.environment); });
-    return origin;
-}
-
-std::optional<Error> read_stopped(JsonReader& document) {
-    bool is_complete = false;
-    document.field("complete", is_complete);
-    if (!document.has("stopped")) {
-        return is_complete ? std::nullopt : std::optional(Error{"the run ended early"});
+Results read_results(JsonReader& document) {
+    Results results;
+    ReportHead head = read_head(document);
+    results.shard = head.shard;
+    results.environment = std::move(head.environment);
+    results.notes = std::move(head.notes);
+    results.stopped = std::move(head.stopped);
+    if (document.has("left_out")) {
+        document.array("left_out", results.left_out);
     }
-    Error stopped;
-    document.field("stopped", stopped.message);
-    return stopped;
+    if (results.stopped && !document.has("stopped") && !results.left_out.empty()) {
+        results.stopped.reset(); // it is not complete because it left settings out
+    }
+    document.object("settings", results.settings);
+    document.array("rows", results.rows);
+    std::erase_if(results.rows, [](const Row& row) { return row.timing.frames == 0; });
+    if (document.has("fronts")) {
+        document.array("fronts", results.fronts);
+    }
+    return results;
 }
 
 Result<Results> read_json_report(const fs::path& file) {
     Results results;
-    const auto done = read_report(file, schema_name,
-                                  [&](JsonReader& document) { results = read_results(document); });
+    const auto done = read_report(file, [&](JsonReader& document) {
+        if (document.has("columns")) {
+            document.fail("suite", "a suite of techniques");
+            return;
+        }
+        results = read_results(document);
+    });
     return done ? Result<Results>(std::move(results)) : done.error();
 }
 

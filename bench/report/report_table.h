@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/report/results.h"
@@ -36,6 +37,14 @@ std::string area_text(const Front& front);
 
 /// The rows with too many holes.
 std::string holed_text(const Front& front);
+
+/// A cell of CSV, in quotes if it needs them (RFC 4180).
+std::string csv_quoted(const std::string& text);
+
+/// Text that Markdown shows as it is, in one line.
+std::string markdown_escaped(std::string_view text);
+/// A line of a Markdown table.
+std::string markdown_line(const std::vector<std::string>& cells);
 
 /// The line below a heading of a Markdown table: the first column aligned left, the others right.
 std::string markdown_rule(std::size_t columns);

@@ -109,6 +109,7 @@ Result<Results> merged(std::vector<Results> parts) {
     }
     Results all;
     all.environment = run->front().environment;
+    all.settings = run->front().settings;
     std::vector<std::vector<std::vector<Row>>> items;
     std::vector<std::vector<Front>> fronts;
     for (Results& part : *run) {

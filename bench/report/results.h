@@ -206,9 +206,18 @@ struct LeftOut {
     std::vector<std::string> techniques; ///< those whose default was left out
 };
 
+/// What the options of a suite said. Sizes and techniques are in the rows.
+struct RunSettings {
+    bool quick = false;
+    int rounds = 0; ///< 0: as many as fit
+    bool moving = false;
+    bool cold = false;
+};
+
 struct Results {
     Environment environment;
-    Shard shard = {}; ///< the part of the run's scenes and poses
+    std::optional<RunSettings> settings = {}; ///< absent: of an earlier version
+    Shard shard = {};                         ///< the part of the run's scenes and poses
     std::vector<Row> rows;
     std::vector<Front> fronts; ///< of the suite pareto
     std::vector<LeftOut> left_out;

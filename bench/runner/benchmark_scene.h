@@ -28,6 +28,9 @@ Result<session::Device> make_rays_device(const SuiteOptions& options);
 
 /// With the device's costs. `threads`: as of environment_of() for its information.
 Environment environment_of(const session::Device& device, int threads);
+inline RunSettings run_settings(const SuiteOptions& options) {
+    return {options.quick, options.rounds, options.moving, options.cold};
+}
 
 enum class Daylight {
     scene,   ///< its own sun and air

@@ -206,6 +206,7 @@ public:
                 fmt::format("on cpu: {}, {}", rays_->info().renderer, rays_->info().version));
         }
         results_.environment = environment_of(*device, options_.threads);
+        results_.settings = run_settings(options_);
         is_software_ = device->info().is_software;
         if (auto opened = open_scenes(); !opened) {
             return opened;

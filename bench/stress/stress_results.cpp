@@ -10,13 +10,14 @@
 #include "app/cli/message.h"
 #include "app/cli/shard_option.h"
 #include "bench/report/json_fields.h"
+#include "bench/report/report_json.h"
 #include "bench/report/report_table.h"
 #include "bench/report/result_parts.h"
 
 namespace reljef::bench {
 namespace {
 
-constexpr std::string_view stress_schema = "reljef-bench-stress/1";
+constexpr std::string_view stress_suite = "stress";
 
 // A class of rows: the same figure of the same stress, with a limit or without.
 struct StressLine {
@@ -183,45 +184,44 @@ std::size_t StressResults::failures() const {
 }
 
 FigureTable figure_table(const StressResults& results) {
-    const StressOptions& options = results.options;
-    FigureTable table{.schema = std::string(stress_schema),
-                      .settings = {{"environment", json_of(results.environment)}},
-                      .columns = {{"/stress", "stress"},
-                                  {"/terrain", "terrain"},
-                                  {"/technique", "technique"},
-                                  {"/figure", "figure"},
-                                  {"/value", "value", 4},
-                                  {"/limit", "limit", 4},
-                                  {"/at", "worst at"},
-                                  {"/verdict", "verdict"},
-                                  {"/known", "fixed by"},
-                                  {"/only", ""}},
-                      .end = results.end};
-    table.settings.update(settings_of(options));
-    table.settings["over"] = results.failures();
-    if (!options.shard.is_whole()) {
-        table.settings["shard"] = cli::shard_text(options.shard);
-    }
+    using namespace columns;
+    FigureColumn value = less("/value", "value", "", 4);
+    value.limit = "/limit";
+    FigureTable table{.suite = std::string(stress_suite),
+                      .environment = results.environment,
+                      .shard = results.options.shard,
+                      .settings = settings_of(results.options),
+                      .summary = FigureJson::object({{"over", results.failures()}}),
+                      .columns = {group("/stress", "stress"), name("/terrain", "terrain"),
+                                  name("/technique", "technique"), name("/figure", "figure"), value,
+                                  plain("/limit", "limit", "", 4), plain("/at", "worst at"),
+                                  plain("/verdict", "verdict"), plain("/known", "fixed by"),
+                                  detail(plain("/only", "--only"))}};
+    table.end = results.end;
     for (const StressRow& row : results.rows) {
         const auto text = [](const std::string& word) {
             return word.empty() ? FigureJson() : FigureJson(word);
         };
         table.rows.push_back({row.stress, text(row.terrain), text(row.technique), row.figure,
-                              row.value, row.limit ? FigureJson(*row.limit) : FigureJson(),
-                              text(row.at), to_string(verdict_of(row)), text(row.known),
-                              text(row.only)});
+                              row.value, json_or_null(row.limit), text(row.at),
+                              to_string(verdict_of(row)), text(row.known), text(row.only)});
     }
     return table;
 }
 
 Result<StressResults> read_stress_report(const std::filesystem::path& file) {
     StressResults results;
-    const auto done = read_report(file, stress_schema, [&](JsonReader& document) {
-        PartOrigin origin = read_origin(document);
-        results.environment = std::move(origin.environment);
-        results.options = read_options(document);
-        results.options.shard = origin.shard;
-        results.end.stopped = read_stopped(document);
+    const auto done = read_report(file, [&](JsonReader& document) {
+        ReportHead head = read_head(document);
+        if (head.suite != stress_suite) {
+            document.fail("suite", fmt::format("\"{}\"", stress_suite));
+            return;
+        }
+        results.environment = std::move(head.environment);
+        document.object("settings",
+                        [&](JsonReader& inner) { results.options = read_options(inner); });
+        results.options.shard = head.shard;
+        results.end.stopped = std::move(head.stopped);
         document.array("rows", results.rows);
     });
     return done ? Result<StressResults>(std::move(results)) : done.error();

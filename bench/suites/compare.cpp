@@ -19,11 +19,6 @@ std::string row_name(const Row& row) {
                        scene::to_string(row.pose), row.setting.label, row.size.x, row.size.y);
 }
 
-bool is_same_environment(const Environment& a, const Environment& b) {
-    return a.renderer == b.renderer && a.gl == b.gl && a.context == b.context &&
-           a.threads == b.threads && a.cpu == b.cpu;
-}
-
 // The first of equal rows.
 using RowsByName = std::unordered_map<std::string, const Row*>;
 
@@ -193,9 +188,7 @@ std::string names_text(const std::vector<std::string>& names, std::string_view t
 
 void add_incompleteness(std::vector<std::string>& notes, const Results& results,
                         std::string_view run) {
-    if (results.stopped) {
-        notes.push_back(fmt::format("The {} run ended early: {}.", run, results.stopped->message));
-    }
+    add_stop(notes, results.stopped, run);
     if (!results.left_out.empty()) {
         notes.push_back(fmt::format("The {} run left settings out, for want of time.", run));
     }
@@ -206,7 +199,72 @@ std::ptrdiff_t count_of(const std::vector<Change>& changes, Verdict verdict) {
                          [&](const Change& change) { return change.verdict == verdict; });
 }
 
+struct VerdictWord {
+    Verdict verdict;
+    const char* word;
+};
+
+void add_changes(FigureTable& table, const std::vector<Change>& changes, VerdictWord kind) {
+    for (const Change& change : changes) {
+        if (change.verdict == kind.verdict) {
+            const double percent = 100.0 * (change.after - change.before) /
+                                   (change.before == 0.0 ? std::nan("") : change.before);
+            table.rows.push_back({kind.word, change.row, change.figure, change.before, change.after,
+                                  percent, 100.0 * change.noise});
+        }
+    }
+}
+
+void add_names(FigureTable& table, const std::vector<std::string>& names, const char* word) {
+    for (const std::string& name : names) {
+        table.rows.push_back({word, name, nullptr, nullptr, nullptr, nullptr, nullptr});
+    }
+}
+
 } // namespace
+
+bool is_same_environment(const Environment& a, const Environment& b) {
+    return a.renderer == b.renderer && a.gl == b.gl && a.context == b.context &&
+           a.threads == b.threads && a.cpu == b.cpu;
+}
+
+void add_stop(std::vector<std::string>& notes, const std::optional<Error>& stopped,
+              std::string_view run) {
+    if (stopped) {
+        notes.push_back(fmt::format("The {} run ended early: {}.", run, stopped->message));
+    }
+}
+
+FigureTable figure_table(const Comparison& comparison, const ComparedRuns& runs) {
+    using namespace columns;
+    FigureTable table{.suite = "compare",
+                      .environment = runs.environment,
+                      .shard = {},
+                      .settings = {{"before", runs.before},
+                                   {"after", runs.after},
+                                   {"suite", runs.suite},
+                                   {"threshold", runs.threshold}},
+                      .summary = {{"worse", count_of(comparison.changes, Verdict::worse)},
+                                  {"better", count_of(comparison.changes, Verdict::better)},
+                                  {"same", count_of(comparison.changes, Verdict::same)},
+                                  {"gone", comparison.only_a.size()},
+                                  {"new", comparison.only_b.size()},
+                                  {"untimed", comparison.untimed.size()}},
+                      .columns = {group("/verdict", "verdict"), name("/row", "row"),
+                                  name("/figure", "figure"), plain("/before", "before", "", 4),
+                                  plain("/after", "after", "", 4),
+                                  plain("/change_percent", "change", "%", 1),
+                                  plain("/noise_percent", "noise", "%", 1)},
+                      .rows = {},
+                      .notes = comparison.notes};
+    add_changes(table, comparison.changes, {Verdict::worse, "worse"});
+    add_names(table, comparison.only_a, "gone");
+    add_changes(table, comparison.changes, {Verdict::better, "better"});
+    add_names(table, comparison.only_b, "new");
+    add_names(table, comparison.untimed, "untimed");
+    add_changes(table, comparison.changes, {Verdict::same, "same"});
+    return table;
+}
 
 std::size_t Comparison::regressions() const {
     return static_cast<std::size_t>(count_of(changes, Verdict::worse)) + only_a.size();
@@ -220,6 +278,10 @@ Comparison compare(const Results& a, const Results& b, double threshold) {
     const RowsByName rows_b = rows_by_name(b.rows);
     comparison.only_a = names_only_in(a, rows_b);
     comparison.only_b = names_only_in(b, rows_a);
+    if (!comparison.same_environment) {
+        comparison.notes.emplace_back("The environments differ: times are compared as ratios to "
+                                      "texture of the same run.");
+    }
     add_incompleteness(comparison.notes, a, "first");
     add_incompleteness(comparison.notes, b, "second");
     for (const Row& row : a.rows) {
@@ -242,15 +304,11 @@ Comparison compare(const Results& a, const Results& b, double threshold) {
 }
 
 std::string comparison_report(const Comparison& comparison) {
-    const std::string environment =
-        comparison.same_environment
-            ? ""
-            : "The environments differ: times are compared as ratios to texture of the same run.\n";
     std::string notes;
     for (const std::string& note : comparison.notes) {
         notes += cli::printable(note) + "\n";
     }
-    return environment + notes + changes_text(comparison.changes, Verdict::worse, "worse") +
+    return notes + changes_text(comparison.changes, Verdict::worse, "worse") +
            changes_text(comparison.changes, Verdict::better, "better") +
            names_text(comparison.only_a, "gone, only in the first") +
            names_text(comparison.only_b, "only in the second") +

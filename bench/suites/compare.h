@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/report/figure_table.h"
 #include "bench/report/results.h"
 
 namespace reljef::bench {
@@ -13,9 +16,9 @@ enum class Verdict { same, better, worse };
 struct Change {
     std::string row; ///< "tables, relief-4, natural 1025, overview, polygons:lods=1, 1024x768"
     /// "median ms", "ratio to texture", "error px", "pixels without bound", "hit texels", "wrong
-    /// %", "holes", "FLIP"
+    /// %", "holes", "FLIP"; of rows with columns the heading
     std::string figure;
-    double before = 0.0; ///< infinite: no finite error
+    double before = 0.0; ///< infinite: none
     double after = 0.0;
     double noise = 0.0; ///< a share of the smaller figure; smaller changes do not count
     Verdict verdict = Verdict::same;
@@ -27,7 +30,7 @@ struct Comparison {
     std::vector<std::string> only_b;  ///< rows only in run b
     std::vector<std::string> untimed; ///< rows of both runs without comparable times
     std::vector<std::string> notes;   ///< why a run is incomplete
-    bool same_environment = true;     ///< if false, ratios to texture replace times
+    bool same_environment = true; ///< if false, ratios to texture replace times, if there are any
     /// Number of worse figures and of rows only in run a.
     [[nodiscard]] std::size_t regressions() const;
 };
@@ -49,6 +52,25 @@ struct Comparison {
 /// - pixels without bound: 0, because rounding moves no place behind the eye.
 /// A missing error is worse than any; if neither run has one, nothing is compared.
 Comparison compare(const Results& a, const Results& b, double threshold = 0.10);
+
+/// Whether times can be compared.
+bool is_same_environment(const Environment& a, const Environment& b);
+
+/// Notes on runs that ended early. `run`: "first".
+void add_stop(std::vector<std::string>& notes, const std::optional<Error>& stopped,
+              std::string_view run);
+
+/// What is compared, as the options say.
+struct ComparedRuns {
+    std::string before; ///< files
+    std::string after;
+    std::string suite;
+    double threshold = 0.10; ///< a share
+    Environment environment; ///< of the second run
+};
+
+/// All changes, by verdict: worse, gone, better, new, no verdict, the same.
+FigureTable figure_table(const Comparison& comparison, const ComparedRuns& runs);
 
 std::string comparison_report(const Comparison& comparison);
 

@@ -6,10 +6,8 @@
 #include <limits>
 #include <random>
 
-#include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "app/cli/message.h"
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
 #include "bench/suites/frame_check.h"
@@ -265,44 +263,39 @@ ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::s
 }
 
 FigureTable figure_table(const ErrorBoundResults& results) {
+    using namespace columns;
     const ErrorBoundOptions& options = results.options;
-    const std::string size = size_text(options.suite.size);
-    FigureTable table{.schema = "reljef-bench-promise/1",
-                      .heading = fmt::format("--max-error {}, {}, {}, {} threads", options.error,
-                                             size, cli::printable(results.environment.renderer),
-                                             results.environment.threads),
-                      .settings = {{"environment", json_of(results.environment)},
-                                   {"size", size},
-                                   {"max_error", options.error},
-                                   {"poses", options.poses},
-                                   {"seed", options.seed}},
-                      .columns = {{"/scene", "scene"},
-                                  {"/views", "views"},
-                                  {"/placement", "placement"},
-                                  {"/max_error", "px"},
-                                  {"/frames", "frames"},
-                                  {"/pixels", "pixels"},
-                                  {"/violations", "violations"},
-                                  {"/holes", "holes"},
-                                  {"/stated_px", "stated px", 4},
-                                  {"/worst_px", "worst px", 4},
-                                  {"/worst_view", ""},
-                                  {"/triangles", "triangles", 0},
-                                  {"/ms/median", "ms"},
-                                  {"/ms/p95", ""},
-                                  {"/ms/p99", "p99 ms"}},
-                      .end = results.end};
+    FigureColumn bound = name("/max_error", "bound");
+    bound.unit = "px";
+    FigureTable table{
+        .suite = "lod-poses",
+        .environment = results.environment,
+        .shard = {},
+        .settings = {{"size", size_text(options.suite.size)},
+                     {"max_error", options.error},
+                     {"poses", options.poses},
+                     {"seed", options.seed},
+                     {"auto", options.automatic}},
+        .summary = {},
+        .columns = {group("/scene", "scene"), name("/views", "views"),
+                    name("/placement", "placement"), bound, plain("/frames", "frames"),
+                    plain("/pixels", "pixels"), less("/violations", "violations"),
+                    less("/holes", "holes"), less("/stated_px", "stated", "px", 4),
+                    less("/worst_px", "worst", "px", 4), detail(plain("/worst_view", "worst view")),
+                    less("/triangles", "triangles", "", 0), less("/ms/median", "median", "ms"),
+                    detail(less("/ms/p95", "p95", "ms")), less("/ms/p99", "p99", "ms")}};
+    table.end = results.end;
     for (const ErrorBoundRow& row : results.rows) {
         const auto& ms = row.ms;
         table.rows.push_back(
             {row.scene, row.views, placement_name(row.placement), row.error, row.frames, row.pixels,
              row.violations, row.holes, row.stated_px, row.worst_px, worst_view(row),
-             row.triangles ? FigureJson(*row.triangles) : FigureJson(),
-             ms ? FigureJson(ms->median) : FigureJson(), ms ? FigureJson(ms->p95) : FigureJson(),
-             ms ? FigureJson(ms->p99) : FigureJson()});
+             json_or_null(row.triangles), ms ? FigureJson(ms->median) : FigureJson(),
+             ms ? FigureJson(ms->p95) : FigureJson(), ms ? FigureJson(ms->p99) : FigureJson()});
     }
     if (!results.within_bound()) {
-        table.summary = "pixels farther off than stated, or holes, found; none were expected\n";
+        table.notes.emplace_back(
+            "Pixels farther off than stated, or holes, found; none were expected.");
     }
     return table;
 }

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "app/cli/console_log.h"
-#include "app/cli/message.h"
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
 #include "engine/core/process_memory.h"
@@ -73,48 +72,54 @@ Result<void> fly(session::TerrainScene& scene, const scene::CameraPath& path,
     return {};
 }
 
-FigureJson stream_json(const scene::TileStreamStats& stats) {
-    return {{"read", stats.read},
-            {"failed", stats.failed},
-            {"cancelled", stats.cancelled},
-            {"evicted", stats.evicted},
-            {"bytes_read", stats.bytes_read},
-            {"most_bytes", stats.max_bytes}};
-}
-
 double megabytes(std::size_t bytes) {
     return static_cast<double>(bytes) * 1e-6;
 }
 
-std::string times_line(std::string_view what, const std::vector<double>& ms) {
-    const Summary summary = summarize(ms);
-    return fmt::format("{}: median {:.2f} ms, p95 {:.2f}, p99 {:.2f}\n", what, summary.median,
-                       summary.p95, summary.p99);
+std::vector<FigureColumn> flight_columns() {
+    using namespace columns;
+    return {group("/terrain", "terrain"),
+            group("/path", "path"),
+            plain("/frames", "frames"),
+            less("/seconds", "all frames", "s"),
+            less("/seconds_to_first_frame", "first frame after", "s"),
+            less("/drawing_ms/median", "drawing, median", "ms"),
+            less("/drawing_ms/p95", "drawing, p95", "ms"),
+            less("/drawing_ms/p99", "drawing, p99", "ms"),
+            less("/waiting_ms/median", "waiting for tiles, median", "ms"),
+            less("/waiting_ms/p95", "waiting for tiles, p95", "ms"),
+            less("/waiting_ms/p99", "waiting for tiles, p99", "ms"),
+            plain("/tiles/read", "tiles read"),
+            less("/tiles/failed", "tiles failed"),
+            plain("/tiles/cancelled", "tiles cancelled"),
+            plain("/tiles/evicted", "tiles evicted"),
+            less("/tiles/bytes_read", "files read", "bytes", 1),
+            less("/tiles/most_bytes", "tiles in memory, at most", "bytes", 1),
+            less("/kept_error_px", "kept error, at most", "px"),
+            less("/median_kept_error_px", "kept error, median", "px"),
+            less("/tiles_unproven", "unproven tiles, at most"),
+            less("/faulty_files", "faulty files"),
+            detail(plain("/memory/allowed", "memory allowed", "bytes", 1)),
+            detail(plain("/memory/before", "memory before", "bytes", 1)),
+            less("/memory/most", "memory, at most", "bytes", 1),
+            less("/memory/share_of_allowed", "memory, share of the allowed")};
 }
 
-std::string heading(const FlightResults& results) {
-    const FlightOptions& options = results.options;
-    std::string text = fmt::format(
-        "{}, {}, {}, {} threads\nframes: {} in {:.1f} s, the first after {:.2f} s\n",
-        cli::printable(options.terrain.terrain), size_text(options.view.size),
-        cli::printable(results.environment.renderer), results.environment.threads,
-        results.times.drawing_ms.size(), results.seconds, results.seconds_to_first_frame);
-    text += times_line("drawing", results.times.drawing_ms);
-    text += times_line("waiting for tiles", results.times.waiting_ms);
-    if (const auto& stream = results.stream) {
-        text += fmt::format("tiles: {} read ({:.1f} MB of files), {} failed, {} cancelled, {} "
-                            "evicted, at most {:.1f} MB\n",
-                            stream->read, megabytes(stream->bytes_read), stream->failed,
-                            stream->cancelled, stream->evicted, megabytes(stream->max_bytes));
+void add_summary(FigureJson& row, const std::vector<double>& ms) {
+    const Summary summary = summarize(ms);
+    for (const double figure : {summary.median, summary.p95, summary.p99}) {
+        row.push_back(figure);
     }
-    if (const std::vector<double>& errors = results.kept_errors; !errors.empty()) {
-        text += fmt::format("kept error: median {:.2f} px, at most {:.2f}, unproven tiles: at most "
-                            "{}\n",
-                            summarize(errors).median, *std::ranges::max_element(errors),
-                            results.max_tiles_unproven);
+}
+
+void add_stream(FigureJson& row, const std::optional<scene::TileStreamStats>& stats) {
+    const std::vector<FigureJson> figures =
+        stats ? std::vector<FigureJson>{stats->read,    stats->failed,     stats->cancelled,
+                                        stats->evicted, stats->bytes_read, stats->max_bytes}
+              : std::vector<FigureJson>(6);
+    for (const FigureJson& figure : figures) {
+        row.push_back(figure);
     }
-    text.pop_back();
-    return text;
 }
 
 } // namespace
@@ -156,55 +161,48 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     return results;
 }
 
+Result<void> check_files(const FlightResults& results) {
+    return session::report_errors(results.options.terrain.terrain, results.failed_files);
+}
+
 FigureTable figure_table(const FlightResults& results) {
     const FlightOptions& options = results.options;
     const std::size_t budget = static_cast<std::size_t>(options.terrain.memory_megabytes) << 20U;
     const double share = (static_cast<double>(results.max_memory) -
                           static_cast<double>(results.times.memory_before)) /
                          static_cast<double>(budget);
-    const std::vector<double>& errors = results.kept_errors;
-    const FigureJson none(nullptr);
-    FigureTable table{
-        .schema = "reljef-bench-flight/1",
-        .heading = heading(results),
-        .settings = {{"environment", json_of(results.environment)},
-                     {"terrain", options.terrain.terrain},
-                     {"path", options.view.path},
-                     {"size", size_text(options.view.size)},
-                     {"frames", results.times.drawing_ms.size()},
-                     {"seconds", results.seconds},
-                     {"seconds_to_first_frame", results.seconds_to_first_frame},
-                     {"drawing_ms", json_of(summarize(results.times.drawing_ms))},
-                     {"waiting_ms", json_of(summarize(results.times.waiting_ms))},
-                     {"tiles", results.stream ? stream_json(*results.stream) : FigureJson()},
-                     {"waits_for_tiles", options.waits_for_tiles},
-                     {"kept_error_px",
-                      errors.empty() ? none : FigureJson(*std::ranges::max_element(errors))},
-                     {"median_kept_error_px",
-                      errors.empty() ? none : FigureJson(summarize(errors).median)},
-                     {"tiles_unproven", results.max_tiles_unproven},
-                     {"faulty_files", results.failed_files},
-                     {"memory",
-                      {{"allowed", budget},
-                       {"before", results.times.memory_before},
-                       {"most", results.max_memory},
-                       {"share_of_allowed", share}}}},
-        .end = results.end};
-    table.summary = fmt::format(
-        "memory: {:.1f} MB at most, {:.1f} MB before the terrain was read: {:.0f} % of the {} MiB "
-        "allowed\n",
-        megabytes(results.max_memory), megabytes(results.times.memory_before), 100.0 * share,
-        options.terrain.memory_megabytes);
-    return table;
-}
-
-Result<void> report(const FlightResults& results, const std::filesystem::path& json) {
+    FigureTable table{.suite = "flight",
+                      .environment = results.environment,
+                      .shard = {},
+                      .settings = {{"size", size_text(options.view.size)},
+                                   {"waits_for_tiles", options.waits_for_tiles}},
+                      .summary = {},
+                      .columns = flight_columns()};
+    table.end = results.end;
     if (results.times.drawing_ms.empty()) {
-        return results.end.stopped.value_or(Error{"no frames found, some were expected"});
+        return table;
     }
-    auto reported = report(figure_table(results), json);
-    return reported ? session::report_errors(results.options.terrain.terrain, results.failed_files)
-                    : reported;
+    FigureJson row{options.terrain.terrain, options.view.path, results.times.drawing_ms.size(),
+                   results.seconds, results.seconds_to_first_frame};
+    add_summary(row, results.times.drawing_ms);
+    add_summary(row, results.times.waiting_ms);
+    add_stream(row, results.stream);
+    const std::vector<double>& errors = results.kept_errors;
+    row.push_back(errors.empty() ? FigureJson() : FigureJson(*std::ranges::max_element(errors)));
+    row.push_back(errors.empty() ? FigureJson() : FigureJson(summarize(errors).median));
+    for (const std::size_t count :
+         {static_cast<std::size_t>(results.max_tiles_unproven), results.failed_files, budget,
+          results.times.memory_before, results.max_memory}) {
+        row.push_back(count);
+    }
+    row.push_back(share);
+    table.rows.push_back(std::move(row));
+    table.notes.push_back(fmt::format(
+        "Memory: {:.1f} MB at most, {:.1f} MB before the terrain was read: {:.0f} % of the {} MiB "
+        "allowed.",
+        megabytes(results.max_memory), megabytes(results.times.memory_before), 100.0 * share,
+        options.terrain.memory_megabytes));
+    return table;
 }
 
 } // namespace reljef::bench

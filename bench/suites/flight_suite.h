@@ -39,9 +39,10 @@ struct FlightResults {
 /// Fails without a terrain, path or context.
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop);
 
-FigureTable figure_table(const FlightResults& results);
+/// Fails if files of the terrain were skipped.
+Result<void> check_files(const FlightResults& results);
 
-/// As report() of a table. Also fails without a frame, and if files of the terrain were skipped.
-Result<void> report(const FlightResults& results, const std::filesystem::path& json);
+/// Without a row if there is no frame.
+FigureTable figure_table(const FlightResults& results);
 
 } // namespace reljef::bench

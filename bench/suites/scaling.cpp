@@ -229,19 +229,19 @@ void add_targets(const ScalingResults& results, FigureTable& table) {
     }
     const int budget = results.options.memory_megabytes;
     const bool fits = memory <= static_cast<std::size_t>(budget) << 20U;
-    table.summary = fmt::format(
-        "highest resolution over lowest: {:.2f} times the frame time (at most {}: {}); first "
-        "picture after {:.2f} s (at most {}: {}); {:.0f} MB (at most {}: {})\n",
+    table.notes.push_back(fmt::format(
+        "Highest resolution over lowest: {:.2f} times the frame time (at most {}: {}); first "
+        "picture after {:.2f} s (at most {}: {}); {:.0f} MiB (at most {}: {}).",
         frame_ratio, max_frame_ratio, verdict(frame_ratio <= max_frame_ratio), first_picture,
         max_first_picture, verdict(first_picture <= max_first_picture),
-        static_cast<double>(memory) / megabyte, budget, verdict(fits));
-    table.settings["marks"] = {{"frame_ratio", frame_ratio},
-                               {"first_picture_s", first_picture},
-                               {"memory_bytes", memory},
-                               {"met",
-                                {{"frame_ratio", frame_ratio <= max_frame_ratio},
-                                 {"first_picture_s", first_picture <= max_first_picture},
-                                 {"memory_bytes", fits}}}};
+        static_cast<double>(memory) / megabyte, budget, verdict(fits)));
+    table.summary = {{"frame_ratio", frame_ratio},
+                     {"first_picture_s", first_picture},
+                     {"memory_bytes", memory},
+                     {"met",
+                      {{"frame_ratio", frame_ratio <= max_frame_ratio},
+                       {"first_picture_s", first_picture <= max_first_picture},
+                       {"memory_bytes", fits}}}};
 }
 
 } // namespace
@@ -254,40 +254,30 @@ ScalingResults run_scaling(const ScalingOptions& options, const std::stop_token&
 }
 
 FigureTable figure_table(const ScalingResults& results) {
+    using namespace columns;
     const ScalingOptions& options = results.options;
-    FigureTable table{.schema = "reljef-bench-growth/1",
-                      .columns = {{"/side", "side"},
-                                  {"/pose", "pose"},
-                                  {"/streamed", "streamed"},
-                                  {"/first_picture_s", "first s"},
-                                  {"/last_picture_s", "last s"},
-                                  {"/frames", ""},
-                                  {"/ms/median", "ms"},
-                                  {"/ms/p95", ""},
-                                  {"/ms/p99", "p99 ms"},
-                                  {"/tiles", "tiles"},
-                                  {"/triangles", "triangles"},
-                                  {"/memory_bytes", ""},
-                                  {"", "MB", 0},
-                                  {"/pixels", ""},
-                                  {"/worst_px", "worst px", 3},
-                                  {"/p99_px", "p99 px", 3}},
-                      .end = results.end};
-    table.heading =
-        fmt::format("--max-error {}, --memory {}, {}, {}, {} threads", options.error,
-                    options.memory_megabytes, size_text(options.suite.size),
-                    cli::printable(results.environment.renderer), results.environment.threads);
-    table.settings = {{"environment", json_of(results.environment)},
-                      {"size", size_text(options.suite.size)},
-                      {"max_error", options.error},
-                      {"memory_mb", options.memory_megabytes},
-                      {"marks", nullptr}};
+    FigureTable table{
+        .suite = "lod-growth",
+        .environment = results.environment,
+        .shard = {},
+        .settings = {{"size", size_text(options.suite.size)},
+                     {"max_error", options.error},
+                     {"memory_mb", options.memory_megabytes}},
+        .summary = {},
+        .columns = {
+            name("/side", "side"), name("/pose", "pose"), plain("/streamed", "streamed"),
+            less("/first_picture_s", "first picture", "s"),
+            less("/last_picture_s", "last picture", "s"), detail(plain("/frames", "frames")),
+            less("/ms/median", "median", "ms"), detail(less("/ms/p95", "p95", "ms")),
+            less("/ms/p99", "p99", "ms"), plain("/tiles", "tiles"), less("/triangles", "triangles"),
+            less("/memory_bytes", "memory", "bytes", 0), detail(plain("/pixels", "checked pixels")),
+            less("/worst_px", "worst", "px", 3), less("/p99_px", "p99", "px", 3)}};
+    table.end = results.end;
     for (const ScalingRow& row : results.rows) {
         table.rows.push_back({row.side, scene::to_string(row.pose), row.streamed, row.first_picture,
                               row.last_picture, row.frames, row.ms.median, row.ms.p95, row.ms.p99,
-                              row.tiles, row.triangles, row.memory_bytes,
-                              static_cast<double>(row.memory_bytes) / megabyte, row.pixels,
-                              row.worst_px, row.p99_px});
+                              row.tiles, row.triangles, row.memory_bytes, row.pixels, row.worst_px,
+                              row.p99_px});
     }
     add_targets(results, table);
     return table;

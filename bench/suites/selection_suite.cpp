@@ -78,6 +78,9 @@ SelectionRow measure(ManyTiles& made, const SelectionView& view, const Selection
 
 SelectionResults run_selection(const SelectionOptions& options, const std::stop_token& stop) {
     SelectionResults results;
+    results.rounds = options.rounds;
+    results.environment =
+        environment_of({.renderer = "none", .version = "none", .context = "none"}, 1);
     cli::ProgressLine line("selecting tiles", options.suite.quiet);
     ManyTiles made;
     const auto filled = fill(made, options.copies);
@@ -90,16 +93,19 @@ SelectionResults run_selection(const SelectionOptions& options, const std::stop_
 }
 
 FigureTable figure_table(const SelectionResults& results) {
-    FigureTable table{.schema = "reljef-bench-selection/1",
-                      .heading = "selecting the tiles of a view, without drawing them",
-                      .settings = FigureJson::object(),
-                      .columns = {{"/view", "view"},
-                                  {"/tiles", "tiles"},
-                                  {"/seen", "selected"},
-                                  {"/median_ms", "ms", 3},
-                                  {"/p99_ms", "p99 ms", 3},
-                                  {"/ms_per_10000_tiles", "ms per 10,000", 3},
-                                  {"", "target 0.2 ms"}},
+    using namespace columns;
+    FigureTable table{.suite = "lod-selection",
+                      .environment = results.environment,
+                      .shard = {},
+                      .settings = FigureJson::object({{"rounds", results.rounds}}),
+                      .summary = {},
+                      .columns = {name("/view", "view"), plain("/tiles", "tiles"),
+                                  plain("/seen", "selected"), less("/median_ms", "median", "ms", 3),
+                                  less("/p99_ms", "p99", "ms", 3),
+                                  less("/ms_per_10000_tiles", "per 10,000 tiles", "ms", 3),
+                                  plain("/target", "target 0.2 ms")},
+                      .rows = {},
+                      .notes = {"Selects the tiles of a view, without drawing them."},
                       .end = results.end};
     for (const SelectionRow& row : results.rows) {
         const double ms = row.ms.median * 10'000.0 / static_cast<double>(row.tiles);

@@ -25,8 +25,10 @@ struct SelectionRow {
 };
 
 struct SelectionResults {
-    std::vector<SelectionRow> rows;
-    RunEnd end;
+    Environment environment = {}; ///< nothing is drawn
+    int rounds = 0;
+    std::vector<SelectionRow> rows = {};
+    RunEnd end = {};
 };
 
 FigureTable figure_table(const SelectionResults& results);

@@ -138,6 +138,7 @@ public:
 
 private:
     Result<void> make_devices() {
+        results_.settings = run_settings(options_.suite);
         if (options_.suite.context == session::BackendKind::cpu) {
             auto rays = make_rays_device(options_.suite);
             if (!rays) {

@@ -54,10 +54,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"lod", "--poses", "0"}, {"--poses", "0"}},
                     Misuse{{"lod", "--poses", "9", "--max-error", "nan"}, {"--max-error"}},
                     Misuse{{"lod", "--poses", "9", "--max-error", "-1"}, {"--max-error"}},
-                    Misuse{{"lod", "--poses", "9", "--csv", "a.csv"}, {"--poses", "--json"}},
                     Misuse{{"lod", "--max-error", "1"}, {"--max-error", "--poses"}},
                     Misuse{{"peers", "--rounds", "0"}, {"--rounds", "'0'"}},
-                    Misuse{{"peers", "--csv", "a.csv"}, {"--csv"}},
                     Misuse{{"peers", "--calibration", "a.json"}, {"--calibration"}},
                     Misuse{{"tables", "--terrain"}, {"--terrain"}},
                     Misuse{{"tables", "natural"}, {"natural"}}));

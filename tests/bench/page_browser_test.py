@@ -1,5 +1,5 @@
-"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE STRESS, folders
-with an index.html. Exits with 77 without a browser."""
+"""The report's page in a real browser: page_browser_test.py TABLES PARETO HOSTILE BARE STRESS FIGURES FLIGHT
+COMPARE, folders with an index.html. Exits with 77 without a browser."""
 
 import json
 import pathlib
@@ -9,7 +9,8 @@ import unittest
 
 from page_browser import ARROW_LEFT, ARROW_RIGHT, ENTER, Browser, missing_programs
 
-NAMES = ('tables', 'pareto', 'hostile', 'bare', 'stress')
+NAMES = ('tables', 'pareto', 'hostile', 'bare', 'stress', 'figures', 'flight', 'compare')
+WIDE = ('tables', 'pareto', 'hostile', 'bare', 'stress')  # tables wider than a phone
 PAGES = {}
 SKIPPED = 77
 
@@ -72,6 +73,58 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.browser.script("return document.querySelectorAll('.plot path').length"), 2)
         self.assertIsNone(self.browser.script('return window.broken || null'))
         self.assertEqual(self.browser.script("return document.querySelectorAll('#tables td *:not(.tag)').length"), 0)
+
+    # --- documents with columns -----------------------------------------------------------------
+
+    def titles(self):
+        return self.browser.script("return [...document.querySelectorAll('#tables h3, #tables summary')].map(node => node.textContent)")
+
+    def names(self):
+        return self.browser.script("return [...document.querySelectorAll('#tables tbody th')].map(node => node.textContent)")
+
+    def test_rows_with_columns_are_a_table_for_each_group_and_names_stay_text(self):
+        self.open('figures')
+        rows = self.report['rows']
+        self.assertEqual(self.titles(), [rows[0]['scene'], 'urban'])
+        self.assertIn('<script>', rows[0]['scene'])
+        self.assertEqual(self.names(), [row['what'] for row in rows])
+        self.assertIsNone(self.browser.script('return window.broken || null'))
+        self.assertEqual(self.browser.script("return document.querySelectorAll('img').length"), 0)
+        heads = self.browser.script("return [...document.querySelectorAll('#tables table')].map(table => [...table.querySelectorAll('thead th')].map(head => head.textContent.replace('↕', '')))")
+        self.assertIn('sent, MB', heads[0])
+        self.assertNotIn('sent, MB', heads[1], 'no row of it has a value')
+        self.assertIn('A note.', self.browser.script("return document.querySelector('.remark').textContent"))
+
+    def test_bars_are_as_long_as_their_figures(self):
+        self.open('figures')
+        widths = self.browser.script("return [...document.querySelectorAll('.plot')[0].querySelectorAll('.stick')].map(bar => bar.getBoundingClientRect().width)")
+        self.assertEqual(len(widths), 2)  # times of two rows
+        self.assertAlmostEqual(widths[1] / widths[0], 2.0, delta=0.05)
+
+    def test_a_click_sorts_rows_with_columns_and_all_columns_can_be_shown(self):
+        self.open('figures')
+        first = self.names()[:2]
+        self.browser.script("[...document.querySelectorAll('#tables thead th')].find(head => head.textContent.startsWith('rate')).querySelector('button').click()")
+        self.assertEqual(self.names()[:2], first[::-1])
+        shown = "return getComputedStyle([...document.querySelectorAll('#tables thead th')].find(head => head.textContent.startsWith('noise'))).display"
+        self.assertEqual(self.browser.script(shown), 'none')
+        self.browser.click('#details')
+        self.assertEqual(self.browser.script(shown), 'table-cell')
+
+    def test_a_flight_shows_its_percentiles_and_a_line_for_each_figure(self):
+        self.open('flight')
+        values = self.browser.script("return [...document.querySelectorAll('.bar-value')].map(node => node.textContent)")
+        self.assertEqual(len(values), 6)
+        self.assertIn('frames', self.names())
+        self.assertEqual(self.browser.script("return document.querySelectorAll('#tables thead').length"), 0)
+
+    def test_changes_are_shown_by_verdict_and_the_same_ones_are_folded(self):
+        self.open('compare')
+        self.assertEqual(self.titles()[0], 'worse')
+        self.assertTrue(self.titles()[-1].startswith('same: '))
+        self.assertFalse(self.browser.script("return document.querySelector('#tables details').open"))
+        tiles = self.browser.script("return [...document.querySelectorAll('.tile')].map(tile => tile.textContent)")
+        self.assertIn('Worse1', tiles)
 
     def notice(self):
         return self.browser.script("return (document.querySelector('.notice[role=note]') || {}).textContent || ''")
@@ -296,7 +349,7 @@ class PageTest(unittest.TestCase):
                     .filter(node => !node.closest('.scroll table, .skip, .over, script') && node.getBoundingClientRect().right > 390.5)
                     .map(node => node.outerHTML.slice(0, 120));''')
             self.assertEqual(outside, [], page)
-            self.assertTrue(self.browser.script('''
+            self.assertTrue(page not in WIDE or self.browser.script('''
                 return [...document.querySelectorAll('.scroll')].every(box => box.scrollWidth > box.clientWidth)'''))
 
     def test_dark_differs_from_light_and_both_can_be_read(self):

@@ -53,6 +53,7 @@ TEST(DistanceSuite, AnErrorInPixelsShrinksAsTheEyeGoesAwayAndExactHasNone) {
     const auto json = nlohmann::json::parse(figure_json(figure_table(results)));
     EXPECT_EQ(json["rows"][2]["at"], "1 km");
     EXPECT_EQ(json["rows"][0]["at"], "100 m");
+    EXPECT_EQ(json["rows"][2]["distance_m"], 1000.0);
     EXPECT_TRUE(json["rows"][0]["error"]["wrong_percent"].is_number());
 }
 
@@ -67,10 +68,8 @@ TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentence) {
 }
 
 TEST(DistanceSuite, RefusesWhatItDoesNotUse) {
-    for (const std::vector<std::string>& more : {std::vector<std::string>{"--pose", "low"},
-                                                 {"--rounds", "5"},
-                                                 {"--csv", "a.csv"},
-                                                 {"--cold"}}) {
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"--pose", "low"}, {"--rounds", "5"}, {"--cold"}}) {
         std::vector<std::string> arguments{"tables", "--distances"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto run = test::reljef_bench(arguments);

@@ -9,7 +9,10 @@
 
 #include "bench/report/report_json.h"
 #include "bench/stress/stress_results.h"
+#include "bench/suites/compare.h"
+#include "bench/suites/flight_suite.h"
 #include "tests/bench/page/made_page.h"
+#include "tests/bench/report/made_figures.h"
 #include "tests/bench/report/made_results.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
@@ -40,6 +43,11 @@ std::string data_of(const std::string& page, const std::string& id) {
 Result<void> write_page(const std::filesystem::path& folder, const Results& results) {
     auto page = prepare_page(folder, results);
     return page ? page->file.commit() : page.error();
+}
+
+void write_table(const std::filesystem::path& folder, const FigureTable& table) {
+    auto page = prepare_page(folder, table);
+    ASSERT_TRUE(page && page->file.commit());
 }
 
 std::string page_of(const Results& results) {
@@ -163,6 +171,40 @@ TEST(DataUri, is_base64_as_the_standard_has_it) {
     }
 }
 
+// Stress, figures, a flight and a comparison, whose names are `hostile`.
+void write_pages_with_columns(const std::filesystem::path& folder, const std::string& hostile) {
+    StressResults stress;
+    for (const double elevation : {90.0, 1.0}) {
+        for (const char* technique : {"relief:n=11", "exact"}) {
+            stress.add({.stress = "grazing view",
+                        .terrain = hostile,
+                        .technique = technique,
+                        .figure = "% of pixels wrong",
+                        .value = 0.1 * elevation,
+                        .limit = 0.1,
+                        .at = std::to_string(elevation) + " degrees"});
+        }
+    }
+    write_table(folder / "stress", figure_table(stress));
+
+    FigureTable figures = test::made_figures();
+    figures.rows[0][0] = figures.rows[1][0] = hostile;
+    write_table(folder / "figures", figures);
+    FlightResults flight;
+    flight.options.terrain.memory_megabytes = 64;
+    flight.times.drawing_ms = {4.0, 5.0, 6.0};
+    flight.times.waiting_ms = {0.0, 1.0, 9.0};
+    write_table(folder / "flight", figure_table(flight));
+    Results worse = test::made_results();
+    worse.rows[1].error->flip = 0.9;
+    write_table(folder / "compare",
+                figure_table(compare(test::made_results(), worse), {.before = "a.json",
+                                                                    .after = "b.json",
+                                                                    .suite = "tables",
+                                                                    .threshold = 0.1,
+                                                                    .environment = {}}));
+}
+
 // Skipped without a browser.
 TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     RELJEF_RELEASE_ONLY("the browser is not ours, and the page has tests of its own");
@@ -181,20 +223,7 @@ TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     }
     ASSERT_TRUE(write_page(folder.path() / "bare", bare));
 
-    StressResults stress;
-    for (const double elevation : {90.0, 1.0}) {
-        for (const char* technique : {"relief:n=11", "exact"}) {
-            stress.add({.stress = "grazing view",
-                        .terrain = hostile,
-                        .technique = technique,
-                        .figure = "% of pixels wrong",
-                        .value = 0.1 * elevation,
-                        .limit = 0.1,
-                        .at = std::to_string(elevation) + " degrees"});
-        }
-    }
-    auto page = prepare_stress_page(folder.path() / "stress", figure_json(figure_table(stress)));
-    ASSERT_TRUE(page && page->file.commit());
+    write_pages_with_columns(folder.path(), hostile);
 
     const auto folder_of = [&](const char* name) { return (folder.path() / name).string(); };
     test::ProgramOptions options;
@@ -202,7 +231,8 @@ TEST(PageInBrowser, loads_plots_sorts_wipes_and_fits_everywhere) {
     const auto result =
         test::run_program(RELJEF_PYTHON3,
                           {RELJEF_PAGE_BROWSER_TEST, folder_of("tables"), folder_of("pareto"),
-                           folder_of("hostile"), folder_of("bare"), folder_of("stress")},
+                           folder_of("hostile"), folder_of("bare"), folder_of("stress"),
+                           folder_of("figures"), folder_of("flight"), folder_of("compare")},
                           options);
     constexpr int skipped = 77;
     constexpr int not_started = 127;

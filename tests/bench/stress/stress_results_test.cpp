@@ -63,8 +63,8 @@ TEST(StressResults, ReportsEveryRowWithLimitAndVerdict) {
     results.add(row_of(std::nan(""), 0.0));
     results.add(row_of(7.0, std::nullopt));
     const auto json = nlohmann::json::parse(figure_json(figure_table(results)));
-    EXPECT_EQ(json.at("schema"), "reljef-bench-stress/1");
-    EXPECT_EQ(json.at("over"), 1);
+    EXPECT_EQ(json.at("suite"), "stress");
+    EXPECT_EQ(json.at("summary").at("over"), 1);
     ASSERT_EQ(json.at("rows").size(), 3U);
     EXPECT_EQ(json["rows"][0]["value"], 2.5);
     EXPECT_EQ(json["rows"][0]["limit"], 3.0);
@@ -125,10 +125,11 @@ TEST(StressReports, DamageIsNamedWithItsPlace) {
     const test::TemporaryFolder folder;
     const std::string json = figure_json(figure_table(part_of({}, {row_by("scale", 1.0)})));
     for (const auto& [from, to, place] :
-         {std::tuple("reljef-bench-stress/1", "reljef-bench/1", "schema"),
+         {std::tuple("reljef-bench/1", "reljef-bench-stress/1", "schema"),
+          {"\"suite\": \"stress\"", "\"suite\": \"peers\"", "suite"},
           {"\"value\": 1.0", "\"value\": \"1\"", "rows[0].value"},
-          {"\"exact\"", "\"exactly\"", "techniques"},
-          {"1024x768", "1024", "size"}}) {
+          {"\"exact\"", "\"exactly\"", "settings.techniques"},
+          {"1024x768", "1024", "settings.size"}}) {
         std::string damaged = json;
         ASSERT_NE(damaged.find(from), std::string::npos) << from;
         damaged.replace(damaged.find(from), std::string_view(from).size(), to);

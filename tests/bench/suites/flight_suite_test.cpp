@@ -55,10 +55,12 @@ TEST(Flight, counts_what_it_read_took_and_waited_for) {
     EXPECT_GE(results->seconds, results->seconds_to_first_frame);
     EXPECT_GE(results->max_memory, results->times.memory_before);
     const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
-    EXPECT_EQ(report.at("schema"), "reljef-bench-flight/1");
-    EXPECT_EQ(report.at("frames"), 4);
-    EXPECT_EQ(report.at("tiles").at("read"), results->stream->read);
-    EXPECT_EQ(report.at("memory").at("allowed"), 1 << 20);
+    EXPECT_EQ(report.at("suite"), "flight");
+    ASSERT_EQ(report.at("rows").size(), 1U);
+    const auto& row = report.at("rows").at(0);
+    EXPECT_EQ(row.at("frames"), 4);
+    EXPECT_EQ(row.at("tiles").at("read"), results->stream->read);
+    EXPECT_EQ(row.at("memory").at("allowed"), 1 << 20);
 }
 
 TEST(Flight, that_does_not_wait_draws_what_is_there_and_states_its_error) {
@@ -74,8 +76,9 @@ TEST(Flight, that_does_not_wait_draws_what_is_there_and_states_its_error) {
         EXPECT_EQ(results->times.drawing_ms.size(), 4U);
         EXPECT_EQ(results->times.waiting_ms, std::vector<double>(4, 0.0));
         const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
-        EXPECT_EQ(report.at("waits_for_tiles"), false);
-        EXPECT_GE(report.at("kept_error_px"), report.at("median_kept_error_px"));
+        EXPECT_EQ(report.at("settings").at("waits_for_tiles"), false);
+        const auto& row = report.at("rows").at(0);
+        EXPECT_GE(row.at("kept_error_px"), row.at("median_kept_error_px"));
     }
 }
 
@@ -90,7 +93,7 @@ TEST(Flight, FromStandardInputNamesNoTemporaryFile) {
                            "--context", "osmesa", "--quiet", "--json", json.string()},
                           options);
     ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(nlohmann::json::parse(test::read_bytes(json)).at("terrain"), "-");
+    EXPECT_EQ(nlohmann::json::parse(test::read_bytes(json)).at("rows").at(0).at("terrain"), "-");
     EXPECT_THAT(result.out, testing::Not(testing::HasSubstr(".reljef-")));
 }
 
