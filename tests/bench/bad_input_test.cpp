@@ -87,8 +87,6 @@ TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     const std::string json = (folder.path() / "rows.json").string();
     for (const std::vector<std::string>& suite :
          {std::vector<std::string>{"tables", "--technique", "relief"},
-          {"pareto", "--technique", "relief"},
-          {"lod"},
           {"lod", "--poses", "4"},
           {"skip", "--kind", "frustum"}}) {
         std::vector<std::string> arguments = suite;
