@@ -6,6 +6,7 @@
 
 #include "engine/building/building_faces.h"
 #include "engine/building/city_form.h"
+#include "engine/core/grid.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/terrain/field/heightfield.h"
@@ -36,6 +37,8 @@ struct City {
     terrain::Terrain terrain;
     /// On a plane, metres from the middle of the terrain, and above the street; cut at its border.
     std::vector<building::PaintedFaces> buildings;
+    /// Of the form `heights`: where the buildings are meshes, else empty.
+    Grid<float> heights;
 };
 /// The bare ground keeps trees, cars and hedges. On a level plane these are painted only. Colours
 /// of the ground get the same darkening in all forms.

@@ -1,5 +1,6 @@
 #include "app/cli/interrupt.h"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -24,35 +25,44 @@ sigset_t stop_signals() {
 // Signals within this time count as one: `timeout` and some shells deliver a signal twice.
 constexpr std::chrono::milliseconds one_signal{500};
 
-void watch(const std::stop_token& end, std::stop_source& source) {
+void watch(const std::stop_token& end, std::stop_source& source,
+           const std::atomic<std::chrono::milliseconds>& patience) {
     const sigset_t signals = stop_signals();
     const timespec pause{0, 50'000'000}; // longest delay at the program's end
     std::chrono::steady_clock::time_point first;
+    int first_signal = 0;
     while (!end.stop_requested()) {
         const int signal = sigtimedwait(&signals, nullptr, &pause);
-        if (signal <= 0) {
-            continue;
-        }
-        const auto now = std::chrono::steady_clock::now();
-        if (!source.stop_requested()) {
-            first = now;
+        const auto since_first = std::chrono::steady_clock::now() - first;
+        if (signal > 0 && first_signal == 0) {
+            first = std::chrono::steady_clock::now();
+            first_signal = signal;
             source.request_stop();
-        } else if (now - first > one_signal) {
+        } else if (signal > 0 && since_first > one_signal) {
             std::_Exit(128 + signal);
+        }
+        const std::chrono::milliseconds longest = patience;
+        if (first_signal > 0 && longest.count() > 0 &&
+            std::chrono::steady_clock::now() - first > longest) {
+            std::_Exit(128 + first_signal);
         }
     }
 }
 
 } // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt()
+    : patience_(
+          std::make_shared<std::atomic<std::chrono::milliseconds>>(std::chrono::milliseconds(0))) {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     // A file that is too large and a closed pipe become errors of writing.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    watcher_ = std::jthread(
-        [source = source_](const std::stop_token& end) mutable { watch(end, source); });
+    watcher_ =
+        std::jthread([source = source_, patience = patience_](const std::stop_token& end) mutable {
+            watch(end, source, *patience);
+        });
 }
 
 } // namespace reljef::cli

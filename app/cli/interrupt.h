@@ -1,5 +1,8 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
+#include <memory>
 #include <stop_token>
 #include <thread>
 
@@ -16,8 +19,13 @@ public:
     [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
     [[nodiscard]] bool requested() const { return source_.stop_requested(); }
 
+    /// If the program still runs so long after the first signal, it ends as by a second one: for
+    /// loops that may wait for a driver, which nothing interrupts. `time` > 0.
+    void end_after(std::chrono::milliseconds time) const { *patience_ = time; }
+
 private:
     std::stop_source source_;
+    std::shared_ptr<std::atomic<std::chrono::milliseconds>> patience_; // 0: for ever
     std::jthread watcher_;
 };
 

@@ -72,7 +72,7 @@ scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 s
     if (camera.projection == scene::ProjectionKind::perspective) {
         return camera;
     }
-    const scene::Camera whole = scene::whole_camera(scene.bounds, camera.vertical_fov,
+    const scene::Camera whole = scene::whole_camera(scene.shown_bounds(), camera.vertical_fov,
                                                     static_cast<double>(size.x) / size.y);
     camera.projection = scene::ProjectionKind::perspective;
     camera.eye = whole.eye;

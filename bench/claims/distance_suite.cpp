@@ -4,6 +4,7 @@
 
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
+#include "bench/runner/problems.h"
 
 namespace reljef::bench {
 namespace {
@@ -31,6 +32,21 @@ Result<void> measure_distance(BenchmarkScene& scene, double distance, session::D
     return {};
 }
 
+Result<void> measure_terrain(const std::string& terrain, session::Device& device,
+                             DistanceResults& results, const std::stop_token& stop) {
+    auto scene = BenchmarkScene::open({terrain}, results.options.suite, stop);
+    if (!scene) {
+        return scene.error();
+    }
+    for (const double distance : results.options.distances) {
+        if (auto measured = measure_distance(*scene, distance, device, results, stop); !measured) {
+            return measured;
+        }
+    }
+    device.renderer().forget_scene();
+    return {};
+}
+
 Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) {
     const DistanceOptions& options = results.options;
     auto device = make_device(options.suite);
@@ -39,24 +55,14 @@ Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) 
     }
     results.environment = environment_of(*device, options.suite.threads);
     cli::ProgressLine line("measuring distances", options.suite.quiet);
-    const auto views = static_cast<double>(options.terrains.size()) *
-                       static_cast<double>(options.distances.size());
-    double done = 0.0;
-    for (const std::string& terrain : options.terrains) {
-        auto scene = BenchmarkScene::open({terrain}, options.suite, stop);
-        if (!scene) {
-            return scene.error();
+    Problems problems;
+    for (std::size_t i = 0; i < options.terrains.size() && !stop.stop_requested(); ++i) {
+        if (auto done = measure_terrain(options.terrains[i], *device, results, stop); !done) {
+            problems.add(done.error());
         }
-        for (const double distance : options.distances) {
-            if (auto measured = measure_distance(*scene, distance, *device, results, stop);
-                !measured) {
-                return measured;
-            }
-            line.update(++done / views);
-        }
-        device->renderer().forget_scene();
+        line.update(static_cast<double>(i + 1) / static_cast<double>(options.terrains.size()));
     }
-    return {};
+    return problems.end();
 }
 
 FigureJson json_rms(const std::optional<RowError::Geometric>& error) {
@@ -75,6 +81,7 @@ DistanceResults run_distances(const DistanceOptions& options, const std::stop_to
     results.options = options;
     const auto done = measure_all(results, stop);
     results.end = run_end(done, stop, !results.rows.empty());
+    results.end.failed = results.end.failed && results.rows.empty();
     return results;
 }
 

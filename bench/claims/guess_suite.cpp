@@ -7,6 +7,7 @@
 #include "app/cli/progress_line.h"
 #include "bench/report/report_json.h"
 #include "bench/runner/benchmark_scene.h"
+#include "bench/runner/problems.h"
 #include "engine/material/color_relief.h"
 #include "engine/truth/draw.h"
 
@@ -165,12 +166,15 @@ GuessResults run_guesses(const GuessOptions& options, const std::stop_token& sto
         {.renderer = "exact rays in double precision", .version = "none", .context = "cpu"},
         options.suite.threads);
     cli::ProgressLine line("guessing heights", options.suite.quiet);
-    Result<void> done;
-    for (std::size_t i = 0; i < options.terrains.size() && done && !stop.stop_requested(); ++i) {
-        done = measure_terrain(options.terrains[i], results, stop);
+    Problems problems;
+    for (std::size_t i = 0; i < options.terrains.size() && !stop.stop_requested(); ++i) {
+        if (auto done = measure_terrain(options.terrains[i], results, stop); !done) {
+            problems.add(done.error());
+        }
         line.update(static_cast<double>(i + 1) / static_cast<double>(options.terrains.size()));
     }
-    results.end = run_end(done, stop, !results.rows.empty());
+    results.end = run_end(problems.end(), stop, !results.rows.empty());
+    results.end.failed = results.end.failed && results.rows.empty();
     return results;
 }
 

@@ -13,6 +13,7 @@
 #include "bench/report/row_view.h"
 #include "bench/runner/benchmark_scene.h"
 #include "bench/runner/measure.h"
+#include "bench/runner/problems.h"
 #include "bench/runner/time_table.h"
 #include "engine/core/stopwatch.h"
 #include "engine/session/scene_renderer.h"
@@ -136,6 +137,7 @@ public:
             auto city = CityForms::open(choice, options_.suite, stop_);
             if (!city) {
                 note(city.error().message);
+                problems_.add(city.error());
                 parts_done_ += views.size();
                 continue;
             }
@@ -146,7 +148,7 @@ public:
         return results_.rows.empty()
                    ? Result<void>(Error{
                          fmt::format("no city was measured: {}", fmt::join(results_.notes, "; "))})
-                   : Result<void>();
+                   : problems_.end();
     }
 
 private:
@@ -324,6 +326,7 @@ private:
     RowViews views_;
     Stopwatch since_run_;
     bool is_software_ = true;
+    Problems problems_;
     std::size_t parts_ = 1;
     std::size_t parts_done_ = 0;
 };
@@ -339,7 +342,7 @@ Results run_objects(const ObjectsOptions& options, const std::stop_token& stop) 
                                        : "interrupted, the tables hold the views done until then"};
     } else if (!done) {
         results.stopped = done.error();
-        results.failed = true;
+        results.failed = results.rows.empty();
     }
     return results;
 }

@@ -173,8 +173,7 @@ Result<BenchmarkScene> BenchmarkScene::open(const SceneChoice& choice, const Sui
 void set_pose(session::TerrainScene& scene, scene::Pose pose) {
     scene::Camera& camera = *scene.camera->get<scene::Camera>();
     const double near = camera.near;
-    camera = scene::pose_camera(pose, scene.bounds,
-                                [&](double x, double y) { return scene.ground(x, y); });
+    camera = scene.pose_camera(pose);
     camera.near = near;
 }
 

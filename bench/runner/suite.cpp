@@ -12,6 +12,7 @@
 #include "app/cli/progress_line.h"
 #include "bench/runner/measure.h"
 #include "bench/runner/moving_view.h"
+#include "bench/runner/problems.h"
 #include "bench/runner/time_table.h"
 #include "engine/core/stopwatch.h"
 
@@ -208,17 +209,22 @@ public:
         results_.environment = environment_of(*device, options_.threads);
         results_.settings = run_settings(options_);
         is_software_ = device->info().is_software;
-        if (auto opened = open_scenes(); !opened) {
-            return opened;
-        }
+        open_scenes();
         SuiteProgress progress(suite_.name, suite_.groups.size(), options_);
         for (std::size_t i = 0; i < suite_.groups.size() && !stop_.stop_requested(); ++i) {
             progress.begin_group(i);
-            if (auto done = run_group(i, device->renderer(), progress); !done) {
-                return done;
+            if (is_left_out(suite_.groups[i].scene)) {
+                continue;
+            }
+            if (auto done = run_group(i, device->renderer(), progress);
+                !done && !stop_.stop_requested()) {
+                problems_.add(done.error());
             }
         }
-        return {};
+        for (const std::string& sentence : problems_.sentences()) {
+            results_.notes.push_back(sentence);
+        }
+        return problems_.end();
     }
 
 private:
@@ -228,23 +234,32 @@ private:
         return shared_names_.contains(scene.name()) ? group.scene.terrain : scene.name();
     }
 
-    // Opens all scenes first: an error in the last one costs no measuring.
-    Result<void> open_scenes() {
+    [[nodiscard]] bool is_left_out(const SceneChoice& scene) const {
+        return std::find(left_out_.begin(), left_out_.end(), scene) != left_out_.end();
+    }
+
+    // Opens all scenes first, so that their names are known. A scene that cannot be opened costs
+    // the others nothing.
+    void open_scenes() {
         if (!suite_.keep_scenes) {
-            return {};
+            return;
         }
         std::map<std::string, SceneChoice> owners; // by name
         for (const Group& group : suite_.groups) {
+            if (stop_.stop_requested() || is_left_out(group.scene)) {
+                continue;
+            }
             const auto scene = scenes_.get(group.scene);
             if (!scene) {
-                return scene.error();
+                problems_.add(scene.error());
+                left_out_.push_back(group.scene);
+                continue;
             }
             const std::string& name = (*scene)->name();
             if (owners.emplace(name, group.scene).first->second != group.scene) {
                 shared_names_.insert(name);
             }
         }
-        return {};
     }
 
     Result<void> run_group(std::size_t index, session::SceneRenderer& driver,
@@ -439,6 +454,8 @@ private:
     bool is_software_ = true;
     std::map<std::string, double> frame_seconds_; // by label
     std::set<std::string> shared_names_;
+    std::vector<SceneChoice> left_out_; // scenes that cannot be opened
+    Problems problems_;
 };
 
 } // namespace
@@ -466,7 +483,7 @@ Results run_suite(const Suite& suite, const SuiteOptions& options, const std::st
                                          "until then"};
     } else if (!done) {
         results.stopped = done.error();
-        results.failed = true;
+        results.failed = results.rows.empty();
     }
     return results;
 }

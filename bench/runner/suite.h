@@ -39,7 +39,8 @@ struct Suite {
 
 /// Measures a suite group by group: first the error of each candidate, then its frame time. Rows
 /// are in the order of the groups, each group's null row last. A run that is stopped or fails keeps
-/// its rows; after a stop it draws the checked candidates once. Fails without groups. With
+/// its rows; after a stop it draws the checked candidates once. A scene that cannot be opened or
+/// measured is a note, and the run fails at its end. Fails without groups. With
 /// session::BackendKind::cpu, OpenGL draws the candidates, and rays on the CPU beside it those that
 /// are exact or keep an error bound; their labels say so.
 Results run_suite(const Suite& suite, const SuiteOptions& options, const std::stop_token& stop);

@@ -10,6 +10,7 @@
 
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
+#include "bench/runner/problems.h"
 #include "bench/suites/frame_check.h"
 #include "bench/suites/random_views.h"
 #include "engine/scene/motion/camera_path.h"
@@ -63,11 +64,11 @@ public:
         }
         results_.environment = environment_of(*device, options_.suite.threads);
         for (std::size_t i = 0; i < options_.terrains.size() && !stop_.stop_requested(); ++i) {
-            if (auto done = run_terrain(i, device->renderer()); !done) {
-                return done;
+            if (auto done = run_terrain(i, device->renderer()); !done && !stop_.stop_requested()) {
+                problems_.add(done.error());
             }
         }
-        return {};
+        return problems_.end();
     }
 
 private:
@@ -230,6 +231,7 @@ private:
     std::stop_token stop_;
     ViewGenerators generators_;
     cli::ProgressLine line_;
+    Problems problems_;
     double frames_ = 0.0;
 };
 
@@ -259,6 +261,7 @@ ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::s
     ErrorBoundResults results{.options = options};
     const auto done = ErrorBoundRun(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
+    results.end.failed = results.end.failed && results.rows.empty();
     return results;
 }
 

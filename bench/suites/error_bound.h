@@ -61,7 +61,8 @@ FigureTable figure_table(const ErrorBoundResults& results);
 /// Draws each terrain from random poses, half of them on the ellipsoid if it has a place there, and
 /// on a plane along the paths orbit and flyover. Computes the exact reprojection error of a
 /// sixteenth of the pixels of each random pose, alternating, and of all pixels of the flights.
-/// Keeps its rows when it is stopped or fails.
+/// Keeps its rows when it is stopped or fails. A terrain that cannot be judged costs the others
+/// nothing; the run fails at its end.
 ErrorBoundResults run_error_bound(const ErrorBoundOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

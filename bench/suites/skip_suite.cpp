@@ -13,6 +13,7 @@
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
 #include "bench/runner/measure.h"
+#include "bench/runner/problems.h"
 #include "bench/runner/time_table.h"
 #include "bench/suites/skip_check.h"
 #include "bench/suites/skip_kinds.h"
@@ -126,14 +127,15 @@ public:
                 if (stop_.stop_requested()) {
                     return {};
                 }
-                if (auto done = run_test(group, test); !done) {
-                    return done;
+                if (auto done = run_test(group, test); !done && !stop_.stop_requested()) {
+                    problems_.add(done.error());
+                    note(done.error().message);
                 }
                 ++parts_done_;
                 line_.update(as_number(parts_done_) / as_number(parts_));
             }
         }
-        return {};
+        return problems_.end();
     }
 
 private:
@@ -449,6 +451,7 @@ private:
     std::optional<SceneChoice> scene_choice_;
     std::optional<BenchmarkScene> scene_;
     Grid<view::PixelWork> work_; // of the last variant
+    Problems problems_;
 };
 
 } // namespace
@@ -463,7 +466,7 @@ Results run_skip(const SkipOptions& options, const std::stop_token& stop) {
                                        : "interrupted, the tables hold the tests done until then"};
     } else if (!done) {
         results.stopped = done.error();
-        results.failed = true;
+        results.failed = results.rows.empty();
     }
     return results;
 }

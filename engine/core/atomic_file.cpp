@@ -354,6 +354,25 @@ Result<void> write_text_file(const fs::path& path, std::string_view text) {
     return write_file(path, std::as_bytes(std::span(text)));
 }
 
+std::string_view kind_of_file(const fs::path& path) {
+    std::error_code code;
+    switch (fs::status(path, code).type()) {
+    case fs::file_type::regular:
+        return "a file";
+    case fs::file_type::directory:
+        return "a folder";
+    case fs::file_type::fifo:
+        return "a pipe";
+    case fs::file_type::socket:
+        return "a socket";
+    case fs::file_type::block:
+    case fs::file_type::character:
+        return "a device";
+    default:
+        return "nothing";
+    }
+}
+
 Result<std::string> read_text_file(const fs::path& path, std::size_t limit) {
     std::error_code code;
     if (fs::is_directory(path, code)) {

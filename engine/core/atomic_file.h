@@ -90,6 +90,10 @@ Result<AtomicFile> prepare_file(const std::filesystem::path& path,
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_text_file(const std::filesystem::path& path, std::string_view text);
 
+/// What lies at a path, for errors: "a file", "a folder", "a device", "a pipe", "a socket" or
+/// "nothing". Links are followed.
+std::string_view kind_of_file(const std::filesystem::path& path);
+
 /// The content of a file of at most `limit` bytes.
 Result<std::string> read_text_file(const std::filesystem::path& path,
                                    std::size_t limit = std::size_t{1} << 24);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/geo/georeference.h"
 #include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/streaming/tile_stream.h"
 
@@ -203,6 +204,30 @@ std::string lift_note(const Lift& lift, std::string_view what) {
     return fmt::format("{}: {} m below the ground: lifted to {} m above it; "
                        "--allow-underground keeps it",
                        what, metres_text(lift.depth), metres_text(lift.metres - lift.depth));
+}
+
+std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {
+    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const auto& georeference = surface.heightfield().georeference;
+    if (surface.placement().kind() != terrain::PlacementKind::ellipsoid || !georeference ||
+        geo::is_ellipsoidal(georeference->vertical_datum)) {
+        return std::nullopt;
+    }
+    const std::string& name = surface.terrain().name;
+    const std::string& datum = georeference->vertical_datum;
+    if (georeference->geoid) {
+        return datum.empty() || geo::is_egm96(datum)
+                   ? std::nullopt
+                   : std::optional(fmt::format("{}: its heights count from \"{}\": taken as from "
+                                               "the geoid {}, whatever lies between",
+                                               name, datum, georeference->geoid->name()));
+    }
+    if (terrain.geoid == "none") {
+        return std::nullopt;
+    }
+    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
+                       "from the ellipsoid on; --geoid FILE names one",
+                       name, datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
 } // namespace reljef::session

@@ -20,6 +20,10 @@ std::optional<scene::GroundBelow> ground_below(const scene::TerrainNode& terrain
 /// The eye, lifted along the local vertical to `clearance` metres above everything drawn below it.
 glm::dvec3 above_ground(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance);
 
+/// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
+/// user, or if the geoid is not the one that they count from.
+std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
+
 /// What a ray of the viewer meets first.
 struct PickedPlace {
     glm::dvec3 world{0.0};

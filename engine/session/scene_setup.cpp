@@ -15,6 +15,7 @@
 #include "engine/io/formats/ramp_file.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/gallery.h"
+#include "engine/session/ground.h"
 #include "engine/session/material_source.h"
 #include "engine/session/objects/surface_shaders.h"
 #include "engine/session/prepared_maps.h"
@@ -117,10 +118,9 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     }
     const double aspect = static_cast<double>(view.size.x) / view.size.y;
     if (!view.pose && !is_map) {
-        return scene::whole_camera(scene.bounds, view.vertical_fov, aspect);
+        return scene::whole_camera(scene.shown_bounds(), view.vertical_fov, aspect);
     }
-    const auto ground = [&](double x, double y) { return scene.ground(x, y); };
-    camera = scene::pose_camera(view.pose.value_or(scene::Pose::map), scene.bounds, ground);
+    camera = scene.pose_camera(view.pose.value_or(scene::Pose::map));
     if (!view.pose) { // also where the picture is narrower than that of the pose
         const double width = map_margin * scene.bounds.size().x;
         camera.view_height = std::max(camera.view_height, width / aspect);
@@ -195,6 +195,14 @@ Result<void> finish_materials(TerrainScene& scene, const io::SceneDescription& d
 
 double TerrainScene::ground(double x, double y) const {
     return scene.height_at(x, y).value_or(bounds.low.z);
+}
+
+scene::Camera TerrainScene::pose_camera(scene::Pose pose) const {
+    return scene::pose_camera(pose, shown_bounds(), [&](double x, double y) {
+        return city_heights != nullptr
+                   ? city_heights->height_at(x, y).value_or(city_heights->bounds().low.z)
+                   : ground(x, y);
+    });
 }
 
 std::vector<scene::Material*> TerrainScene::materials() const {
@@ -282,10 +290,17 @@ Result<void> place_objects(TerrainScene& scene, const TerrainSource& source,
     return {};
 }
 
+// Levels of detail of buildings are made where the ground has an error bound.
+bool needs_levels(const TerrainScene& scene, const SceneOptions& view) {
+    const auto& node = *scene.terrain->get<scene::TerrainNode>();
+    const auto technique = default_technique(node, view).value_or(technique_of(view));
+    return view.mesh_levels && scene::error_bound(technique) > 0.0;
+}
+
 Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
                              const SceneOptions& view, Log& log, const std::stop_token& stop) {
     if (!source.buildings.empty()) {
-        auto city = add_city(scene.scene, source.buildings);
+        auto city = add_city(scene.scene, source.buildings, needs_levels(scene, view));
         if (!city) {
             return city.error();
         }
@@ -298,7 +313,7 @@ Result<void> place_buildings(TerrainScene& scene, const TerrainSource& source,
     }
     const auto task = log.start("placing buildings");
     const BuildingGround ground{*scene.terrain->get<scene::TerrainNode>()->surface,
-                                heights_of(source)};
+                                heights_of(source), needs_levels(scene, view)};
     auto placed = add_buildings(scene.scene, ground, files, stop);
     if (!placed) {
         return placed.error();
@@ -359,6 +374,12 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     shown.max_vertices = vertices_within(terrain.memory_megabytes);
     set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
+    auto city = city_surface(std::move(source.city_heights), shown.surface->heightfield().spacing,
+                             *options);
+    if (!city) {
+        return city.error();
+    }
+    result.city_heights = std::move(*city);
     result.rays = view.rays;
     result.mesh_levels = view.mesh_levels;
     auto detail = open_detail(source.description, terrain, view, log, stop);
@@ -416,30 +437,6 @@ int megabytes_for_every_sample(const scene::Scene& scene) {
 int megabytes_for_triangles(std::size_t triangles) {
     return static_cast<int>((triangles * scene::bytes_per_triangle * part_for_triangles) >> 20U) +
            1;
-}
-
-std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain) {
-    const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
-    const auto& georeference = surface.heightfield().georeference;
-    if (surface.placement().kind() != terrain::PlacementKind::ellipsoid || !georeference ||
-        geo::is_ellipsoidal(georeference->vertical_datum)) {
-        return std::nullopt;
-    }
-    const std::string& name = surface.terrain().name;
-    const std::string& datum = georeference->vertical_datum;
-    if (georeference->geoid) {
-        return datum.empty() || geo::is_egm96(datum)
-                   ? std::nullopt
-                   : std::optional(fmt::format("{}: its heights count from \"{}\": taken as from "
-                                               "the geoid {}, whatever lies between",
-                                               name, datum, georeference->geoid->name()));
-    }
-    if (terrain.geoid == "none") {
-        return std::nullopt;
-    }
-    return fmt::format("{}: its heights count from {}, and no geoid is applied: they are drawn "
-                       "from the ellipsoid on; --geoid FILE names one",
-                       name, datum.empty() ? "a zero that it does not name" : '"' + datum + '"');
 }
 
 Result<TerrainSource> open_source(io::SceneDescription description, const SourceOptions& terrain,

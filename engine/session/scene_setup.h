@@ -35,7 +35,9 @@ struct TerrainScene {
     std::vector<StandingLight> point_lights;
     PlacedBuildings buildings;   ///< on footprints
     scene::Node* city = nullptr; ///< the buildings of `urban` as meshes, owned by the scene
-    Box bounds;                  ///< of the terrain, scene metres
+    /// The same city as heights; null: the terrain has all that stands on it.
+    std::shared_ptr<const scene::TerrainSurface> city_heights;
+    Box bounds; ///< of the terrain, scene metres
     Surroundings surroundings;
     bool is_gallery = false;
     std::size_t failed_files = 0; ///< left out when the terrain was opened
@@ -46,6 +48,13 @@ struct TerrainScene {
 
     /// z of the ground at x, y; the lowest point of the terrain where there is none.
     [[nodiscard]] double ground(double x, double y) const;
+
+    /// The camera of a pose: of a city the same in each of its forms, bit for bit.
+    [[nodiscard]] scene::Camera pose_camera(scene::Pose pose) const;
+    /// What cameras show that show everything: the terrain, and the buildings of a city.
+    [[nodiscard]] const Box& shown_bounds() const {
+        return city_heights != nullptr ? city_heights->bounds() : bounds;
+    }
 
     /// Of the models, or of the terrain if there are none.
     [[nodiscard]] std::vector<scene::Material*> materials() const;
@@ -68,10 +77,6 @@ int megabytes_for_every_sample(const scene::Scene& scene);
 
 /// The memory that allows a number of triangles in a view of terrains in memory, MiB.
 int megabytes_for_triangles(std::size_t triangles);
-
-/// A note on an ellipsoid if heights may need a geoid that is neither applied nor excluded by the
-/// user, or if the geoid is not the one that they count from.
-std::optional<std::string> geoid_note(const TerrainScene& scene, const SourceOptions& terrain);
 
 /// Opens a terrain and sets up its scene: open_terrain, add_proofs, make_scene, geoid_note and,
 /// with `view.prepares_maps`, prepare_maps.

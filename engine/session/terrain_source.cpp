@@ -52,7 +52,7 @@ Result<terrains::City> generate(const SourceOptions& choice,
     }
     auto terrain = description.generator == "gallery" ? terrains::generate_gallery(options)
                                                       : terrains::generate_natural(options);
-    return terrain ? Result<terrains::City>(terrains::City{std::move(*terrain), {}})
+    return terrain ? Result<terrains::City>(terrains::City{std::move(*terrain), {}, {}})
                    : terrain.error();
 }
 
@@ -281,6 +281,7 @@ Result<TerrainSource> read_source(const SourceOptions& choice, io::SceneDescript
         }
         TerrainSource source{std::move(city->terrain), std::move(description), {}, {}, {}};
         source.buildings = std::move(city->buildings);
+        source.city_heights = std::move(city->heights);
         return source;
     }
     auto terrain = read(choice, description, found->imagery_white(), log, stop);

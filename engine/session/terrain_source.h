@@ -40,6 +40,7 @@ struct TerrainSource {
     std::shared_ptr<const ProvenTiles> proofs = {}; ///< null: no streamed tile is proven
     /// Meshes of the city `urban` (terrains::City).
     std::vector<building::PaintedFaces> buildings = {};
+    Grid<float> city_heights = {}; ///< as terrains::City::heights
 };
 
 /// The part of a folder or of web tiles to use; absent: all.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/scene/graph/picture_detail.h"
 #include "engine/view/error_view.h"
 
 namespace reljef::view {
@@ -16,6 +17,9 @@ namespace {
 constexpr double mesh_share = 0.25;
 // Of triangles that are shaded otherwise than the mesh: too small to show it.
 constexpr double max_shaded_pixels = 3.0;
+// Of a picture that repeats: each pixel then shows the mean of two repeats or more, which is one
+// texel of its mip levels.
+constexpr double max_repeat_pixels = 0.5;
 
 // Squared metres to the nearest point of a box.
 double squared_distance(glm::dvec3 place, const Box& box) {
@@ -30,6 +34,15 @@ double brightness_at(glm::dvec3 eye, const scene::PlacedPointLight& light) {
     return luminance * light.light.intensity / std::max(glm::dot(way, way), 1.0);
 }
 
+bool shows_picture(const scene::MeshLevel& level, const MeshDraw& draw, const PictureError& seen) {
+    const scene::SurfaceDetail& detail = draw.mesh->material.detail;
+    if (detail.set == nullptr) {
+        return true;
+    }
+    return level.repeat && scene::is_picture(detail) &&
+           seen.of_any_direction(draw.local_bounds, *level.repeat) <= max_repeat_pixels;
+}
+
 } // namespace
 
 const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
@@ -38,7 +51,7 @@ const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw) {
 
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     const scene::MeshNode& mesh = *draw.mesh;
-    if (mesh.levels == nullptr || mesh.material.detail.set != nullptr || !(max_error > 0.0)) {
+    if (mesh.levels == nullptr || !(max_error > 0.0)) {
         return draw;
     }
     const BoundLeft left = left_of_bound(list.camera, list.size, std::max(max_error, min_error));
@@ -49,11 +62,11 @@ MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
     // The corners of triangles beside the picture are rounded more than what is seen.
     const double of_corners = left.of_operations * (seen.depth_ratio(draw.local_bounds) - 1.0);
     for (std::size_t level = mesh.levels->size(); level > 0; --level) {
-        const double error =
-            of_corners + seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].error);
-        const double shaded =
-            seen.of_any_direction(draw.local_bounds, (*mesh.levels)[level - 1].shaded_width);
-        if (error <= mesh_share * left.error && shaded <= max_shaded_pixels) {
+        const scene::MeshLevel& coarser = (*mesh.levels)[level - 1];
+        const double error = of_corners + seen.of_any_direction(draw.local_bounds, coarser.error);
+        const double shaded = seen.of_any_direction(draw.local_bounds, coarser.shaded_width);
+        if (error <= mesh_share * left.error && shaded <= max_shaded_pixels &&
+            shows_picture(coarser, draw, seen)) {
             draw.level = level;
             draw.error = error + left.vertex_rounding + rasterizer_error;
             break;

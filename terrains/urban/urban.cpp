@@ -142,6 +142,7 @@ Result<City> generate_city(const GeneratorOptions& options, building::CityForm f
     if (bare) {
         std::swap(all->terrain.color, bare->terrain.color);
         made.buildings = mesh_buildings(city, raster);
+        made.heights = std::move(all->terrain.heightfield.heights);
     }
     made.terrain = bare ? std::move(bare->terrain) : std::move(all->terrain);
     if (form == building::CityForm::heights && options.walls == building::CityWalls::straight &&

@@ -72,6 +72,36 @@ TEST(BenchBadInput, name_that_steers_a_terminal_is_told_in_plain_letters) {
     EXPECT_EQ(result.err.find('\x1b'), result.err.npos);
 }
 
+// Each suite measures the other terrain, writes its file and names the bad ones at its end.
+TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
+    const test::TemporaryFolder folder;
+    const std::string four = folder.write("four.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\n"
+                                                      "cellsize 1\n1 2\n3 4\n");
+    std::string text = "ncols 40\nnrows 40\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
+    for (int i = 0; i < 1600; ++i) {
+        text += std::to_string((i * 7) % 11) + " ";
+    }
+    const std::string good = folder.write("good.asc", text);
+    const std::string json = (folder.path() / "rows.json").string();
+    for (const std::vector<std::string>& suite :
+         {std::vector<std::string>{"tables", "--technique", "relief"},
+          {"lod", "--poses", "4"},
+          {"skip", "--kind", "frustum"}}) {
+        std::vector<std::string> arguments = suite;
+        for (const std::string& terrain : {folder.path().string() + "/none.asc", four, good}) {
+            arguments.insert(arguments.end(), {"--terrain", terrain});
+        }
+        arguments.insert(arguments.end(), {"--context", "osmesa", "--size", "32x24", "--quick",
+                                           "--quiet", "--json", json});
+        const auto result = test::reljef_bench(arguments);
+        EXPECT_EQ(result.exit_code, 1) << suite[0];
+        EXPECT_THAT(result.err, testing::HasSubstr("none.asc")) << suite[0];
+        EXPECT_THAT(result.out, testing::HasSubstr("good")) << suite[0];
+        EXPECT_THAT(test::read_bytes(json), testing::HasSubstr("none.asc")) << suite[0];
+        std::filesystem::remove(json);
+    }
+}
+
 TEST(BenchBadInput, missing_file) {
     expect_refusal(
         test::reljef_bench({"tables", "--terrain", "/none/a.tif", "--context", "osmesa"}), 1,

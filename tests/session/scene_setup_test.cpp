@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -276,6 +278,40 @@ TEST_F(Flight, MayGoAMetreAboveTheGround) {
     EXPECT_EQ(raised_[0], 0.0);
     EXPECT_EQ(raised_[1], 0.0);
     EXPECT_NEAR(raised_[2], 112.5, 1e-6);
+}
+
+std::vector<scene::Camera> cameras_of(building::CityForm form, double exaggeration) {
+    session::SourceOptions choice;
+    choice.terrain = "urban";
+    choice.buildings = form;
+    choice.exaggeration = exaggeration;
+    std::vector<scene::Camera> cameras;
+    session::Log silent;
+    for (const std::optional<scene::Pose> pose :
+         {std::optional(scene::Pose::overview), std::optional(scene::Pose::oblique),
+          std::optional(scene::Pose::low), std::optional(scene::Pose::grazing),
+          std::optional(scene::Pose::valley), std::optional(scene::Pose::map),
+          std::optional<scene::Pose>()}) {
+        session::SceneOptions view;
+        view.pose = pose;
+        auto description = session::describe(choice.terrain);
+        EXPECT_TRUE(description);
+        description->size = 128;
+        auto source = session::open_terrain(*description, choice, silent, {});
+        EXPECT_TRUE(source) << (source ? "" : source.error().message);
+        const auto scene = test::make_scene(std::move(*source), choice, view);
+        EXPECT_TRUE(scene);
+        cameras.push_back(*scene->camera->get<scene::Camera>());
+    }
+    return cameras;
+}
+
+TEST(PosesOfACity, AreTheSameCamerasInEveryForm) {
+    for (const double exaggeration : {1.0, 1.7}) {
+        const auto heights = cameras_of(building::CityForm::heights, exaggeration);
+        EXPECT_EQ(heights, cameras_of(building::CityForm::meshes, exaggeration));
+        EXPECT_EQ(heights, cameras_of(building::CityForm::meshes_only, exaggeration));
+    }
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/scene/graph/picture_detail.h"
 #include "engine/scene/levels/mesh_levels.h"
 #include "engine/view/select.h"
 #include "tests/render/made_scene.h"
@@ -161,6 +162,28 @@ TEST(MeshLevelsInViews, ThatAreShadedOtherwiseAreDrawnSmallOnly) {
     node.levels = std::make_shared<const scene::MeshLevels>(levels);
     EXPECT_EQ(world.seen_from(100.0).list.meshes.front().level, 0U) << "10 pixels";
     EXPECT_EQ(world.seen_from(1000.0).list.meshes.front().level, levels.size());
+}
+
+TEST(MeshLevelsInViews, OfMeshesWithPicturesAreDrawnWhereARepeatIsSmall) {
+    StatueScene world;
+    auto& node = *world.statue->get<scene::MeshNode>();
+    node.material.technique = scene::make_technique(scene::TechniqueId::texture);
+    node.material.detail.set = *scene::picture_material(Image(4, 4), "picture");
+    EXPECT_EQ(world.seen_from(1e4).list.meshes.front().level, 0U) << "levels of a plain mesh";
+    scene::MeshLevels levels = *node.levels;
+    for (scene::MeshLevel& level : levels) {
+        level.error = 0.0;
+        level.shaded_width = 0.0;
+        level.repeat = 3.0;
+    }
+    node.levels = std::make_shared<const scene::MeshLevels>(levels);
+    EXPECT_EQ(world.seen_from(1000.0).list.meshes.front().level, 0U) << "0.7 pixels";
+    EXPECT_EQ(world.seen_from(2000.0).list.meshes.front().level, levels.size()) << "0.3 pixels";
+    levels.back().repeat = 0.0;
+    node.levels = std::make_shared<const scene::MeshLevels>(levels);
+    EXPECT_EQ(world.seen_from(100.0).list.meshes.front().level, levels.size());
+    node.material.detail.offset = -0.5F; // relief
+    EXPECT_EQ(world.seen_from(2000.0).list.meshes.front().level, 0U);
 }
 
 TEST(MeshLevelsInViews, OfAnOrthographicCameraDependOnItsScaleOnly) {

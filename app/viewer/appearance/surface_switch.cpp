@@ -127,6 +127,11 @@ bool SurfaceSwitch::show() {
     session::stand_on(*node.surface, scene_.buildings);
     session::stand_on(*node.surface, scene_.point_lights);
     scene_.bounds = scene_.terrain->world_bounds();
+    if (scene_.city_heights != nullptr) {
+        auto city = scene_.city_heights->exaggerated(node.surface->placement().exaggeration());
+        scene_.city_heights =
+            city ? std::make_shared<const scene::TerrainSurface>(std::move(*city)) : nullptr;
+    }
     session::set_daylight(scene_, *scene_.light->get<scene::Light>());
     light_ = made->maps.light;
     return true;

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/io/footprints/geometry_on_earth.h"
 #include "engine/io/footprints/polygon_parts.h"
 #include "engine/io/raster/crs_transform.h"
@@ -31,8 +32,8 @@ constexpr std::string_view expected_file =
 Result<void> check_footprint_file(const fs::path& path) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) {
-        return Error{fmt::format("{}: {} found, {} was expected", path.string(),
-                                 fs::exists(path, code) ? "no file" : "nothing", expected_file)};
+        return Error{fmt::format("{}: {} found, {} was expected", path.string(), kind_of_file(path),
+                                 expected_file)};
     }
     const std::uintmax_t size = fs::file_size(path, code);
     if (code || size > max_footprint_bytes) {
@@ -65,6 +66,9 @@ std::optional<double> metres_in(std::string text) {
             break;
         }
     }
+    if (text.find_first_not_of("0123456789.+-eE") != std::string::npos) {
+        return std::nullopt; // such as 0x20, which is a number to C
+    }
     char* end = nullptr;
     const double number = CPLStrtod(text.c_str(), &end);
     const bool is_number = !text.empty() && end == text.c_str() + text.size();
@@ -72,7 +76,9 @@ std::optional<double> metres_in(std::string text) {
 }
 
 std::optional<double> height_of(const OGRFeature& feature, int field) {
-    if (field < 0 || feature.IsFieldSetAndNotNull(field) == 0) {
+    const bool has_number = field >= 0 && feature.IsFieldSetAndNotNull(field) != 0 &&
+                            feature.GetFieldDefnRef(field)->GetSubType() != OFSTBoolean;
+    if (!has_number) {
         return std::nullopt;
     }
     return metres_in(feature.GetFieldAsString(field));

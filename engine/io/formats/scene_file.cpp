@@ -228,6 +228,9 @@ void read_light_keys(TomlTable& table, SceneDescription& scene) {
 Result<void> read_surface_shader(TomlTable& root, const std::filesystem::path& folder,
                                  SceneDescription& scene) {
     TomlTable table = root.table("surface_shader");
+    if (auto good = root.finish(); !good) {
+        return good; // it is no table
+    }
     SurfaceShaderDescription shader;
     if (root.has("surface_shader") && !table.has("file")) {
         table.fail("file", "is missing, a shader file was expected");

@@ -341,7 +341,9 @@ void TomlTable::read_all(std::map<std::string, std::vector<double>>& values, std
 TomlTable TomlTable::table(std::string_view key) {
     const toml::node* node = find(key);
     if (node != nullptr && !node->is_table()) {
-        fail(key, fmt::format("is {}, a table [{}] was expected", text_of(*node), key));
+        const bool is_list = node->is_array_of_tables();
+        fail(key, is_list ? fmt::format("is a list [[{0}]], one table [{0}] was expected", key)
+                          : fmt::format("is {}, a table [{}] was expected", text_of(*node), key));
         node = nullptr;
     }
     static const toml::table empty;

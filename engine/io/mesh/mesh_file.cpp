@@ -1,6 +1,7 @@
 #include "engine/io/mesh/mesh_file.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,11 +11,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/memory_file.h"
 #include "engine/io/image/image.h"
 #include "engine/io/mesh/mesh_import.h"
 #include "engine/io/mesh/mesh_message.h"
 #include "engine/io/mesh/near_file.h"
+#include "engine/io/mesh/obj_contents.h"
 
 namespace reljef::io {
 namespace {
@@ -109,7 +112,7 @@ Result<void> check_size(const fs::path& file) {
     std::error_code code;
     if (!fs::is_regular_file(file, code)) {
         return Error{fmt::format("{}: {} found, an OBJ or glTF 2.0 file was expected",
-                                 file.string(), fs::exists(file, code) ? "no file" : "nothing")};
+                                 file.string(), kind_of_file(file))};
     }
     const std::uintmax_t size = fs::file_size(file, code);
     if (code || size == 0 || size > max_mesh_bytes) {
@@ -119,12 +122,54 @@ Result<void> check_size(const fs::path& file) {
     return {};
 }
 
+// Assimp takes a library beside the file, under the file's name, for one that is missing.
+bool has_library(const fs::path& file, const std::string& name) {
+    const fs::path folder = file.parent_path().empty() ? "." : file.parent_path();
+    return is_file_below(folder, folder / name) ||
+           is_file_below(folder, fs::path(file).replace_extension(".mtl"));
+}
+
+// The notes on an OBJ file; none of other files.
+Result<std::vector<std::string>> check_obj(const fs::path& file) {
+    std::vector<std::string> notes;
+    if (extension_of(file) != ".obj") {
+        return notes;
+    }
+    const auto contents = obj_contents(file);
+    if (!contents) {
+        return contents.error();
+    }
+    if (contents->triangles > max_mesh_triangles) {
+        return Error{fmt::format("{}: {} triangles found, at most {} were expected", file.string(),
+                                 contents->triangles, max_mesh_triangles)};
+    }
+    if (contents->material_changes > max_material_changes) {
+        return Error{fmt::format("{}: {} changes of the material found, at most {} were expected",
+                                 file.string(), contents->material_changes, max_material_changes)};
+    }
+    std::vector<std::string> missing;
+    std::copy_if(contents->libraries.begin(), contents->libraries.end(),
+                 std::back_inserter(missing),
+                 [&](const std::string& name) { return !has_library(file, name); });
+    if (!missing.empty()) {
+        notes.push_back(
+            fmt::format("{}: the materials '{}'{} cannot be used; plain grey is shown",
+                        file.string(), missing.front(),
+                        missing.size() > 1 ? fmt::format(" and {} more", missing.size() - 1) : ""));
+    }
+    return notes;
+}
+
 } // namespace
 
 Result<MeshFile> read_mesh_file(const fs::path& file, const ImportLimits& limits,
                                 const std::stop_token& stop) {
     if (auto good = check_size(file); !good) {
         return good.error();
+    }
+    auto notes = check_obj(file);
+    if (!notes) {
+        return notes.error();
     }
     const auto answer = run_import(file, limits, stop);
     if (!answer) {
@@ -145,7 +190,9 @@ Result<MeshFile> read_mesh_file(const fs::path& file, const ImportLimits& limits
         found.parts.push_back({std::make_shared<const scene::Mesh>(std::move(part.mesh)),
                                part.color, std::move(picture)});
     }
-    found.notes = pictures.notes();
+    found.notes = std::move(*notes);
+    const auto of_pictures = pictures.notes();
+    found.notes.insert(found.notes.end(), of_pictures.begin(), of_pictures.end());
     if (found.parts.empty()) {
         return Error{fmt::format("{}: no triangle found, some were expected", file.string())};
     }

@@ -25,9 +25,11 @@ struct ColoredMesh {
 struct MeshFile {
     std::vector<ColoredMesh> parts; ///< at least one triangle together
     Box bounds;                     ///< metres
-    std::vector<std::string> notes; ///< at most one: pictures that cannot be read
+    std::vector<std::string> notes; ///< at most one on pictures, and one on files of materials
 };
 
+inline constexpr std::size_t max_material_changes =
+    20'000; ///< of an OBJ file: its importer is slow
 inline constexpr std::size_t max_mesh_texels = std::size_t{1} << 26U; ///< of a file's pictures
 
 /// Reads an OBJ or glTF 2.0 file as import_mesh(), in a process of its own with limits. Pictures

@@ -4,13 +4,16 @@
 #include <array>
 #include <cstring>
 #include <exception>
+#include <memory>
 #include <new>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/GltfMaterial.h>
+#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
@@ -19,6 +22,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include "engine/io/mesh/gltf_check.h"
 #include "engine/io/mesh/near_file.h"
 
 namespace reljef::io {
@@ -26,13 +30,42 @@ namespace {
 
 constexpr std::array<std::string_view, 3> extensions{".obj", ".gltf", ".glb"};
 
-std::string extension_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
-        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-    });
-    return extension;
-}
+// Makes comments of an OBJ file's lines with groups and objects: Assimp takes over 20 s for 50,000 of
+// them, and reljef needs materials only.
+class WithoutGroups : public Assimp::IOStream {
+public:
+    explicit WithoutGroups(std::unique_ptr<Assimp::IOStream> file) : file_(std::move(file)) {}
+
+    std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
+        const std::size_t items = file_->Read(buffer, size, count);
+        auto* const bytes = static_cast<char*>(buffer);
+        for (std::size_t i = 0; i < items * size; ++i) {
+            char& c = bytes[i];
+            const bool is_continued = before_ == '\\';
+            if (before_ == '\n' && (c == 'g' || c == 'o')) {
+                c = '#';
+            }
+            before_ = is_continued && c == '\n' ? ' ' : is_continued && c == '\r' ? '\\' : c;
+        }
+        return items;
+    }
+    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
+    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
+        const std::size_t place = file_->Tell();
+        const aiReturn done = file_->Seek(offset, origin);
+        if (file_->Tell() != place) {
+            before_ = file_->Tell() == 0 ? '\n' : ' ';
+        }
+        return done;
+    }
+    [[nodiscard]] std::size_t Tell() const override { return file_->Tell(); }
+    [[nodiscard]] std::size_t FileSize() const override { return file_->FileSize(); }
+    void Flush() override {}
+
+private:
+    std::unique_ptr<Assimp::IOStream> file_;
+    char before_ = '\n'; // what the next character follows
+};
 
 // Opens files of one folder, and of limited size together.
 class FolderFiles : public Assimp::DefaultIOSystem {
@@ -53,7 +86,10 @@ public:
             return nullptr;
         }
         left_ -= size;
-        return DefaultIOSystem::Open(name, mode);
+        std::unique_ptr<Assimp::IOStream> file(DefaultIOSystem::Open(name, mode));
+        return file != nullptr && extension_of(name) == ".obj"
+                   ? new WithoutGroups(std::move(file)) // the importer's
+                   : file.release();
     }
 
 private:
@@ -185,6 +221,11 @@ Result<std::vector<MeshPart>> import_mesh(const std::filesystem::path& file) {
                                  plain_text(extension))};
     }
     try {
+        if (extension != ".obj") {
+            if (auto good = check_gltf(file); !good) {
+                return good.error();
+            }
+        }
         Assimp::Importer importer;
         set_up(importer, std::filesystem::absolute(file));
         const aiScene* const scene =

@@ -18,4 +18,12 @@ bool is_file_below(const std::filesystem::path& folder, const std::filesystem::p
     return std::mismatch(top.begin(), top.end(), real.begin(), real.end()).first == top.end();
 }
 
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+        return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+    });
+    return extension;
+}
+
 } // namespace reljef::io

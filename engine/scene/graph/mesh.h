@@ -50,6 +50,11 @@ struct MeshLevel {
     double error = 0.0;
     /// Longest edge of its triangles whose normals differ visibly from the mesh's, local metres.
     double shaded_width = 0.0;
+    /// For a mesh with a picture: local metres after which the picture repeats. The level shows it
+    /// at other places, so it is for views in which a repeat is smaller than half a pixel, where
+    /// all show its mean. 0: it shows the picture at the same places. Absent: for plain meshes
+    /// only.
+    std::optional<double> repeat = std::nullopt;
 };
 /// From fine to coarse, with growing errors.
 using MeshLevels = std::vector<MeshLevel>;

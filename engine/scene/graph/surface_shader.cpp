@@ -64,6 +64,21 @@ std::optional<std::size_t> size_of(std::string_view type) {
                : std::optional(static_cast<std::size_t>(found - types.begin()) + 1);
 }
 
+bool is_identifier(std::string_view name) {
+    const auto is_letter = [](char c) {
+        return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    };
+    return !name.empty() && is_letter(name.front()) &&
+           std::all_of(name.begin(), name.end(),
+                       [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
+}
+
+Error no_identifier(std::string_view shader, std::string_view name) {
+    return {fmt::format("{}: a constant with the name '{}' found, a name of letters, digits and "
+                        "'_' was expected, which does not begin with a digit",
+                        shader, name)};
+}
+
 std::string type_of(std::size_t size) {
     return size == 1 ? "float" : fmt::format("vec{}", size);
 }
@@ -98,7 +113,11 @@ Result<SurfaceShader> SurfaceShader::create(std::string name, std::string text) 
                             "expected",
                             shader.name_, type)};
         }
-        shader.constants_.push_back({std::string(words.next()), *size});
+        const std::string_view constant = words.next();
+        if (!is_identifier(constant)) {
+            return no_identifier(shader.name_, constant);
+        }
+        shader.constants_.push_back({std::string(constant), *size});
         const std::string_view end = words.next();
         if (end != ";" && end != "=") {
             return Error{fmt::format("{}: '{}' behind uniform {} {} found, ';' or '=' was expected",
@@ -116,6 +135,9 @@ Result<SurfaceShader> SurfaceShader::create(std::string name, std::string text) 
 
 Result<void> SurfaceShader::check(std::span<const ShaderConstant> constants) const {
     for (const ShaderConstant& constant : constants) {
+        if (!is_identifier(constant.name)) {
+            return no_identifier(name_, constant.name);
+        }
         const auto declared =
             std::find_if(constants_.begin(), constants_.end(),
                          [&](const Declaration& other) { return other.name == constant.name; });

@@ -32,17 +32,17 @@ public:
         bool has_default = false; ///< declared with a value
     };
 
-    /// `name`: the file, for errors. Fails without that name, with other uniforms, with a zero
-    /// byte, and with more than max_bytes bytes. A byte order mark is left out. Other errors are
-    /// found when it is compiled.
+    /// `name`: the file, for errors. Fails without that name, with other uniforms or names that are
+    /// no identifiers, with a zero byte, and with more than max_bytes bytes. A byte order mark is
+    /// left out. Other errors are found when it is compiled.
     static Result<SurfaceShader> create(std::string name, std::string text);
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const std::string& text() const { return text_; }
     [[nodiscard]] std::span<const Declaration> constants() const { return constants_; }
 
-    /// Fails if a constant is not declared, has another size, or has no value although its
-    /// declaration has none.
+    /// Fails if a constant's name is no identifier, is not declared, has another size, or has no
+    /// value although its declaration has none.
     [[nodiscard]] Result<void> check(std::span<const ShaderConstant> constants) const;
 
     static constexpr std::size_t max_bytes = 65'536;

@@ -81,6 +81,17 @@ scene::MeshNode node_of(scene::Mesh mesh,
     return node;
 }
 
+void add_part(scene::Node& square, const char* name, scene::MeshNode part,
+              const scene::MeshLevels& levels) {
+    if (part.mesh->indices.empty()) {
+        return;
+    }
+    if (!levels.empty()) {
+        part.levels = std::make_shared<const scene::MeshLevels>(levels);
+    }
+    square.add(name, std::move(part));
+}
+
 } // namespace
 
 Image facade_picture() {
@@ -149,7 +160,7 @@ void BuildingMeshes::add(const building::PaintedFaces& building,
     constexpr int farthest = 1'000'000'000;
     const std::pair key(clamped_int(cell.x, -farthest, farthest),
                         clamped_int(cell.y, -farthest, farthest));
-    Square& square = squares_.try_emplace(key, Square{at, {}, {}}).first->second;
+    Square& square = squares_.try_emplace(key, Square{at, {}, {}, {}}).first->second;
     const glm::dmat4 square_from_building =
         glm::translate(glm::dmat4(1.0), -square.origin) * world_from_building;
     const std::uint32_t color = index_of(building.color);
@@ -157,9 +168,10 @@ void BuildingMeshes::add(const building::PaintedFaces& building,
         reljef::check(face.corners.size() >= 3, "a face has three corners");
         add(face, color, square_from_building, square);
     }
+    square.ends.push_back({square.walls.indices.size(), square.others.indices.size()});
 }
 
-Result<void> BuildingMeshes::add_to(scene::Node& parent) const {
+Result<void> BuildingMeshes::add_to(scene::Node& parent, bool with_levels) const {
     if (squares_.empty()) {
         return {};
     }
@@ -171,14 +183,12 @@ Result<void> BuildingMeshes::add_to(scene::Node& parent) const {
     for (const auto& [key, square] : squares_) {
         scene::Node& node = parent.add("square");
         node.set_position(square.origin);
-        if (!square.walls.indices.empty()) {
-            node.add("walls", node_of(square.walls, *facade));
-        }
-        if (!square.others.indices.empty()) {
-            scene::Mesh others = square.others;
-            set_texels(others, colors_.size());
-            node.add("roofs", node_of(std::move(others), *colors));
-        }
+        scene::Mesh others = square.others;
+        set_texels(others, colors_.size());
+        const BuildingLevels levels =
+            with_levels ? building_levels(square.walls, others, square.ends) : BuildingLevels();
+        add_part(node, "walls", node_of(square.walls, *facade), levels.walls);
+        add_part(node, "roofs", node_of(std::move(others), *colors), levels.others);
     }
     return {};
 }

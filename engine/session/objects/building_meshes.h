@@ -12,6 +12,7 @@
 #include "engine/core/color.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/scene.h"
+#include "engine/session/objects/building_levels.h"
 
 namespace reljef::session {
 
@@ -25,8 +26,9 @@ public:
     /// `world_from_building`: rigid. The building belongs to the square of its origin.
     void add(const building::PaintedFaces& building, const glm::dmat4& world_from_building);
 
-    /// Adds one node for each mesh. Fails as picture_material().
-    Result<void> add_to(scene::Node& parent) const;
+    /// Adds one node for each mesh, with levels of detail if `with_levels`. Fails as
+    /// picture_material().
+    Result<void> add_to(scene::Node& parent, bool with_levels) const;
 
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
 
@@ -35,6 +37,7 @@ private:
         glm::dvec3 origin{0.0};
         scene::Mesh walls;
         scene::Mesh others; ///< u is the index of the colour
+        std::vector<BuildingEnd> ends = {};
     };
     std::uint32_t index_of(glm::vec3 color);
     void add(const building::Face& face, std::uint32_t color,

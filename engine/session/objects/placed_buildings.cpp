@@ -287,7 +287,8 @@ glm::vec3 roof_color(std::size_t index, bool is_hipped) {
     return (is_hipped ? tiles : gravel)[index % tiles.size()];
 }
 
-void add_building(const terrain::Placement& placement, const Standing& standing, std::size_t index,
+// Whether it has a hipped roof.
+bool add_building(const terrain::Placement& placement, const Standing& standing, std::size_t index,
                   BuildingMeshes& meshes) {
     const auto on_ground = [&](glm::dvec2 sample) {
         return placement.world_from_sample({sample, standing.ground});
@@ -305,17 +306,36 @@ void add_building(const terrain::Placement& placement, const Standing& standing,
     world_from_building[3] = glm::dvec4(middle, 1.0);
     building::PaintedFaces painted;
     painted.faces = building::building_of(footprint, standing.roof, -foot_depth, standing.height);
-    painted.color = roof_color(index, building::has_hips(footprint, standing.roof));
+    const bool is_hipped = building::has_hips(footprint, standing.roof);
+    painted.color = roof_color(index, is_hipped);
     meshes.add(painted, world_from_building);
+    return is_hipped;
 }
 
-Result<void> add_meshes(const terrain::Placement& placement, const std::vector<Standing>& standing,
-                        scene::Node& node) {
+// The number of hipped roofs.
+Result<std::size_t> add_meshes(const terrain::Placement& placement,
+                               const std::vector<Standing>& standing, bool with_levels,
+                               scene::Node& node) {
     BuildingMeshes meshes;
+    std::size_t hipped = 0;
     for (std::size_t i = 0; i < standing.size(); ++i) {
-        add_building(placement, standing[i], i, meshes);
+        hipped += static_cast<std::size_t>(add_building(placement, standing[i], i, meshes));
     }
-    return meshes.add_to(node);
+    const auto added = meshes.add_to(node, with_levels);
+    return added ? Result<std::size_t>(hipped) : added.error();
+}
+
+// Empty if every roof is as it should be.
+std::string roof_note(const std::vector<Standing>& standing, std::size_t hipped) {
+    const auto wished = static_cast<std::size_t>(
+        std::count_if(standing.begin(), standing.end(), [](const Standing& building) {
+            return building.roof == building::RoofKind::hipped;
+        }));
+    return hipped == wished
+               ? std::string()
+               : fmt::format("buildings: {} of {} with roof=hipped have flat roofs: their outlines "
+                             "are concave, have holes or are too narrow",
+                             wished - hipped, wished);
 }
 
 } // namespace
@@ -334,25 +354,54 @@ Result<PlacedBuildings> add_buildings(scene::Scene& scene, const BuildingGround&
             placed.notes.push_back(std::move(*note));
         }
     }
+    if (standing.empty() && !files.empty()) {
+        return Error{fmt::format("{}{}no building is left, some were expected",
+                                 fmt::join(placed.notes, "; "), placed.notes.empty() ? "" : "; ")};
+    }
     if (standing.empty()) {
         return placed;
     }
     placed.node = &scene.root().add("buildings");
-    if (auto added = add_meshes(ground.surface.placement(), standing, *placed.node); !added) {
-        return added.error();
+    placed.has_levels = ground.with_levels;
+    const auto hipped =
+        add_meshes(ground.surface.placement(), standing, placed.has_levels, *placed.node);
+    if (!hipped) {
+        return hipped.error();
+    }
+    if (auto note = roof_note(standing, *hipped); !note.empty()) {
+        placed.notes.push_back(std::move(note));
     }
     placed.buildings = std::make_shared<const std::vector<Standing>>(std::move(standing));
     return placed;
 }
 
+Result<std::shared_ptr<const scene::TerrainSurface>>
+city_surface(Grid<float> heights, glm::dvec2 spacing, const scene::TerrainOptions& options) {
+    if (heights.empty()) {
+        return std::shared_ptr<const scene::TerrainSurface>();
+    }
+    terrain::Terrain city;
+    city.name = "city";
+    city.heightfield.heights = std::move(heights);
+    city.heightfield.spacing = spacing;
+    city.heightfield.range = terrain::height_range(city.heightfield.heights, {});
+    auto surface = scene::TerrainSurface::create(
+        std::make_shared<const terrain::Terrain>(std::move(city)), options);
+    if (!surface) {
+        return surface.error();
+    }
+    return std::make_shared<const scene::TerrainSurface>(std::move(*surface));
+}
+
 Result<scene::Node*> add_city(scene::Scene& scene,
-                              const std::vector<building::PaintedFaces>& buildings) {
+                              const std::vector<building::PaintedFaces>& buildings,
+                              bool with_levels) {
     BuildingMeshes meshes;
     for (const building::PaintedFaces& building : buildings) {
         meshes.add(building, glm::dmat4(1.0));
     }
     scene::Node& node = scene.root().add("city");
-    if (auto added = meshes.add_to(node); !added) {
+    if (auto added = meshes.add_to(node, with_levels); !added) {
         return added.error();
     }
     return &node;
@@ -366,7 +415,8 @@ void stand_on(const scene::TerrainSurface& surface, const PlacedBuildings& build
         buildings.node->remove(*buildings.node->children().front());
     }
     // Pictures that were made once can be made again.
-    const auto added = add_meshes(surface.placement(), *buildings.buildings, *buildings.node);
+    const auto added = add_meshes(surface.placement(), *buildings.buildings, buildings.has_levels,
+                                  *buildings.node);
     reljef::check(added.has_value(), "buildings that stood stand again");
 }
 

@@ -32,6 +32,7 @@ struct PlacedBuildings {
     scene::Node* node = nullptr; ///< null: there are none
     std::shared_ptr<const std::vector<Standing>> buildings;
     std::vector<std::string> notes; ///< one for each file that left something out
+    bool has_levels = false;        ///< of detail
 };
 
 /// Heights at (latitude, longitude), true metres; empty in voids and outside.
@@ -42,19 +43,26 @@ using SourceHeights = std::function<std::vector<std::optional<double>>(
 struct BuildingGround {
     const scene::TerrainSurface& surface;
     SourceHeights heights = {}; ///< of a source that is finer than the surface; may be empty
+    bool with_levels = false;   ///< makes levels of detail of the buildings
 };
 
 /// Adds the buildings of files of outlines. On georeferenced terrain the files are transformed; on
 /// other terrain, corners are x and y in scene metres. Leaves out, with one note a file, what does
-/// not stand wholly on ground, and what has no height that a building may have. Fails as
-/// io::read_footprints, and as io::TileSet::open of a surface model.
+/// not stand wholly on ground, and what has no height that a building may have. One note counts
+/// flat roofs of buildings with roof=hipped. Fails as io::read_footprints, as io::TileSet::open
+/// of a surface model, and if no building is left.
 Result<PlacedBuildings> add_buildings(scene::Scene& scene, const BuildingGround& ground,
                                       const std::vector<io::FootprintsDescription>& files,
                                       const std::stop_token& stop);
 
+/// A generated city as heights, to place cameras (terrains::City::heights); null without any.
+Result<std::shared_ptr<const scene::TerrainSurface>>
+city_surface(Grid<float> heights, glm::dvec2 spacing, const scene::TerrainOptions& options);
+
 /// Adds the buildings of a generated city, whose streets lie at z = 0.
 Result<scene::Node*> add_city(scene::Scene& scene,
-                              const std::vector<building::PaintedFaces>& buildings);
+                              const std::vector<building::PaintedFaces>& buildings,
+                              bool with_levels);
 
 /// Puts the buildings on another surface of the same terrain.
 void stand_on(const scene::TerrainSurface& surface, const PlacedBuildings& buildings);

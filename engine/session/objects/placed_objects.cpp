@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "engine/io/mesh/mesh_file.h"
 #include "engine/scene/graph/picture_detail.h"
@@ -17,8 +18,59 @@ namespace {
 // What the nodes of one mesh file share.
 struct SharedMesh {
     std::vector<scene::MeshNode> parts;
-    double lowest = 0.0; // metres
+    Box bounds; // metres of the file
+    bool has_area = false;
 };
+
+bool has_area(const scene::Mesh& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const scene::TriangleEdges edges = scene::triangle_edges(mesh, i);
+        if (glm::length(glm::cross(edges.p, edges.q)) > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The columns and rows between which a box lies; empty if a corner has none.
+std::optional<Box> samples_of(const scene::TerrainSurface& surface, const Box& bounds,
+                              const glm::dmat4& scene_from_box) {
+    Box samples;
+    for (unsigned i = 0; i < 8; ++i) {
+        const glm::dvec3 corner((i & 1U) != 0 ? bounds.high.x : bounds.low.x,
+                                (i & 2U) != 0 ? bounds.high.y : bounds.low.y,
+                                (i & 4U) != 0 ? bounds.high.z : bounds.low.z);
+        const glm::dvec3 world(scene_from_box * glm::dvec4(corner, 1.0));
+        const auto sample = surface.placement().sample_from_world(world);
+        if (!sample) {
+            return std::nullopt;
+        }
+        samples.add(*sample);
+    }
+    return samples;
+}
+
+bool is_beside(const scene::TerrainSurface& surface, const Box& samples) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    return samples.high.x < 0.0 || samples.low.x > heights.cols() - 1 || samples.high.y < 0.0 ||
+           samples.low.y > heights.rows() - 1;
+}
+
+// Why nothing of an object can be seen; empty if it can.
+std::string unseen(const scene::TerrainSurface& surface, const PlacedObject& object,
+                   const SharedMesh& mesh) {
+    if (!mesh.has_area) {
+        return "its triangles have no area";
+    }
+    const io::ObjectDescription& described = object.description;
+    const double top = described.height + described.scale * mesh.bounds.size().z;
+    if (top < 0.0) {
+        return fmt::format("its top lies {:.3g} m below the ground at its place", -top);
+    }
+    const auto place = scene_from_object(surface, object);
+    const auto samples = place ? samples_of(surface, mesh.bounds, *place) : std::nullopt;
+    return samples && is_beside(surface, *samples) ? "all of it lies outside the terrain" : "";
+}
 
 GroundPlace place_of(const PlacedObject& object) {
     return {object.description.file.string(), object.description.at.value_or(glm::dvec2(0.0)),
@@ -51,8 +103,9 @@ public:
 private:
     Result<SharedMesh> shared_mesh(const io::MeshFile& file, const std::string& name) {
         SharedMesh shared;
-        shared.lowest = file.bounds.low.z;
+        shared.bounds = file.bounds;
         for (const io::ColoredMesh& part : file.parts) {
+            shared.has_area = shared.has_area || has_area(*part.mesh);
             scene::MeshNode node{part.mesh, {}};
             node.material.color = part.color;
             if (part.picture != nullptr) {
@@ -109,6 +162,7 @@ Result<PlacedObjects> add_objects(scene::Scene& scene, const scene::TerrainSurfa
                                   const SourceHeight& height, const std::stop_token& stop) {
     PlacedObjects placed;
     MeshFiles files(stop);
+    std::vector<std::string> unseen_notes;
     for (const io::ObjectDescription& description : objects) {
         PlacedObject object{nullptr, description, 0.0, {}};
         if (!description.at) {
@@ -128,14 +182,19 @@ Result<PlacedObjects> add_objects(scene::Scene& scene, const scene::TerrainSurfa
         if (!mesh) {
             return mesh.error();
         }
-        object.lowest = (*mesh)->lowest;
+        object.lowest = (*mesh)->bounds.low.z;
         object.node = &scene.root().add(description.file.stem().string());
         for (const scene::MeshNode& part : (*mesh)->parts) {
             object.node->add("part", part);
         }
+        if (const std::string why = unseen(surface, object, **mesh); !why.empty()) {
+            unseen_notes.push_back(
+                fmt::format("{}: nothing of it can be seen: {}", description.file.string(), why));
+        }
         placed.objects.push_back(std::move(object));
     }
     placed.notes = files.notes();
+    placed.notes.insert(placed.notes.end(), unseen_notes.begin(), unseen_notes.end());
     stand_on(surface, placed.objects);
     return placed;
 }

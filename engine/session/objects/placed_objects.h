@@ -25,7 +25,7 @@ struct PlacedObject {
 
 struct PlacedObjects {
     std::vector<PlacedObject> objects;
-    std::vector<std::string> notes; ///< of the files, each once
+    std::vector<std::string> notes; ///< of the files, each once; of objects that show nothing
 };
 
 /// Height of the ground at a latitude and longitude, true metres; empty in voids and outside.

@@ -1,9 +1,13 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "app/cli/interrupt.h"
 #include "tests/app/command_line.h"
 #include "tests/support/nginx.h"
 #include "tests/support/process_state.h"
@@ -64,6 +68,22 @@ TEST(CtrlC, EndsWhileOnePictureIsDrawn) {
         EXPECT_EQ(result.err, "reljef: interrupted\n") << signal;
         EXPECT_EQ(folder.names(), std::vector<std::string>{"dem.asc"}) << signal;
     }
+}
+
+// Nothing interrupts a driver, such as one that runs a slow shader.
+TEST(CtrlC, EndsAViewerThatWaitsForADriver) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const cli::Interrupt interrupt;
+        interrupt.end_after(std::chrono::milliseconds(100));
+        ::kill(::getpid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::minutes(1));
+        ::_exit(interrupt.requested() ? 1 : 2);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
 }
 
 // A server that is fast enough for every deadline, but takes minutes.

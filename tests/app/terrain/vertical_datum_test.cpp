@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/session/scene_setup.h"
+#include "engine/session/ground.h"
 #include "tests/app/command_line.h"
 #include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"

@@ -132,15 +132,19 @@ TEST_F(FootprintFileTest, HeightsAreNumbersOrTextsOfMetres) {
         read({polygon_feature(square, R"("h":12.5)"), polygon_feature(square, R"("h":"8 m")"),
               polygon_feature(square, R"("h":"30 ft")"), polygon_feature(square, R"("h":null)"),
               polygon_feature(square, R"("h":-3)"), polygon_feature(square, R"("h":0)"),
-              polygon_feature(square, R"("h":5000)"), polygon_feature(square, R"("h":"7")")},
+              polygon_feature(square, R"("h":5000)"), polygon_feature(square, R"("h":"7")"),
+              polygon_feature(square, R"("h":"0x20")"), polygon_feature(square, R"("h":true)")},
              {.height = "h"});
     ASSERT_TRUE(file) << file.error().message;
     ASSERT_EQ(file->footprints.size(), 3U);
     EXPECT_EQ(file->footprints[0].height, 12.5);
     EXPECT_EQ(file->footprints[1].height, 8.0);
     EXPECT_EQ(file->footprints[2].height, 7.0);
-    EXPECT_EQ(file->counts.no_height, 2U);
+    EXPECT_EQ(file->counts.no_height, 4U);
     EXPECT_EQ(file->counts.odd_height, 3U);
+    const auto flags = read({polygon_feature(square, R"("h":true)")}, {.height = "h"});
+    ASSERT_TRUE(flags);
+    EXPECT_EQ(flags->counts.no_height, 1U);
 }
 
 TEST_F(FootprintFileTest, SelfIntersectionsAreRepairedAndTheRestIsCounted) {

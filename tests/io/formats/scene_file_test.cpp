@@ -236,7 +236,7 @@ TEST(SceneFile, ValuesOutOfRangeAreNamedWithTheRange) {
         {urban + "[camera]\neye = [1, 2, 3]\nlook = [1, 2, 3]", "look is where eye is"},
         {urban + "[camera]\neye = [1, 2, 2e9]\nlook = [1, 2, 3]", "three numbers"},
         {"terrain = 3", "terrain is 3, a table [terrain] was expected"},
-        {"[[terrain]]\ngenerator = \"urban\"", "terrain is an array"}};
+        {"[[terrain]]\ngenerator = \"urban\"", "terrain is a list [[terrain]], one table"}};
     for (const auto& [text, words] : cases) {
         const std::string message = error_of(text);
         EXPECT_THAT(message, HasSubstr("scene.toml:")) << text;
@@ -411,6 +411,11 @@ TEST(SceneFile, SurfaceShadersHaveAFileAndConstants) {
         ASSERT_FALSE(refused) << wrong;
         EXPECT_THAT(refused.error().message, HasSubstr(sentence));
     }
+    const auto list = parse_scene("[terrain]\ngenerator = \"natural\"\n[[surface_shader]]\n" + file,
+                                  "scene.toml", "/folder");
+    ASSERT_FALSE(list);
+    EXPECT_THAT(list.error().message, HasSubstr("surface_shader is a list [[surface_shader]], one "
+                                                "table [surface_shader] was expected"));
     EXPECT_FALSE(
         parse_scene("[terrain]\ngenerator = \"natural\"\n", "a.toml", "/")->surface_shader);
 }

@@ -4,11 +4,13 @@
 #include <stop_token>
 #include <string>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "engine/io/image/image.h"
+#include "engine/io/mesh/mesh_message.h"
 #include "tests/io/mesh/made_mesh.h"
 #include "tests/support/temporary_folder.h"
 
@@ -18,6 +20,24 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+// A GLB of this JSON alone.
+std::string glb_of(std::string json) {
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    std::string bytes = "glTF";
+    for (const std::size_t number : {std::size_t{2}, 20 + json.size(), json.size()}) {
+        for (unsigned shift = 0; shift < 32; shift += 8) {
+            bytes += static_cast<char>((number >> shift) & 0xFFU);
+        }
+    }
+    return bytes + "JSON" + json;
+}
 
 class MeshFileTest : public testing::Test {
 protected:
@@ -141,7 +161,8 @@ TEST_F(MeshFileTest, OpensNothingOutsideItsFolder) {
 
 TEST_F(MeshFileTest, RefusesWhatIsNoMesh) {
     EXPECT_THAT(refusal(folder_.path() / "none.obj"), HasSubstr("nothing found"));
-    EXPECT_THAT(refusal(folder_.path()), HasSubstr("no file found"));
+    EXPECT_THAT(refusal(folder_.path()), HasSubstr("a folder found"));
+    EXPECT_THAT(refusal("/dev/null"), HasSubstr("a device found"));
     EXPECT_THAT(refusal(folder_.write("empty.obj", "")), HasSubstr("0 bytes found"));
     EXPECT_THAT(refusal(folder_.write("mesh.ply", "ply")), HasSubstr("extension '.ply' found"));
     refusal(folder_.write("text.gltf", "no glTF"));
@@ -150,6 +171,100 @@ TEST_F(MeshFileTest, RefusesWhatIsNoMesh) {
     refusal(folder_.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"));
     refusal(folder_.write("far.obj", "v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n"));
     refusal(folder_.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n"));
+}
+
+TEST_F(MeshFileTest, RefusesTooManyTrianglesBeforeItImportsThem) {
+    const ImportLimits never = importer("exit 7");
+    std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+    for (std::size_t i = 0; i < max_mesh_triangles + 3; ++i) {
+        face += " 1";
+    }
+    EXPECT_THAT(refusal(folder_.write("large.obj", face), never),
+                HasSubstr("2000001 triangles found, at most 2000000 were expected"));
+    EXPECT_THAT(refusal(folder_.write("limit.obj", face.substr(0, face.size() - 2)), never),
+                HasSubstr("fail (status 7)"));
+    const std::string large =
+        replaced(test::triangle_gltf(test::triangle_data), R"("count":3,"type":"SCALAR")",
+                 R"("count":30000000,"type":"SCALAR")");
+    const std::string sentence = "10000000 triangles found, at most 2000000 were expected";
+    EXPECT_THAT(refusal(folder_.write("large.gltf", large)), HasSubstr(sentence));
+    EXPECT_THAT(refusal(folder_.write("large.glb", glb_of(large))), HasSubstr(sentence));
+}
+
+TEST_F(MeshFileTest, CountsTheTrianglesOfEachPlace) {
+    std::string nodes = R"("nodes":[{"mesh":0,"children":[1,1]})"; // 2 to the power of 22
+    for (int i = 1; i <= 22; ++i) {
+        nodes += i < 22 ? fmt::format(R"(,{{"children":[{0},{0}]}})", i + 1) : R"(,{"mesh":0})";
+    }
+    const std::string many =
+        replaced(test::triangle_gltf(test::triangle_data), R"("nodes":[{"mesh":0}])", nodes + "]");
+    EXPECT_THAT(refusal(folder_.write("many.gltf", many)), HasSubstr("4194305 triangles found"));
+}
+
+TEST_F(MeshFileTest, RefusesDeepNesting) {
+    const std::string deep(100'000, '[');
+    EXPECT_THAT(refusal(folder_.write("deep.gltf", R"({"extras":)" + deep)),
+                HasSubstr("nested more than 500 deep"));
+    std::string nodes = R"("nodes":[{"mesh":0,"children":[1]})";
+    for (int i = 1; i <= 20'000; ++i) {
+        nodes += fmt::format(R"(,{{"children":[{}]}})", i + 1);
+    }
+    const std::string chain = replaced(test::triangle_gltf(test::triangle_data),
+                                       R"("nodes":[{"mesh":0}])", nodes + R"(,{"mesh":0}])");
+    EXPECT_THAT(refusal(folder_.write("chain.gltf", chain)), HasSubstr("nested more than 500"));
+    const std::string circle =
+        replaced(test::triangle_gltf(test::triangle_data), R"("nodes":[{"mesh":0}])",
+                 R"("nodes":[{"mesh":0,"children":[0]}])");
+    EXPECT_THAT(refusal(folder_.write("circle.gltf", circle)), HasSubstr("nested more than 500"));
+}
+
+TEST_F(MeshFileTest, NamesRequiredExtensionsThatItCannotRead) {
+    const auto requiring = [](const std::string& extension) {
+        return replaced(test::triangle_gltf(test::triangle_data), R"("scene":0)",
+                        fmt::format(R"("extensionsRequired":["{}"],"scene":0)", extension));
+    };
+    EXPECT_THAT(refusal(folder_.write("draco.gltf", requiring("KHR_draco_mesh_compression"))),
+                HasSubstr("requires the extension KHR_draco_mesh_compression"));
+    EXPECT_TRUE(read_mesh_file(folder_.write("unlit.gltf", requiring("KHR_materials_unlit"))));
+}
+
+TEST_F(MeshFileTest, NotesMissingMaterials) {
+    const auto file = read_mesh_file(folder_.write("square.obj", test::square_obj));
+    folder_.write("other.mtl", test::square_mtl);
+    const auto other = read_mesh_file(folder_.write("other.obj", test::square_obj));
+    ASSERT_TRUE(file && other);
+    EXPECT_THAT(file->notes, testing::ElementsAre(HasSubstr("'square.mtl' cannot be used")));
+    EXPECT_THAT(other->notes, testing::ElementsAre(HasSubstr("the texture 'wall.png'")));
+}
+
+// Assimp needs over 20 s for as many objects and materials.
+TEST_F(MeshFileTest, ObjectsOfOneMaterialAreOnePart) {
+    constexpr int objects = 50'000;
+    constexpr int in_row = 500;
+    folder_.write("objects.mtl", "newmtl m0\nKd 1 0 0\nnewmtl m1\nKd 0 1 0\n");
+    std::string text = "mtllib objects.mtl\n";
+    for (int i = 0; i < objects; ++i) {
+        const int x = i % in_row;
+        const int z = i / in_row;
+        text += fmt::format("o part{0}\ng part{0}\nusemtl m{1}\nv {2} 0 {3}\nv {2}.5 0 {3}\n"
+                            "v {2} 1 {3}\nf -3 -2 -1\n",
+                            i, i * 2 / objects, x, z);
+    }
+    ImportLimits limits;
+    limits.seconds = 15; // of the processor
+    const auto file = read_mesh_file(folder_.write("objects.obj", text), limits);
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_EQ(file->parts.size(), 2U);
+    EXPECT_EQ(file->parts[0].mesh->indices.size(), 3U * objects / 2);
+}
+
+TEST_F(MeshFileTest, LimitsChangesOfTheMaterial) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (std::size_t i = 0; i <= max_material_changes; ++i) {
+        text += fmt::format("usemtl {}\nf 1 2 3\n", i % 2);
+    }
+    EXPECT_THAT(refusal(folder_.write("changes.obj", text), importer("exit 7")),
+                HasSubstr("20001 changes of the material found"));
 }
 
 TEST_F(MeshFileTest, OutlivesImportersThatCrashHangOrRave) {

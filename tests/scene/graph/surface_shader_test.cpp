@@ -34,6 +34,12 @@ TEST(SurfaceShader, KnowsItsConstants) {
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().message,
               "a.glsl: no constant 'water' found, uniform float water was expected");
+    for (const char* const name : {"", "1a", "a b", "ti-nt", "t\u00efnt"}) {
+        const auto odd = shader->check(std::vector<ShaderConstant>{{name, {1.0F}}});
+        ASSERT_FALSE(odd);
+        EXPECT_THAT(odd.error().message, testing::HasSubstr("a constant with the name '" +
+                                                            std::string(name) + "' found"));
+    }
     const auto small = shader->check(std::vector<ShaderConstant>{{"tint", {1.0F}}});
     ASSERT_FALSE(small);
     EXPECT_EQ(small.error().message,
@@ -50,6 +56,8 @@ TEST(SurfaceShader, RefusesWhatCannotBeOne) {
         {"// vec3 surface_color(Surface surface)", "no function surface_color found"},
         {"vec3 color(Surface surface) { return surface.light; }",
          "no function surface_color found"},
+        {std::string("uniform float 3d;\n") + light_as_it_is, "with the name '3d' found"},
+        {std::string("uniform float;\n") + light_as_it_is, "with the name ';' found"},
         {std::string("uniform sampler2D map;\n") + light_as_it_is,
          "uniform of type 'sampler2D' found"},
         {std::string("uniform int count;\n") + light_as_it_is, "uniform of type 'int' found"},

@@ -143,14 +143,30 @@ TEST_F(PlacedBuildingsTest, WhatCannotStandIsLeftOutWithOneNote) {
     EXPECT_EQ(placed->buildings->size(), 1U);
 }
 
-TEST_F(PlacedBuildingsTest, AllLeftOutIsASceneWithoutBuildings) {
+TEST_F(PlacedBuildingsTest, AllLeftOutIsAnErrorWithTheReasons) {
     const auto placed = place(
         ground_of(gentle_slope()),
-        footprints({polygon_feature("[" + rectangle(900.0, 0.0, 930.0, 5.0) + "]", "\"h\":12")}));
-    ASSERT_TRUE(placed);
-    EXPECT_EQ(placed->node, nullptr);
-    EXPECT_EQ(placed->notes.size(), 1U);
-    stand_on(ground_of(gentle_slope(), 3.0), *placed);
+        footprints({polygon_feature("[" + rectangle(900.0, 0.0, 930.0, 5.0) + "]", "\"h\":12"),
+                    polygon_feature("[" + rectangle(0.0, 0.0, 9.0, 5.0) + "]", "\"h\":-1")}));
+    ASSERT_FALSE(placed);
+    EXPECT_THAT(placed.error().message,
+                AllOf(HasSubstr("1 not wholly on the terrain"),
+                      HasSubstr("1 with a height that is not"),
+                      HasSubstr("; no building is left, some were expected")));
+}
+
+TEST_F(PlacedBuildingsTest, FlatRoofsInsteadOfHippedOnesAreCounted) {
+    const std::string corner = "[[0,0],[30,0],[30,10],[10,10],[10,30],[0,30],[0,0]]";
+    io::FootprintsDescription file =
+        footprints({polygon_feature("[" + corner + "]", "\"h\":9"),
+                    polygon_feature("[" + rectangle(50.0, 0.0, 60.0, 20.0) + "]", "\"h\":9")});
+    const auto flat = place(ground_of(gentle_slope()), file);
+    file.roof = building::RoofKind::hipped;
+    const auto hipped = place(ground_of(gentle_slope()), file);
+    ASSERT_TRUE(flat && hipped);
+    EXPECT_THAT(flat->notes, testing::IsEmpty());
+    EXPECT_THAT(hipped->notes,
+                testing::ElementsAre(HasSubstr("1 of 2 with roof=hipped have flat")));
 }
 
 TEST_F(PlacedBuildingsTest, FarBuildingsAreMeshesOfTheirOwn) {
@@ -179,8 +195,8 @@ TEST_F(PlacedBuildingsTest, TheSourcesHeightsCountWhereThereAreSome) {
     const auto voids = place(surface, file, [](std::span<const glm::dvec2> places) {
         return std::vector<std::optional<double>>(places.size());
     });
-    ASSERT_TRUE(voids);
-    EXPECT_EQ(voids->node, nullptr);
+    ASSERT_FALSE(voids);
+    EXPECT_THAT(voids.error().message, HasSubstr("1 over a void; no building is left"));
 }
 
 TEST_F(PlacedBuildingsTest, RoofsLieOnTheMedianOfTheSurfaceModel) {

@@ -58,6 +58,24 @@ TEST_F(PlacedObjectsTest, StandOnTheExactGround) {
     EXPECT_NEAR(above.low.x, -5.5, 1e-5);
 }
 
+TEST_F(PlacedObjectsTest, ObjectsThatShowNothingAreNoted) {
+    const scene::TerrainSurface surface = ground_of(slope());
+    const auto far = folder_.write("far.obj", "v 500 0 0\nv 501 0 0\nv 500 1 0\nf 1 2 3\n");
+    const auto thin = folder_.write("thin.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    io::ObjectDescription deep = cube({2.0, 2.0});
+    deep.height = -5.0;
+    io::ObjectDescription half = deep;
+    half.height = -1.5;
+    const auto placed =
+        place(surface, {{far, glm::dvec2(0.0)}, {thin, glm::dvec2(0.0)}, deep, half});
+    ASSERT_TRUE(placed) << placed.error().message;
+    EXPECT_EQ(placed->objects.size(), 4U);
+    EXPECT_THAT(placed->notes,
+                testing::ElementsAre(AllOf(StartsWith(far.string()), HasSubstr("outside")),
+                                     AllOf(StartsWith(thin.string()), HasSubstr("no area")),
+                                     HasSubstr("its top lies 3 m below the ground")));
+}
+
 TEST_F(PlacedObjectsTest, HeadingsTurnClockwiseFromNorth) {
     const scene::TerrainSurface surface = ground_of(slope());
     PlacedObject object{nullptr, cube({0.0, 0.0}), 0.0, {}};
