@@ -38,7 +38,8 @@ Result<session::SunChoice> parse_sun(const std::string& text) {
 void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "direction of the sun, degrees: clockwise from north, above the horizon (negative: "
-               "below); or a time in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40)",
+               "below); or a time in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40; "
+               "on maps 315,35)",
                "AZIMUTH,ALTITUDE|TIME");
     add_parsed(command, "--turbidity", choice.turbidity,
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),

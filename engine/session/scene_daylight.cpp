@@ -154,7 +154,9 @@ Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTim
 
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view) {
-    SunChoice choice = glm::dvec2(description.sun_azimuth, description.sun_altitude);
+    const glm::dvec2 usual = default_sun(view);
+    SunChoice choice = glm::dvec2(description.sun_azimuth.value_or(usual.x),
+                                  description.sun_altitude.value_or(usual.y));
     if (view.sun) {
         choice = *view.sun;
     } else if (description.sun_time) {
