@@ -58,13 +58,15 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
         ->type_name("FILE|FOLDER");
     add_parsed(command, "--sky-turn", choice.sky_turn, number_in("--sky-turn", -360.0, 360.0),
                "where the middle of that picture lies, degrees clockwise from north (0)", "DEG");
-    add_parsed(command, "--base", choice.base,
-               word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
-                                                     {"solid", session::BaseKind::solid},
-                                                     {"none", session::BaseKind::none}}),
-               "plane: the terrain lies on an endless plane; solid: it is a block with walls below "
-               "its border, on pale ground; none: it floats in the sky (plane)",
-               "KIND");
+    add_parsed(
+        command, "--base", choice.base,
+        word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
+                                              {"solid", session::BaseKind::solid},
+                                              {"none", session::BaseKind::none}}),
+        "plane: the terrain lies on an endless plane; solid: it is a block with walls below "
+        "its border, on pale ground; none: it floats in the sky (plane; pictures of the whole "
+        "terrain: solid where it is no island)",
+        "KIND");
     add_parsed(command, "--occlusion", choice.hides_sky,
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");

@@ -118,8 +118,10 @@ struct SceneOptions {
     std::optional<double> visibility;
     /// A picture of the sky (io::read_sky); absent: the scene file's, else the sun's own sky.
     std::optional<std::filesystem::path> sky;
-    std::optional<double> sky_turn;     ///< degrees clockwise; absent: the scene file's, else 0
-    std::optional<BaseKind> base;       ///< absent: the scene file's, else a plane
+    std::optional<double> sky_turn; ///< degrees clockwise; absent: the scene file's, else 0
+    std::optional<BaseKind> base;   ///< absent: the scene file's, else default_base
+    /// `solid`: a plane remains around islands, streams, the gallery, and more than 500 km.
+    BaseKind default_base = BaseKind::plane;
     std::optional<bool> hides_sky;      ///< absent: the scene file's, else true
     std::optional<bool> contour_labels; ///< likewise
     std::optional<double> eye_dome;     ///< Scene::eye_dome(); absent: the scene file's, else 0
