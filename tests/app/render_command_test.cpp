@@ -327,9 +327,9 @@ TEST(RenderCommand, triangles_have_four_samples_a_pixel_and_rays_one) {
     const auto file = (folder.path() / "a.png").string();
     const auto scene = test::small_terrain(folder, "natural");
     const auto drawn = [&](const std::string& technique, const std::vector<std::string>& more) {
-        std::vector<std::string> arguments{"render", scene,     "--technique", technique,
-                                           "--size", "160x120", "--quiet",     "--context",
-                                           "osmesa", "-o",      file};
+        std::vector<std::string> arguments{
+            "render",  scene,     "--technique", technique, "--base", "plane", "--size",
+            "160x120", "--quiet", "--context",   "osmesa",  "-o",     file};
         arguments.insert(arguments.end(), more.begin(), more.end());
         const auto result = test::reljef(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
