@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/io/image/sky_file.h"
@@ -46,6 +47,34 @@ bool is_in_sea(const terrain::Heightfield& heightfield) {
 bool is_island(const TerrainScene& scene) {
     const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     return !scene.is_gallery && scene.city == nullptr && is_in_sea(surface.heightfield());
+}
+
+// The samples above or below the sea, from their lowest to their highest col, row and height.
+Box land_samples(const Grid<float>& heights) {
+    Box land;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (heights(col, row) != 0.0F) {
+                land.add({col, row, heights(col, row)});
+            }
+        }
+    }
+    return land;
+}
+
+// With sea around it, within the terrain.
+Box with_coast(Box land, const Grid<float>& heights) {
+    constexpr double in_sizes = 0.2;
+    constexpr double in_terrains = 0.05;
+    const glm::dvec3 last(heights.cols() - 1, heights.rows() - 1, 0.0);
+    const double margin = std::max(in_sizes * std::max(land.size().x, land.size().y),
+                                   in_terrains * std::max(last.x, last.y));
+    land.low =
+        glm::max(land.low - glm::dvec3(margin, margin, 0.0), glm::dvec3(0.0, 0.0, land.low.z));
+    land.high = glm::min(land.high + glm::dvec3(margin, margin, 0.0),
+                         glm::dvec3(last.x, last.y, land.high.z));
+    land.low.z = std::min(land.low.z, 0.0);
+    return land;
 }
 
 // Beyond, the Earth is no plane.
@@ -199,6 +228,29 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
 }
 
 } // namespace
+
+Box whole_bounds(const TerrainScene& scene) {
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const Grid<float>& heights = surface.heightfield().heights;
+    const Box land = is_island(scene) ? land_samples(heights) : Box();
+    if (land.empty()) {
+        return scene.bounds;
+    }
+    // On the ellipsoid, its sides and the middle bulge.
+    const Box samples = with_coast(land, heights);
+    constexpr int steps = 8;
+    Box shown;
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            for (const double height : {samples.low.z, samples.high.z}) {
+                const glm::dvec2 place = glm::mix(glm::dvec2(samples.low), glm::dvec2(samples.high),
+                                                  glm::dvec2(i, j) / double{steps});
+                shown.add(surface.placement().world_from_sample({place, height}));
+            }
+        }
+    }
+    return shown;
+}
 
 Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
                           const SceneOptions& view, Log& log) {

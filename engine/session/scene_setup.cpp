@@ -118,7 +118,7 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     }
     const double aspect = static_cast<double>(view.size.x) / view.size.y;
     if (!view.pose && !is_map) {
-        return scene::whole_camera(scene.bounds, view.vertical_fov, aspect);
+        return scene::whole_camera(whole_bounds(scene), view.vertical_fov, aspect);
     }
     const auto ground = [&](double x, double y) { return scene.ground(x, y); };
     camera = scene::pose_camera(view.pose.value_or(scene::Pose::map), scene.bounds, ground);

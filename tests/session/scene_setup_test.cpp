@@ -203,6 +203,16 @@ TEST_F(GeodeticCamera, MapsHaveASunAndColorsOfTheirOwn) {
     EXPECT_EQ(look_of(view), "315 35 atlas");
 }
 
+// Else an island is small amid its sea.
+TEST_F(GeodeticCamera, SeesAnIslandWithoutAllOfItsSea) {
+    const auto distance = [&](int ground) {
+        const auto scene = scene_of({}, terrain::PlacementKind::plane, ground, 1000);
+        const auto& camera = *scene.camera->get<scene::Camera>();
+        return glm::distance(camera.eye, scene.bounds.center());
+    };
+    EXPECT_LT(distance(0), 0.2 * distance(100));
+}
+
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const std::string file =
         folder_
