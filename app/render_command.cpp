@@ -58,6 +58,17 @@ Result<Maker> make_frame_maker(const RenderChoice& choice, session::Log& log) {
     return Maker{std::make_unique<session::DeviceFrames>(std::move(*device), log, options), rays};
 }
 
+// A terrain that is seen whole is a block, and none of its ground is near. The exact picture shows
+// no walls.
+void set_usual_look(session::SceneOptions& view, const RenderChoice& choice, bool has_camera) {
+    const bool is_map = session::is_map(view);
+    const bool is_whole = !is_map && !has_camera && choice.view.path.empty();
+    view.default_grain = is_map || is_whole ? 0.0 : 1.0;
+    if (is_whole && !choice.truth && !choice.compare.request) {
+        view.default_base = session::BaseKind::solid;
+    }
+}
+
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
     if (auto good = check_targets(choice); !good) {
         return good;
@@ -89,8 +100,9 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
     view.rays = maker->rays;
     view.prepares_maps = !choice.truth;
     view.mesh_levels = choice.view.frames > 1;
-    const bool has_camera_of_file =
-        description->eye && !choice.view.eye && !choice.view.geodetic && !choice.view.pose;
+    const bool has_camera = choice.view.eye || choice.view.geodetic || choice.view.pose;
+    const bool has_camera_of_file = description->eye && !has_camera;
+    set_usual_look(view, choice, has_camera || has_camera_of_file);
     auto scene =
         session::open_scene(std::move(*description), terrain, view, log, interrupt.token());
     if (!scene) {

@@ -152,6 +152,7 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
     const int samples = choice.view.samples.value_or(view::automatic_samples);
     const glm::ivec2 size = window.framebuffer_size();
     session::SceneRendererOptions options;
+    options.threads = static_cast<unsigned>(choice.terrain.threads);
     options.opengl = {.size = size,
                       .shader_dir = choice.view.shader_dir,
                       .software = window.context().is_software(),

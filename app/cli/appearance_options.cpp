@@ -38,7 +38,8 @@ Result<session::SunChoice> parse_sun(const std::string& text) {
 void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
     add_parsed(command, "--sun", choice.sun, parse_sun,
                "direction of the sun, degrees: clockwise from north, above the horizon (negative: "
-               "below); or a time in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40)",
+               "below); or a time in UTC as 2026-06-21T12:00, over georeferenced terrain (300,40; "
+               "on maps 315,35)",
                "AZIMUTH,ALTITUDE|TIME");
     add_parsed(command, "--turbidity", choice.turbidity,
                number_in("--turbidity", scene::min_turbidity, scene::max_turbidity),
@@ -57,13 +58,15 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
         ->type_name("FILE|FOLDER");
     add_parsed(command, "--sky-turn", choice.sky_turn, number_in("--sky-turn", -360.0, 360.0),
                "where the middle of that picture lies, degrees clockwise from north (0)", "DEG");
-    add_parsed(command, "--base", choice.base,
-               word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
-                                                     {"solid", session::BaseKind::solid},
-                                                     {"none", session::BaseKind::none}}),
-               "plane: the terrain lies on an endless plane; solid: it is a block with walls below "
-               "its border, on pale ground; none: it floats in the sky (plane)",
-               "KIND");
+    add_parsed(
+        command, "--base", choice.base,
+        word_of<session::BaseKind>("--base", {{"plane", session::BaseKind::plane},
+                                              {"solid", session::BaseKind::solid},
+                                              {"none", session::BaseKind::none}}),
+        "plane: the terrain lies on an endless plane; solid: it is a block with walls below "
+        "its border, on pale ground; none: it floats in the sky (plane; pictures of the whole "
+        "terrain: solid where it is no island)",
+        "KIND");
     add_parsed(command, "--occlusion", choice.hides_sky,
                word_of<bool>("--occlusion", {{"on", true}, {"off", false}}),
                "on: valleys and streets get less light from the sky (on)", "on|off");
@@ -79,7 +82,8 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
                "on: writes the height, in metres, on bold contour lines (on)", "on|off");
     add_parsed(command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
                "contrast of fine structure on near ground, which the data do not have: 0 (none) to "
-               "2; hits, errors and --compare are without it (view: 1, render: 0)",
+               "2; hits, errors and --compare are without it (1; on maps and pictures of the whole "
+               "terrain 0)",
                "G");
 }
 

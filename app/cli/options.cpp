@@ -372,9 +372,10 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
         "the rows and columns of samples, without windows",
         "KIND");
     command
-        .add_option("--ramp", choice.ramp,
-                    "colours by height: relief, natural, swiss, desert, clay, stretched, or a "
-                    "colour file of gdaldem color-relief (relief)")
+        .add_option(
+            "--ramp", choice.ramp,
+            "colours by height: relief, natural, swiss, desert, clay, stretched, atlas, or a "
+            "colour file of gdaldem color-relief (relief; on maps atlas)")
         ->type_name("NAME|FILE");
     add_parsed(command, "--imagery-share", choice.imagery_share,
                number_in("--imagery-share", 0.0, 1.0),

@@ -8,6 +8,7 @@
 #include "engine/geo/place.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/session/ground.h"
+#include "engine/session/scene_daylight.h"
 #include "engine/session/streaming.h"
 #include "engine/terrain/field/heightfield.h"
 
@@ -72,8 +73,13 @@ scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 s
     if (camera.projection == scene::ProjectionKind::perspective) {
         return camera;
     }
+<<<<<<< HEAD
     const scene::Camera whole = scene::whole_camera(scene.shown_bounds(), camera.vertical_fov,
                                                     static_cast<double>(size.x) / size.y);
+=======
+    const scene::Camera whole = scene::whole_camera(
+        session::whole_bounds(scene), camera.vertical_fov, static_cast<double>(size.x) / size.y);
+>>>>>>> pictures
     camera.projection = scene::ProjectionKind::perspective;
     camera.eye = whole.eye;
     camera.target = whole.target;

@@ -106,7 +106,7 @@ std::string choice_text(const std::optional<view::Choice>& choice) {
 // Of tiles whose errors are estimates nothing is kept.
 std::string kept_error_text(const view::FrameStats& stats) {
     const char* const part = stats.tiles_unproven > 0 ? " where tiles are proven" : "";
-    return stats.kept_error ? fmt::format("{:.2f} px{}", *stats.kept_error, part) : "none";
+    return stats.kept_error ? fmt::format("{:.2f} px{}", *stats.kept_error, part) : "not proven";
 }
 
 // Triangles may be off by far more for other reasons, also in views that are too narrow.

@@ -47,6 +47,21 @@ std::optional<BackendKind> backend_from_string(std::string_view text) {
     return found == all_backends.end() ? std::nullopt : std::optional(*found);
 }
 
+bool is_map(const SceneOptions& options) {
+    const bool is_parallel = options.projection == scene::ProjectionKind::orthographic;
+    if (options.geodetic) {
+        return is_parallel && options.geodetic->pitch == -90.0;
+    }
+    if (options.eye && options.target) {
+        return is_parallel && glm::dvec2(*options.eye) == glm::dvec2(*options.target);
+    }
+    return options.pose ? *options.pose == scene::Pose::map : is_parallel;
+}
+
+glm::dvec2 default_sun(const SceneOptions& options) {
+    return is_map(options) ? glm::dvec2(315.0, 35.0) : glm::dvec2(300.0, 40.0);
+}
+
 scene::Technique technique_of(const SceneOptions& options) {
     scene::Technique technique = options.technique.value_or(scene::Technique{});
     auto* const polygons = std::get_if<scene::Polygons>(&technique.parameters);

@@ -51,7 +51,7 @@ struct SourceOptions {
     std::optional<building::CityWalls> walls; ///< of its heights; absent: the scene file's
     std::optional<double> exaggeration;       ///< absent: the scene file's, else 1
     /// Colours by height: a built-in ramp or a colour file; absent: the scene file's, else
-    /// "relief".
+    /// "relief", on maps "atlas".
     std::optional<std::string> ramp;
     std::optional<double> imagery_share; ///< [0, 1]; absent: the scene file's, else 1
     /// Absent: the scene file's, else the ellipsoid for georeferenced terrain.
@@ -112,14 +112,16 @@ struct SceneOptions {
     std::optional<glm::dvec3> target; ///< scene metres
     std::optional<GeodeticView> geodetic;
     std::optional<scene::Pose> pose; ///< without any of these, the scene file's, else all is seen
-    std::optional<SunChoice> sun;    ///< absent: the scene file's
+    std::optional<SunChoice> sun;    ///< absent: the scene file's, else default_sun()
     std::optional<double> turbidity; ///< [1, 10]; absent: the scene file's, else clear air
     /// Metres; 0: no haze; absent: the scene file's, else by the size.
     std::optional<double> visibility;
     /// A picture of the sky (io::read_sky); absent: the scene file's, else the sun's own sky.
     std::optional<std::filesystem::path> sky;
-    std::optional<double> sky_turn;     ///< degrees clockwise; absent: the scene file's, else 0
-    std::optional<BaseKind> base;       ///< absent: the scene file's, else a plane
+    std::optional<double> sky_turn; ///< degrees clockwise; absent: the scene file's, else 0
+    std::optional<BaseKind> base;   ///< absent: the scene file's, else default_base
+    /// `solid`: a plane remains around islands, streams, the gallery, and more than 500 km.
+    BaseKind default_base = BaseKind::plane;
     std::optional<bool> hides_sky;      ///< absent: the scene file's, else true
     std::optional<bool> contour_labels; ///< likewise
     std::optional<double> eye_dome;     ///< Scene::eye_dome(); absent: the scene file's, else 0
@@ -137,6 +139,13 @@ struct SceneOptions {
     /// RayUse::only, georeferenced terrain is on a plane, too.
     RayUse rays = RayUse::none;
 };
+
+/// Whether the start is a map: parallel rays from straight above.
+bool is_map(const SceneOptions& options);
+
+/// Azimuth and altitude, degrees: (300, 40); on maps (315, 35), the upper left that shaded maps
+/// have.
+glm::dvec2 default_sun(const SceneOptions& options);
 
 /// The technique with its error bound. Precondition: check().
 scene::Technique technique_of(const SceneOptions& options);

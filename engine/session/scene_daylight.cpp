@@ -7,6 +7,7 @@
 #include <variant>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/io/image/sky_file.h"
@@ -41,17 +42,58 @@ bool is_in_sea(const terrain::Heightfield& heightfield) {
     return 2 * sea > count;
 }
 
-// The sea around an island; else pale and of no colour, so that the terrain stands out from it.
-// The floor of the gallery and the plane of a city, level at 0, are no sea.
-glm::vec3 base_albedo(const TerrainScene& scene) {
+// Whether the plane goes on with the sea around the terrain. The floor of the gallery and the plane
+// of a city, level at 0, are no sea.
+bool is_island(const TerrainScene& scene) {
     const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
-    return !scene.is_gallery && scene.city == nullptr && is_in_sea(surface.heightfield())
-               ? linear_from_rgba8(terrain::HeightTint::water)
-               : glm::vec3(0.42F, 0.42F, 0.41F);
+    return !scene.is_gallery && scene.city == nullptr && is_in_sea(surface.heightfield());
+}
+
+// The samples above or below the sea, from their lowest to their highest col, row and height.
+Box land_samples(const Grid<float>& heights) {
+    Box land;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            if (heights(col, row) != 0.0F) {
+                land.add({col, row, heights(col, row)});
+            }
+        }
+    }
+    return land;
+}
+
+// With sea around it, within the terrain.
+Box with_coast(Box land, const Grid<float>& heights) {
+    constexpr double in_sizes = 0.2;
+    constexpr double in_terrains = 0.05;
+    const glm::dvec3 last(heights.cols() - 1, heights.rows() - 1, 0.0);
+    const double margin = std::max(in_sizes * std::max(land.size().x, land.size().y),
+                                   in_terrains * std::max(last.x, last.y));
+    land.low =
+        glm::max(land.low - glm::dvec3(margin, margin, 0.0), glm::dvec3(0.0, 0.0, land.low.z));
+    land.high = glm::min(land.high + glm::dvec3(margin, margin, 0.0),
+                         glm::dvec3(last.x, last.y, land.high.z));
+    land.low.z = std::min(land.low.z, 0.0);
+    return land;
+}
+
+// Beyond, the Earth is no plane.
+bool has_plane_below(const TerrainScene& scene) {
+    constexpr double max_width = 5e5; // metres
+    const glm::dvec3 size = scene.bounds.size();
+    return std::max(size.x, size.y) <= max_width;
+}
+
+// Of the sea; else pale and of no colour, so that the terrain stands out from it.
+glm::vec3 base_albedo(const TerrainScene& scene, bool is_sea) {
+    constexpr float table_albedo = 0.56F; // on which a block lies
+    if (scene.surroundings.base == BaseKind::solid) {
+        return glm::vec3(table_albedo);
+    }
+    return is_sea ? linear_from_rgba8(terrain::HeightTint::water) : glm::vec3(0.42F, 0.42F, 0.41F);
 }
 
 constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
-constexpr float table_albedo = 0.56F;                  // on which a block lies
 
 std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface) {
     auto mesh = scene::terrain_base(surface);
@@ -90,10 +132,26 @@ std::optional<double> true_north(const TerrainScene& scene) {
 
 namespace {
 
-BaseKind base_kind(const io::SceneDescription& description, const SceneOptions& view) {
-    return view.base.value_or(description.base == "none"    ? BaseKind::none
-                              : description.base == "solid" ? BaseKind::solid
-                                                            : BaseKind::plane);
+// Walls follow all samples of the border; a stream shows coarser ones, too.
+BaseKind base_kind(const TerrainScene& scene, const io::SceneDescription& description,
+                   const SceneOptions& view, Log& log) {
+    const bool is_named = view.base || !description.base.empty();
+    const BaseKind described = description.base == "none"    ? BaseKind::none
+                               : description.base == "solid" ? BaseKind::solid
+                                                             : BaseKind::plane;
+    const BaseKind kind = view.base.value_or(is_named ? described : view.default_base);
+    if (kind != BaseKind::solid) {
+        return kind;
+    }
+    if (scene.terrain->get<scene::TerrainNode>()->stream != nullptr) {
+        if (is_named) {
+            log.note("a terrain that is read tile by tile has no walls: it lies on a plane; a "
+                     "larger --memory shows --base solid");
+        }
+        return BaseKind::plane;
+    }
+    const bool is_usual = !scene.is_gallery && !is_island(scene) && has_plane_below(scene);
+    return is_named || is_usual ? kind : BaseKind::plane;
 }
 
 Result<std::shared_ptr<const material::SkyPicture>>
@@ -112,7 +170,6 @@ sky_picture(const io::SceneDescription& description, const SceneOptions& view) {
     return std::make_shared<const material::SkyPicture>(std::move(*picture));
 }
 
-// Walls follow all samples of the border; a stream shows coarser ones, too.
 Result<Surroundings> surroundings_of(const TerrainScene& scene,
                                      const io::SceneDescription& description,
                                      const SceneOptions& view, Log& log) {
@@ -120,12 +177,7 @@ Result<Surroundings> surroundings_of(const TerrainScene& scene,
     found.turbidity =
         view.turbidity.value_or(description.turbidity.value_or(scene::default_turbidity));
     found.visibility = view.visibility ? view.visibility : description.visibility;
-    found.base = base_kind(description, view);
-    if (found.base == BaseKind::solid && scene.terrain->get<scene::TerrainNode>()->stream) {
-        log.note("a terrain that is read tile by tile has no walls: it lies on a plane; a larger "
-                 "--memory shows --base solid");
-        found.base = BaseKind::plane;
-    }
+    found.base = base_kind(scene, description, view, log);
     auto sky = sky_picture(description, view);
     if (!sky) {
         return sky.error();
@@ -154,7 +206,9 @@ Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTim
 
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view) {
-    SunChoice choice = glm::dvec2(description.sun_azimuth, description.sun_altitude);
+    const glm::dvec2 usual = default_sun(view);
+    SunChoice choice = glm::dvec2(description.sun_azimuth.value_or(usual.x),
+                                  description.sun_altitude.value_or(usual.y));
     if (view.sun) {
         choice = *view.sun;
     } else if (description.sun_time) {
@@ -174,6 +228,29 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
 }
 
 } // namespace
+
+Box whole_bounds(const TerrainScene& scene) {
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const Grid<float>& heights = surface.heightfield().heights;
+    const Box land = is_island(scene) ? land_samples(heights) : Box();
+    if (land.empty()) {
+        return scene.bounds;
+    }
+    // On the ellipsoid, its sides and the middle bulge.
+    const Box samples = with_coast(land, heights);
+    constexpr int steps = 8;
+    Box shown;
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            for (const double height : {samples.low.z, samples.high.z}) {
+                const glm::dvec2 place = glm::mix(glm::dvec2(samples.low), glm::dvec2(samples.high),
+                                                  glm::dvec2(i, j) / double{steps});
+                shown.add(surface.placement().world_from_sample({place, height}));
+            }
+        }
+    }
+    return shown;
+}
 
 Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
                           const SceneOptions& view, Log& log) {
@@ -213,15 +290,12 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
         sky.horizon = picture->horizon();
         sky.glow = glm::vec3(0.0F);
     }
-    constexpr double max_plane_width = 5e5; // metres; beyond, the Earth is no plane
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const BaseKind base = scene.surroundings.base;
-    const glm::dvec3 size = scene.bounds.size();
-    if (base != BaseKind::none && std::max(size.x, size.y) <= max_plane_width) {
+    if (base != BaseKind::none && has_plane_below(scene)) {
         const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
-        const glm::vec3 albedo =
-            base == BaseKind::solid ? glm::vec3(table_albedo) : base_albedo(scene);
-        sky.plane = albedo * (level * sun.color + sun.ambient);
+        sky.is_plane_sea = base == BaseKind::plane && is_island(scene);
+        sky.plane = base_albedo(scene, sky.is_plane_sea) * (level * sun.color + sun.ambient);
     }
     if (base == BaseKind::solid && !scene.is_gallery) {
         terrain.base = walls_below(*terrain.surface);

@@ -14,6 +14,10 @@ namespace reljef::session {
 /// the convergence of its grid. Empty without a place on Earth.
 std::optional<double> true_north(const TerrainScene& scene);
 
+/// What a picture of the whole terrain is filled with, scene metres: of an island the land with
+/// some sea around it, else all of the terrain.
+Box whole_bounds(const TerrainScene& scene);
+
 /// Adds the sun, the sky, the air, and lights besides the sun, as the options name them, else the
 /// scene file. Reads a picture of the sky. Notes a base that the terrain cannot have. Usage errors
 /// with a time: a terrain without a place on Earth, a sun below the horizon of its middle.

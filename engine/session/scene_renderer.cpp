@@ -58,7 +58,7 @@ view::ChoiceOptions choice_options(const SceneRendererOptions& options,
 
 SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
     : opengl_options_(options.opengl), make_context_(options.make_context),
-      size_(options.rays ? options.rays->size : options.opengl->size),
+      size_(options.rays ? options.rays->size : options.opengl->size), threads_(options.threads),
       shows_rays_(options.rays.has_value()), expects_rays_(options.expects_rays),
       obstacle_of_whole_(std::make_shared<std::string>()),
       chooser_(
@@ -272,8 +272,9 @@ void SceneRenderer::draw_eye_dome(const Grid<float>& depths, view::ContourLabels
     });
     const view::DrawList& list = selector_.selected().list;
     if (list.eye_dome > 0.0) {
-        paint_over({{0, 0}, size_},
-                   [&](GridView<Rgba8> picture) { view::shade_eye_dome(picture, depths, list); });
+        paint_over({{0, 0}, size_}, [&](GridView<Rgba8> picture) {
+            view::shade_eye_dome(picture, depths, list, {threads_, {}, {}});
+        });
     }
 }
 
@@ -366,7 +367,8 @@ Result<Device> Device::create_with_rays(const DeviceOptions& options, RayUse use
                                     .samples = options.samples,
                                     .target = *target},
         .costs = options.costs,
-        .selects_always = options.selects_always};
+        .selects_always = options.selects_always,
+        .threads = static_cast<unsigned>(options.threads)};
     if (use == RayUse::preferred) {
         device.context_ = std::make_shared<Context>();
         drivers.opengl = opengl_options(options, true);
@@ -391,7 +393,8 @@ Result<Device> Device::create_with_context(const DeviceOptions& options, Context
     auto renderer =
         SceneRenderer::create({.opengl = opengl_options(options, context->is_software()),
                                .costs = options.costs,
-                               .selects_always = options.selects_always});
+                               .selects_always = options.selects_always,
+                               .threads = static_cast<unsigned>(options.threads)});
     if (!renderer) {
         return renderer.error();
     }

@@ -46,6 +46,7 @@ struct SceneRendererOptions {
     view::SelectOptions select = {};
     view::TechniqueCosts costs = {}; ///< by which `auto` chooses
     bool selects_always = false;     ///< see view::FrameSelector
+    unsigned threads = 0;            ///< of what is drawn over pictures; 0: one per processor
 };
 
 /// Draws the frames of a scene with OpenGL or by rays on the CPU, and selects each view once (see
@@ -129,6 +130,7 @@ private:
     std::optional<cast::Driver> rays_;
     render::WindowPicture window_picture_; // of rays
     glm::ivec2 size_;
+    unsigned threads_;
     std::vector<std::shared_ptr<const view::PreparedLight>> lights_; // for the next frame
     bool shows_rays_;
     bool expects_rays_;
@@ -151,7 +153,7 @@ struct DeviceOptions {
     glm::ivec2 size{1024, 768};            ///< of the picture, pixels
     std::filesystem::path shader_dir = {}; ///< its files override the built-in shaders
     int samples = 1;                       ///< per pixel, see render::DriverOptions
-    int threads = 0;                       ///< of a software renderer; 0: its own choice
+    int threads = 0;                       ///< of all that draws on the CPU; 0: its own choice
     std::string simd = {};                 ///< of rays on the CPU (cast/simd_target.h); empty: best
     bool selects_always = false;           ///< see SceneRendererOptions
     bool cuts_always = false;              ///< OpenGL cuts triangles of an unchanged view again

@@ -45,10 +45,11 @@ std::size_t vertices_within(int megabytes) {
     return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;
 }
 
-Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice,
+Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice, const SceneOptions& view,
                                    const io::SceneDescription& description) {
     const std::string& name = choice.ramp ? *choice.ramp : description.ramp;
-    if (auto built_in = terrain::named_ramp(name.empty() ? terrain::default_ramp : name)) {
+    const std::string_view usual = is_map(view) ? terrain::map_ramp : terrain::default_ramp;
+    if (auto built_in = terrain::named_ramp(name.empty() ? usual : name)) {
         return std::move(*built_in);
     }
     std::error_code ignored;
@@ -63,7 +64,7 @@ Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice,
 Result<scene::TerrainOptions> terrain_options(const SourceOptions& choice, const SceneOptions& view,
                                               const io::SceneDescription& description) {
     scene::TerrainOptions options;
-    auto ramp = ramp_of(choice, description);
+    auto ramp = ramp_of(choice, view, description);
     if (!ramp) {
         return ramp.error();
     }
@@ -118,7 +119,11 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     }
     const double aspect = static_cast<double>(view.size.x) / view.size.y;
     if (!view.pose && !is_map) {
+<<<<<<< HEAD
         return scene::whole_camera(scene.shown_bounds(), view.vertical_fov, aspect);
+=======
+        return scene::whole_camera(whole_bounds(scene), view.vertical_fov, aspect);
+>>>>>>> pictures
     }
     camera = scene.pose_camera(view.pose.value_or(scene::Pose::map));
     if (!view.pose) { // also where the picture is narrower than that of the pose

@@ -54,9 +54,8 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
                     const scene::SeenSky* picture) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
     if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
-        constexpr double mist = 3.0; // as dense as the air at the base
-        const double metres = (sky.base - ray.origin.z) / direction.z;
-        return behind_air(sky, sun, *sky.plane, direction, mist * metres);
+        const double air = scene::plane_air(sky, ray.origin.z - sky.base) / -direction.z;
+        return behind_air(sky, sun, *sky.plane, direction, air);
     }
     if (picture != nullptr) {
         return picture->color(direction);

@@ -22,12 +22,20 @@ constexpr double narrowest = 0.5; // metres
 
 constexpr double mean_earth_radius = 6371008.8; // metres (IUGG)
 
+// Metres. Wider ones are hills, which coarse data would show.
+constexpr double widest = 1500.0;
+
 double finest_spacing(const scene::TerrainNode& terrain) {
     if (terrain.stream != nullptr) {
         return terrain.stream->maker().spacing(0);
     }
     const glm::dvec2 spacing = terrain.surface->placement().spacing();
     return std::max(spacing.x, spacing.y);
+}
+
+// Metres.
+double first_width(const scene::TerrainNode& terrain) {
+    return std::min(samples_a_width * finest_spacing(terrain), widest);
 }
 
 // The sample of the terrain's surface that is nearest to the eye.
@@ -58,7 +66,7 @@ glm::dvec3 turned(glm::dvec3 world) {
 
 bool shows_grain(const DrawList& list, const scene::TerrainNode& terrain, double distance) {
     const glm::dvec2 metres(metres_a_pixel(list.camera, list.size));
-    const double texel = samples_a_width * finest_spacing(terrain) / material::GrainMap::side;
+    const double texel = first_width(terrain) / material::GrainMap::side;
     return scene::shown_grain(terrain) > 0.0F &&
            metres.x + metres.y * distance < std::exp2(GrainView::unseen_level) * texel;
 }
@@ -81,7 +89,7 @@ GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
     for (int axis = 0; axis < 3; ++axis) {
         view.metres_per_sample[axis] = turned(view.metres_per_sample[axis]);
     }
-    double width = samples_a_width * finest_spacing(terrain);
+    double width = first_width(terrain);
     double copies = GrainView::copies;
     do {
         view.patterns.at(static_cast<std::size_t>(view.pattern_count++)) = {

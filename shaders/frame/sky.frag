@@ -9,11 +9,10 @@ in vec3 ray;
 
 layout(location = 0) out vec4 color;
 
-// Of the plane at the base, below the horizon: in mist that is thrice as dense as the air at the base, so
-// that no line shows where it ends.
+// Of the plane at the base, below the horizon, behind scene::plane_air().
 vec3 plane_color(vec3 direction) {
 #ifdef FOG
-    vec3 left = exp(-3.0 * air.rgb * (sky_plane.a / -direction.z));
+    vec3 left = exp(-air.rgb * (sky_horizon.a / -direction.z));
     return mix(haze_color(direction), sky_plane.rgb, left);
 #else
     return sky_plane.rgb;

@@ -173,6 +173,48 @@ TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
         << refused.error().message;
 }
 
+// Maps have the sun and the colours of maps, unless the user or the scene file names others.
+TEST_F(GeodeticCamera, MapsHaveASunAndColorsOfTheirOwn) {
+    const auto choice = level_ground_in_utm({661720.751, 6654956.720}, 1000.0);
+    const auto look_of = [&](const session::SceneOptions& view, const std::string& keys = "") {
+        session::SourceOptions terrain = choice;
+        terrain.terrain =
+            folder_.write("scene.toml", "[terrain]\nheights = \"utm.asc\"\n" + keys).string();
+        auto source = test::open_terrain(terrain);
+        const auto scene = test::make_scene(std::move(*source), terrain, view).value();
+        const auto& sun = *scene.light->get<scene::Light>();
+        const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+        return fmt::format("{} {} {}", sun.azimuth, sun.altitude, surface.ramp().name);
+    };
+    session::SceneOptions view;
+    EXPECT_EQ(look_of(view), "300 40 relief");
+    view.projection = scene::ProjectionKind::orthographic;
+    EXPECT_EQ(look_of(view), "315 35 atlas");
+    EXPECT_EQ(look_of(view, "ramp = \"swiss\"\n[sun]\naltitude = 20\n"), "315 20 swiss");
+    view.pose = scene::Pose::oblique;
+    EXPECT_EQ(look_of(view), "300 40 relief");
+    view.pose.reset();
+    view.eye = glm::dvec3(5.0, 9.0, 4000.0);
+    view.target = glm::dvec3(5.0, 9.0, 0.0);
+    view.sun = glm::dvec2(10.0, 50.0);
+    EXPECT_EQ(look_of(view), "10 50 atlas");
+    view.target = glm::dvec3(5.0, 99.0, 0.0);
+    EXPECT_EQ(look_of(view), "10 50 relief");
+    view = {};
+    view.pose = scene::Pose::map;
+    EXPECT_EQ(look_of(view), "315 35 atlas");
+}
+
+// Else an island is small amid its sea.
+TEST_F(GeodeticCamera, SeesAnIslandWithoutAllOfItsSea) {
+    const auto distance = [&](int ground) {
+        const auto scene = scene_of({}, terrain::PlacementKind::plane, ground, 1000);
+        const auto& camera = *scene.camera->get<scene::Camera>();
+        return glm::distance(camera.eye, scene.bounds.center());
+    };
+    EXPECT_LT(distance(0), 0.2 * distance(100));
+}
+
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const std::string file =
         folder_

@@ -242,12 +242,27 @@ TEST(Sky, HasAPlaneBelowWhichFadesIntoTheHorizon) {
     scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0, .base = -10.0};
     sky.plane = glm::vec3(0.1F);
     const Ray down{{0.0, 0.0, 90.0}, {0.0, 0.0, -1.0}};
-    const float left = std::pow(0.02F, 0.3F);
+    const float left = std::pow(0.02F, 0.8F); // eight times as thick as the air
     expect_near(sky_color(sky, {}, down), glm::mix(sky.horizon, *sky.plane, left), 1e-5F);
     const Ray flat{{0.0, 0.0, 90.0}, {1.0, 0.0, -1e-5}};
     expect_near(sky_color(sky, {}, flat), sky.horizon, 1e-5F);
     const Ray below{{0.0, 0.0, -20.0}, {0.0, 0.0, -1.0}};
     expect_near(sky_color(sky, {}, below), sky.horizon, 1e-6F);
+}
+
+// The data end in the sea without a line: the plane looks as ground at the same place does.
+TEST(Sky, HasASeaInTheSameAirAsTheTerrain) {
+    scene::Sky sky{.horizon = glm::vec3(0.5F), .visibility = 1000.0, .base = -10.0};
+    sky.plane = glm::vec3(0.1F);
+    sky.is_plane_sea = true;
+    for (const double air_height : {0.0, 30.0, 1e5}) {
+        sky.air_height = air_height;
+        for (const double fall : {1.0, 0.5, 0.01}) {
+            const Ray ray{{0.0, 0.0, 90.0}, {std::sqrt(1.0 - fall * fall), 0.0, -fall}};
+            expect_near(sky_color(sky, {}, ray),
+                        seen_through_air(sky, {}, *sky.plane, ray, 100.0 / fall), 1e-5F);
+        }
+    }
 }
 
 TEST(Sky, HasTheSunWhereItIs) {

@@ -34,7 +34,8 @@ TEST(GrainView, BeginsWhereTheDataEnd) {
         const GrainView view = Ground(glm::dvec2(spacing)).from({});
         // The longest waves are a fifth of a pattern, the shortest of the data two samples.
         const double longest = 0.2 / static_cast<double>(view.patterns[0].w);
-        EXPECT_NEAR(longest, 2.0 * spacing, 1e-6 * spacing);
+        const double longest_ever = 300.0; // metres: longer ones are hills, which no one measured
+        EXPECT_NEAR(longest, std::min(2.0 * spacing, longest_ever), 1e-6 * spacing);
         ASSERT_GE(view.pattern_count, 1);
         for (int i = 1; i < view.pattern_count; ++i) {
             const auto index = static_cast<std::size_t>(i);

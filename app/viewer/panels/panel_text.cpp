@@ -23,6 +23,17 @@ bool has_format(const PlaceContent& place, PlaceFormat format) {
     return false;
 }
 
+// Rays meet the surface itself, so nothing but the rounding of floats and coarse tiles of a stream
+// moves a pixel.
+std::string exact_error(std::optional<double> kept) {
+    constexpr double smallest_shown = 0.01;
+    if (!kept) {
+        return "rounding only";
+    }
+    return *kept < smallest_shown ? std::string("rounding, below 0.01 px")
+                                  : fmt::format("at most {:.2g} px", *kept);
+}
+
 } // namespace
 
 std::string length_text(double metres) {
@@ -81,7 +92,7 @@ std::string error_summary(const view::FrameStats& stats, const scene::Technique&
         return "unproven";
     }
     if (is_exact && stats.kept_error.value_or(0.0) <= bound) {
-        return "none";
+        return exact_error(stats.kept_error);
     }
     if (stats.kept_error) {
         return *stats.kept_error > bound ? fmt::format("up to {:.1f} px", *stats.kept_error)

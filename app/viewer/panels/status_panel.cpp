@@ -78,7 +78,9 @@ void draw_status(const PanelContent& content, const Area& area, const Fonts& fon
     draw_plot(frame, ImGui::GetFontSize() / 16.0F);
     const FontScope small(fonts.small);
     row("Error", error_summary(frame.stats, content.technique.requested));
-    tip("How far from its true place a pixel may show a point");
+    tip("How far from its true place a pixel may show a point. exact draws the surface itself: "
+        "only "
+        "rounding errs");
     if (frame.stats.rays > 0) {
         row("Rays", count_text(frame.stats.rays));
     } else {

@@ -37,7 +37,7 @@ BlockPaint backdrop_of(const view::DrawList& list) {
         paint.zenith = sky.zenith;
         paint.glow = sky.glow;
         paint.curve = sky.curve;
-        paint.has_plane = air.has_plane;
+        paint.plane_air = air.plane_air;
         paint.plane = sky.plane.value_or(glm::vec3(0.0F));
         // On a map there is no viewing distance.
         paint.has_air = is_perspective(list) && sky.visibility > 0.0;

@@ -251,7 +251,7 @@ struct BlockPaint {
     glm::vec3 zenith{0.0F};
     glm::vec3 glow{0.0F};
     float curve = 1.0F;
-    bool has_plane = false;
+    float plane_air = 0.0F; ///< as scene::AirSeen; 0: no plane
     glm::vec3 plane{0.0F};
     bool has_sun = false;
     /// The middle of the block in pixels from the lower left corner of the picture.

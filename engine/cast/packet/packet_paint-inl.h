@@ -155,9 +155,8 @@ HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) 
         return all(paint.plane);
     }
     const Floats lowest = all(-1e-9F); // the rise of lanes above the horizon, which show no plane
-    constexpr float mist = 3.0F;       // as dense as the air at the base
-    const Floats metres = hn::Div(all(-mist * paint.eye_above), hn::Min(angles.rise, lowest));
-    return behind_air(paint, angles, all(paint.plane), metres);
+    const Floats air = hn::Div(all(-paint.plane_air), hn::Min(angles.rise, lowest));
+    return behind_air(paint, angles, all(paint.plane), air);
 }
 
 HWY_INLINE Floats fraction_of(Floats x) {
@@ -189,7 +188,7 @@ HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
     }
     const ViewAngles angles = angles_of(paint, view);
     const Lanes below = hn::Lt(angles.rise, hn::Zero(floats));
-    if (!paint.has_plane || hn::AllFalse(floats, below)) {
+    if (paint.plane_air <= 0.0F || hn::AllFalse(floats, below)) {
         return dithered(paint, pixels, above_horizon(paint, view, angles));
     }
     return dithered(paint, pixels,

@@ -135,10 +135,10 @@ struct SceneDescription {
     std::vector<LightDescription> lights;
     std::optional<SurfaceShaderDescription> surface_shader;
 
-    // [sun]: degrees, or a time
+    // [sun]: degrees, or a time; absent: the program's
     std::optional<geo::UniversalTime> sun_time; ///< instead of azimuth and altitude
-    double sun_azimuth = 300.0; ///< of the light source, clockwise from north, [-360, 360]
-    double sun_altitude = 40.0; ///< above the horizon, [-90, 90]
+    std::optional<double> sun_azimuth;          ///< of the light, clockwise from north, [-360, 360]
+    std::optional<double> sun_altitude;         ///< above the horizon, [-90, 90]
 
     // [air]: metres to 2 % contrast; absent: by the scene's size
     std::optional<double> visibility; ///< 0: no haze

@@ -46,7 +46,7 @@ FrameBlock frame_block(const view::DrawList& list) {
         const scene::Sky& sky = *list.sky;
         const scene::AirSeen air = scene::air_seen(sky, list.camera);
         block.sky_zenith = glm::vec4(sky.zenith, sky.curve);
-        block.sky_horizon = glm::vec4(sky.horizon, air.has_plane ? 1.0F : 0.0F);
+        block.sky_horizon = glm::vec4(sky.horizon, air.plane_air);
         block.sky_glow = glm::vec4(sky.glow, air.eye_density);
         block.air = glm::vec4(air.extinction, air.per_height);
         block.sky_plane = glm::vec4(sky.plane.value_or(glm::vec3(0.0F)), air.eye_above);

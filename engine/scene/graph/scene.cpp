@@ -134,8 +134,19 @@ AirSeen air_seen(const Sky& sky, const Camera& camera) {
         seen.per_height = static_cast<float>(1.0 / sky.air_height);
         seen.eye_density = static_cast<float>(std::exp(-std::max(above, 0.0) / sky.air_height));
     }
-    seen.has_plane = sky.plane.has_value() && above > 0.0;
+    if (sky.plane.has_value() && above > 0.0) {
+        seen.plane_air = static_cast<float>(plane_air(sky, above));
+    }
     return seen;
+}
+
+double plane_air(const Sky& sky, double above) {
+    // So much thicker than the air at the base that no line shows where a plane of land ends.
+    constexpr double mist = 8.0;
+    if (!sky.is_plane_sea) {
+        return mist * above;
+    }
+    return sky.air_height > 0.0 ? -sky.air_height * std::expm1(-above / sky.air_height) : above;
 }
 
 Node::Node(std::string name, Content content)

@@ -38,6 +38,8 @@ struct Sky {
     double base = 0.0;       ///< z of the full density and of the plane, world metres
     /// Reflected light of an endless plane at `base`; absent: the horizon's haze.
     std::optional<glm::vec3> plane = {};
+    /// The plane goes on with the terrain's own sea, in the same air. Else it lies in mist.
+    bool is_plane_sea = false;
     std::shared_ptr<const material::SkyPicture> picture = {};
 
     friend bool operator==(const Sky&, const Sky&) = default;
@@ -52,9 +54,14 @@ struct AirSeen {
     float eye_above = 0.0F;     ///< metres above the base, >= 0
     float eye_density = 1.0F;   ///< relative to that at the base
     float per_height = 0.0F;    ///< 1/metre; 0: the same density everywhere
-    bool has_plane = false;     ///< and the eye is above it
+    float plane_air = 0.0F;     ///< plane_air(); 0: there is no plane below the eye
 };
 AirSeen air_seen(const Sky& sky, const Camera& camera);
+
+/// Air between an eye and the plane straight below, in metres of air as dense as at the base; along
+/// a ray it is divided by the sine of the ray's fall. `above`: metres of the eye above the base, >
+/// 0.
+double plane_air(const Sky& sky, double above);
 
 /// The picture of a sky as a camera sees it.
 struct SeenSky {

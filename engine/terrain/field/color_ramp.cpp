@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -106,14 +107,33 @@ ColorRamp stretched_ramp() {
     return ramp;
 }
 
+// The muted layers of an atlas, from green lowlands to pale heights, over the terrain's own range.
+ColorRamp atlas_ramp() {
+    ColorRamp ramp{"atlas",
+                   {{-6000.0, {86.0F, 118.0F, 146.0F}}, {-1.0, {142.0F, 168.0F, 180.0F}}},
+                   false,
+                   true,
+                   {}};
+    constexpr std::array<std::pair<double, glm::vec3>, 6> scale{{{0.00, {134.0F, 150.0F, 118.0F}},
+                                                                 {0.20, {160.0F, 166.0F, 128.0F}},
+                                                                 {0.42, {186.0F, 176.0F, 138.0F}},
+                                                                 {0.64, {178.0F, 156.0F, 124.0F}},
+                                                                 {0.84, {162.0F, 142.0F, 124.0F}},
+                                                                 {1.00, {188.0F, 179.0F, 170.0F}}}};
+    for (const auto& [share, color] : scale) {
+        ramp.stops.push_back({share, color, true, false});
+    }
+    return ramp;
+}
+
 using MakeRamp = ColorRamp (*)();
-constexpr std::array<std::pair<std::string_view, MakeRamp>, 6> ramps{
-    {{"relief", relief_ramp},
-     {"natural", natural_ramp},
-     {"swiss", swiss_ramp},
-     {"desert", desert_ramp},
-     {"clay", clay_ramp},
-     {"stretched", stretched_ramp}}};
+constexpr std::array<std::pair<std::string_view, MakeRamp>, 7> ramps{{{"relief", relief_ramp},
+                                                                      {"natural", natural_ramp},
+                                                                      {"swiss", swiss_ramp},
+                                                                      {"desert", desert_ramp},
+                                                                      {"clay", clay_ramp},
+                                                                      {"stretched", stretched_ramp},
+                                                                      {"atlas", atlas_ramp}}};
 
 // About 2^16 evenly spread samples that are no voids.
 std::vector<float> some_heights(const Heightfield& heightfield) {
@@ -132,9 +152,10 @@ std::vector<float> some_heights(const Heightfield& heightfield) {
     return picked;
 }
 
-// From the 1st to the 99th percentile.
-HeightRange usual_range(const Heightfield& heightfield) {
+// From the 1st to the 99th percentile of the samples from `lowest` on.
+HeightRange usual_range(const Heightfield& heightfield, double lowest) {
     std::vector<float> picked = some_heights(heightfield);
+    std::erase_if(picked, [&](float height) { return height < lowest; });
     if (picked.empty()) {
         return heightfield.range;
     }
@@ -158,15 +179,38 @@ double latitude_of(const Heightfield& heightfield) {
     return heightfield.georeference->geodetic.latitude_longitude(middle).x;
 }
 
-bool has_shares(const ColorRamp& ramp) {
-    return std::any_of(ramp.stops.begin(), ramp.stops.end(),
-                       [](const RampStop& stop) { return stop.is_share; });
+bool is_of_sea(const RampStop& stop) {
+    return !stop.is_share && stop.height < 0.0;
+}
+
+// Land below the sea, such as polders, is no sea.
+bool has_sea_floor(const Heightfield& heightfield) {
+    constexpr double deepest_land = -100.0; // metres; only a few basins are deeper
+    return heightfield.range.low < deepest_land;
+}
+
+// The stops that count on this terrain.
+std::vector<RampStop> used_stops(const ColorRamp& ramp, const Heightfield& heightfield) {
+    std::vector<RampStop> stops = ramp.stops;
+    if (ramp.has_water && !has_sea_floor(heightfield)) {
+        std::erase_if(stops, is_of_sea);
+    }
+    return stops;
+}
+
+// Of which shares are. Above a sea that has colours of its own it is the range of the land.
+HeightRange shared_range(std::span<const RampStop> stops, const Heightfield& heightfield) {
+    if (std::none_of(stops.begin(), stops.end(), [](const auto& stop) { return stop.is_share; })) {
+        return {};
+    }
+    const bool is_land = std::any_of(stops.begin(), stops.end(), is_of_sea);
+    return usual_range(heightfield, is_land ? 0.0 : heightfield.range.low);
 }
 
 std::vector<RampStop> in_metres(const ColorRamp& ramp, const Heightfield& heightfield,
                                 double snow_height) {
-    std::vector<RampStop> stops = ramp.stops;
-    const HeightRange range = has_shares(ramp) ? usual_range(heightfield) : HeightRange{};
+    std::vector<RampStop> stops = used_stops(ramp, heightfield);
+    const HeightRange range = shared_range(stops, heightfield);
     for (RampStop& stop : stops) {
         if (stop.is_share) {
             stop.height = std::lerp(range.low, range.high, stop.height);
@@ -189,12 +233,6 @@ Rgba8 rgba8(glm::vec3 color) {
 }
 
 namespace {
-
-// Land below the sea, such as polders, is no sea.
-bool has_sea_floor(const Heightfield& heightfield) {
-    constexpr double deepest_land = -100.0; // metres; only a few basins are deeper
-    return heightfield.range.low < deepest_land;
-}
 
 float smooth(double from, double to, double value) {
     return static_cast<float>(glm::smoothstep(from, to, value));
@@ -237,9 +275,6 @@ RampColors::RampColors(const ColorRamp& ramp, const Heightfield& heightfield)
     : has_cover_(ramp.has_cover), snow_height_(snow_line(latitude_of(heightfield))),
       poleward_(latitude_of(heightfield) < 0.0 ? -1.0 : 1.0) {
     stops_ = in_metres(ramp, heightfield, snow_height_);
-    if (ramp.has_water && !has_shares(ramp) && !has_sea_floor(heightfield)) {
-        std::erase_if(stops_, [](const RampStop& stop) { return stop.height < 0.0; });
-    }
 }
 
 glm::vec3 RampColors::at(double height) const {

@@ -37,8 +37,10 @@ struct ColorRamp {
 };
 
 inline constexpr std::string_view default_ramp = "relief";
+inline constexpr std::string_view map_ramp = "atlas"; ///< the default of maps
 
-/// The built-in ramp of this name: "relief", "natural", "swiss", "desert", "clay", "stretched".
+/// The built-in ramp of this name: "relief", "natural", "swiss", "desert", "clay", "stretched",
+/// "atlas".
 std::optional<ColorRamp> named_ramp(std::string_view name);
 
 /// Their names, the default first.

@@ -103,6 +103,51 @@ private:
     std::size_t lower_ = 0;
 };
 
+// Connected voids among seas and lakes: water, if nearly all samples around them are.
+class VoidsInWater {
+public:
+    VoidsInWater(const Grid<std::uint8_t>& voids, Grid<std::uint8_t>& water)
+        : voids_(voids), water_(water), seen_(voids.cols(), voids.rows(), 0) {}
+
+    void visit(int col, int row) {
+        samples_.clear();
+        wet_ = dry_ = 0;
+        meet({col, row});
+        for (std::size_t next = 0; next < samples_.size(); ++next) {
+            for (const glm::ivec2 step : around) {
+                meet(samples_[next] + step);
+            }
+        }
+        if (wet_ > 0 && 20 * dry_ <= wet_) {
+            for (const glm::ivec2 sample : samples_) {
+                water_(sample.x, sample.y) = 1;
+            }
+        }
+    }
+
+private:
+    void meet(glm::ivec2 at) {
+        const bool is_inside =
+            at.x >= 0 && at.y >= 0 && at.x < voids_.cols() && at.y < voids_.rows();
+        if (!is_inside) {
+            return;
+        }
+        if (voids_(at.x, at.y) == 0) {
+            ++(water_(at.x, at.y) != 0 ? wet_ : dry_);
+        } else if (seen_(at.x, at.y) == 0) {
+            seen_(at.x, at.y) = 1;
+            samples_.push_back(at);
+        }
+    }
+
+    const Grid<std::uint8_t>& voids_;
+    Grid<std::uint8_t>& water_;
+    Grid<std::uint8_t> seen_;
+    std::vector<glm::ivec2> samples_;
+    std::size_t wet_ = 0; // around the voids
+    std::size_t dry_ = 0;
+};
+
 // The connected voids that reach the border.
 class OutsideVoids {
 public:
@@ -156,6 +201,17 @@ private:
     bool has_any_ = false;
 };
 
+void add_voids_in_water(const Grid<std::uint8_t>& voids, Grid<std::uint8_t>& water) {
+    VoidsInWater filled(voids, water);
+    for (int row = 0; row < voids.rows(); ++row) {
+        for (int col = 0; col < voids.cols(); ++col) {
+            if (voids(col, row) != 0 && water(col, row) == 0) {
+                filled.visit(col, row);
+            }
+        }
+    }
+}
+
 glm::vec2 gradient_at(const Heightfield& heightfield, int col, int row) {
     const Grid<float>& heights = heightfield.heights;
     const glm::vec2 spacing(heightfield.spacing);
@@ -199,6 +255,9 @@ Grid<std::uint8_t> water_mask(const Heightfield& heightfield) {
         for (int col = 0; col < heights.cols(); ++col) {
             level.visit(col, row, water);
         }
+    }
+    if (!heightfield.void_mask.empty()) {
+        add_voids_in_water(heightfield.void_mask, water);
     }
     return water;
 }

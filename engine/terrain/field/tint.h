@@ -27,7 +27,8 @@ private:
 };
 
 /// Of each sample, 1: water. Level ground at exactly 0 m is sea. Other level ground is a lake if it
-/// has at least `min_lake_samples` samples and nearly all ground around it is higher.
+/// has at least `min_lake_samples` samples and nearly all ground around it is higher. Voids with
+/// water nearly all around them are water.
 Grid<std::uint8_t> water_mask(const Heightfield& heightfield);
 inline constexpr int min_lake_samples = 60;
 

@@ -52,12 +52,14 @@ TEST(PanelText, ErrorsAreWhatTheFrameKept) {
     EXPECT_EQ(error_summary(stats, bounded), "unproven");
     EXPECT_EQ(error_summary({}, scene::Technique{scene::Texture{}}), "no bound");
     const scene::Technique exact{scene::Exact{}};
-    EXPECT_EQ(error_summary({}, exact), "none");
+    EXPECT_EQ(error_summary({}, exact), "rounding only");
     EXPECT_EQ(error_summary(stats, exact), "unproven");
     stats.tiles_unproven = 0;
     EXPECT_EQ(error_summary(stats, exact), "up to 2.5 px");
     stats.kept_error = 0.02;
-    EXPECT_EQ(error_summary(stats, exact), "none");
+    EXPECT_EQ(error_summary(stats, exact), "at most 0.02 px");
+    stats.kept_error = 1e-5;
+    EXPECT_EQ(error_summary(stats, exact), "rounding, below 0.01 px");
 }
 
 TEST(ScaleBar, HasARoundLengthNextToTheLongest) {

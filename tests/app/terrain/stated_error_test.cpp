@@ -80,7 +80,7 @@ TEST_F(StatedError, OfExactRaysOverAStreamIsThatOfItsTiles) {
     const std::vector<std::string> exact{"--technique", "exact",     "--memory",
                                          "2",           "--compare", "errors"};
     const auto unproven = render("city.tif", exact);
-    EXPECT_THAT(unproven.out, HasSubstr("kept error: none"));
+    EXPECT_THAT(unproven.out, HasSubstr("kept error: not proven"));
     EXPECT_THAT(unproven.err, HasSubstr("are estimates"));
     ASSERT_EQ(run({"index", (folder_.path() / "city.tif").string(), "--memory", "2"}).exit_code, 0);
     for (const char* const context : {"osmesa", "cpu"}) {

@@ -100,6 +100,7 @@ TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
         sky.air_height = 60.0;
         sky.base = stage.surface().bounds().low.z;
         sky.plane = glm::vec3(0.4F, 0.5F, 0.6F);
+        sky.is_plane_sea = altitude > 10.0;
         stage.scene.set_sky(sky);
         for (const scene::Pose pose :
              {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {

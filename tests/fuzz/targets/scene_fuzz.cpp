@@ -14,7 +14,7 @@ void scene_target(std::string_view input) {
         expect(scene->size >= 16 && scene->size <= 4096, "a size in its range");
         expect(scene->exaggeration > 0.0 && scene->exaggeration <= 1000.0,
                "an exaggeration in its range");
-        expect(std::abs(scene->sun_altitude) <= 90.0, "an altitude of the sun");
+        expect(std::abs(scene->sun_altitude.value_or(0.0)) <= 90.0, "an altitude of the sun");
     } else {
         expect(!scene.error().message.empty(), "a reason");
     }

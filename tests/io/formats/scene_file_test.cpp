@@ -88,6 +88,8 @@ look = [0, 0, 0]
     const auto clear = parse("[terrain]\ngenerator = \"urban\"\n[air]\nvisibility = 0\n");
     ASSERT_TRUE(clear) << clear.error().message;
     EXPECT_EQ(clear->visibility, 0.0);
+    EXPECT_FALSE(clear->sun_azimuth);
+    EXPECT_FALSE(clear->sun_altitude);
     EXPECT_EQ(scene->ramp, "/data/colors.txt");
     EXPECT_FALSE(scene->hides_sky);
     EXPECT_EQ(scene->turbidity, 3.0);

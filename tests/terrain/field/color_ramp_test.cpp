@@ -1,5 +1,6 @@
 #include "engine/terrain/field/color_ramp.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,36 @@ TEST(ColorRamp, SharesFollowTheTerrain) {
     const Heightfield high = test::plane_heightfield(
         test::made_heights(101, 2, [](int col, int) { return 40.0 * col; }));
     EXPECT_EQ(RampColors(ramp, low).at(50.0), RampColors(ramp, high).at(2000.0));
+}
+
+// Maps have no white coasts and no black heights: light and shadow say where it is steep.
+TEST(ColorRamp, AnAtlasIsMutedAndHasNoSnow) {
+    const ColorRamp ramp = *named_ramp(map_ramp);
+    const Heightfield coast =
+        test::plane_heightfield(test::made_heights(257, 2, [](int col, int) { return col; }));
+    const RampColors colors(ramp, coast);
+    for (double height = 0.0; height <= 256.0; height += 8.0) {
+        const glm::vec3 color = colors.at(height, {0.1F, 0.1F});
+        const auto [low, high] = std::minmax({color.r, color.g, color.b});
+        EXPECT_GT(low, 100.0F) << height;
+        EXPECT_LT(high, 200.0F) << height;
+        EXPECT_LT(high - low, 60.0F) << height;
+    }
+    EXPECT_NE(colors.at(20.0), colors.at(120.0));
+}
+
+// The shares are those of the land, however deep the sea is.
+TEST(ColorRamp, AnAtlasHasSeasOfTheirOwn) {
+    const ColorRamp ramp = *named_ramp(map_ramp);
+    const auto range = [](double low) {
+        return test::plane_heightfield(test::made_heights(
+            401, 2, [low](int col, int) { return col < 200 ? low : 10.0 * (col - 200); }));
+    };
+    const RampColors deep(ramp, range(-4000.0));
+    EXPECT_GT(deep.at(-300.0).b, deep.at(-300.0).r + 20.0F);
+    EXPECT_EQ(deep.at(1500.0), RampColors(ramp, range(-200.0)).at(1500.0));
+    const glm::vec3 polder = RampColors(ramp, land(-6.0F, 90.0F)).at(-5.0);
+    EXPECT_GT(polder.g, polder.b);
 }
 
 TEST(ColorRamp, PoldersAreNoSea) {

@@ -170,6 +170,27 @@ TEST(Tint, ALevelBasinIsALakeAndAShelfIsNot) {
     EXPECT_EQ(std::count(none.samples().begin(), none.samples().end(), 1), 0);
 }
 
+// A void amid the lake is water, one across its shore is not.
+TEST(Tint, AVoidInALakeIsWater) {
+    Heightfield heightfield =
+        test::plane_heightfield(test::made_heights(60, 60, [](int col, int row) {
+            const bool is_level = col >= 20 && col < 40 && row >= 20 && row < 40;
+            return 500.0 + (is_level ? 0.0 : 2.0 + std::abs(col - 30) + std::abs(row - 30));
+        }));
+    heightfield.void_mask = Grid<std::uint8_t>(60, 60, 0);
+    for (int row = 28; row < 33; ++row) {
+        for (int col = 28; col < 33; ++col) {
+            heightfield.void_mask(col, row) = 1;
+            heightfield.void_mask(col + 9, row) = 1;
+        }
+    }
+    const Grid<std::uint8_t> water = water_mask(heightfield);
+    EXPECT_EQ(water(30, 30), 1);
+    EXPECT_EQ(water(25, 30), 1);
+    EXPECT_EQ(water(39, 30), 0);
+    EXPECT_EQ(std::count(water.samples().begin(), water.samples().end(), 1), 20 * 20 - 3 * 5);
+}
+
 TEST(Composite, AnEmptyPictureLeavesWhatIsBeneath) {
     const Image beneath(3, 2, Rgba8{1, 2, 3, 255});
     EXPECT_EQ(composite({}, beneath), beneath);
