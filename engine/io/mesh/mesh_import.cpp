@@ -30,8 +30,8 @@ namespace {
 
 constexpr std::array<std::string_view, 3> extensions{".obj", ".gltf", ".glb"};
 
-// Makes comments of an OBJ file's lines with groups and objects: Assimp takes over 20 s for 50,000 of
-// them, and reljef needs materials only.
+// Makes comments of an OBJ file's lines with groups and objects: Assimp takes over 20 s for 50,000
+// of them, and reljef needs materials only.
 class WithoutGroups : public Assimp::IOStream {
 public:
     explicit WithoutGroups(std::unique_ptr<Assimp::IOStream> file) : file_(std::move(file)) {}
