@@ -73,13 +73,8 @@ scene::Camera perspective_start(const session::TerrainScene& scene, glm::ivec2 s
     if (camera.projection == scene::ProjectionKind::perspective) {
         return camera;
     }
-<<<<<<< HEAD
-    const scene::Camera whole = scene::whole_camera(scene.shown_bounds(), camera.vertical_fov,
-                                                    static_cast<double>(size.x) / size.y);
-=======
     const scene::Camera whole = scene::whole_camera(
         session::whole_bounds(scene), camera.vertical_fov, static_cast<double>(size.x) / size.y);
->>>>>>> pictures
     camera.projection = scene::ProjectionKind::perspective;
     camera.eye = whole.eye;
     camera.target = whole.target;

@@ -234,7 +234,7 @@ Box whole_bounds(const TerrainScene& scene) {
     const Grid<float>& heights = surface.heightfield().heights;
     const Box land = is_island(scene) ? land_samples(heights) : Box();
     if (land.empty()) {
-        return scene.bounds;
+        return scene.shown_bounds();
     }
     // On the ellipsoid, its sides and the middle bulge.
     const Box samples = with_coast(land, heights);

@@ -119,11 +119,7 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
     }
     const double aspect = static_cast<double>(view.size.x) / view.size.y;
     if (!view.pose && !is_map) {
-<<<<<<< HEAD
-        return scene::whole_camera(scene.shown_bounds(), view.vertical_fov, aspect);
-=======
         return scene::whole_camera(whole_bounds(scene), view.vertical_fov, aspect);
->>>>>>> pictures
     }
     camera = scene.pose_camera(view.pose.value_or(scene::Pose::map));
     if (!view.pose) { // also where the picture is narrower than that of the pose
