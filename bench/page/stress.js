@@ -66,7 +66,7 @@ const rowColumns = [
   number('limit', limitText),
   number('verdict', row => verdictTag(row.verdict)),
   words('worst at', row => row.at || absent),
-  words('fixed by', row => row.known || absent),
+  words('known', row => row.known || absent),
 ];
 
 function tableOf(columns, rows, stressOf) {

@@ -123,8 +123,7 @@ std::string rows_text(const StressResults& results, StressVerdict verdict,
         if (verdict_of(row) == verdict) {
             text += fmt::format("  {}: {} {}, at most {} was expected ({}){}\n", row.stress,
                                 number_text(row.value), row.figure, number_text(*row.limit),
-                                place_text(row),
-                                row.known.empty() ? "" : "; to be fixed by: " + row.known);
+                                place_text(row), row.known.empty() ? "" : "; " + row.known);
         }
     }
     return text.empty() ? text : fmt::format("{}\n{}", heading, text);
@@ -195,7 +194,7 @@ FigureTable figure_table(const StressResults& results) {
                       .columns = {group("/stress", "stress"), name("/terrain", "terrain"),
                                   name("/technique", "technique"), name("/figure", "figure"), value,
                                   plain("/limit", "limit", "", 4), plain("/at", "worst at"),
-                                  plain("/verdict", "verdict"), plain("/known", "fixed by"),
+                                  plain("/verdict", "verdict"), plain("/known", "known"),
                                   detail(plain("/only", "--only"))}};
     table.end = results.end;
     for (const StressRow& row : results.rows) {

@@ -24,7 +24,7 @@ struct StressRow {
     double value = 0.0;               ///< the worst case; over any limit if it is not a number
     std::optional<double> limit = {}; ///< largest allowed value; absent: reported only
     std::string at = {};              ///< the worst case; empty: all cases are alike
-    std::string known = {};           ///< what will bring it within its limit; set by add()
+    std::string known = {};           ///< what is known of a figure over its limit; set by add()
     std::string only = {};            ///< the word of --only that measures it
 };
 
