@@ -317,7 +317,8 @@ FigureTable figure_table(const ClaimResults& results) {
                     plain("/noise_floor", "noise", "", 3), plain("/frames", "frames"),
                     plain("/nodes", "nodes"), less("/triangles", "triangles"),
                     less("/objects/bytes", "sent", "bytes"), less("/taps", "taps", "", 1),
-                    less("/error/wrong_percent", "wrong", "%"),
+                    less("/error/wrong_of_terrain_percent", "wrong", "%"),
+                    detail(less("/error/wrong_percent", "wrong of the picture", "%")),
                     less("/error/reprojection_px/rms", "error", "px", 3),
                     less("/error/flip", "FLIP", "", 4)}};
     table.end = results.end;
@@ -327,7 +328,8 @@ FigureTable figure_table(const ClaimResults& results) {
              row.timing.ms.median, json_or_null(row.timing.noise_floor), row.timing.frames,
              row.nodes, row.timing.stats.triangles,
              row.bytes > 0 ? FigureJson(row.bytes) : FigureJson(), json_or_null(row.taps),
-             row.error.wrong_percent, rms_figure(row.error.reprojection_px), row.error.flip});
+             json_or_null(row.error.wrong_of_terrain_percent), row.error.wrong_percent,
+             rms_figure(row.error.reprojection_px), row.error.flip});
     }
     return table;
 }

@@ -96,14 +96,16 @@ FigureTable figure_table(const DistanceResults& results) {
         .columns = {group("/scene", "terrain"), name("/at", "distance"),
                     detail(plain("/distance_m", "distance", "m", 0)), name("/label", "technique"),
                     less("/error/reprojection_px/rms", "error", "px", 3),
-                    less("/error/wrong_percent", "wrong", "%", 1),
+                    less("/error/wrong_of_terrain_percent", "wrong", "%", 1),
+                    detail(less("/error/wrong_percent", "wrong of the picture", "%", 1)),
                     less("/error/hidden_percent", "hidden", "%", 1),
                     less("/error/flip", "FLIP", "", 3)}};
     table.end = results.end;
     for (const DistanceRow& row : results.rows) {
         table.rows.push_back({row.scene, distance_text(row.distance), row.distance, row.label,
-                              json_rms(row.error.reprojection_px), row.error.wrong_percent,
-                              row.hidden_percent, row.error.flip});
+                              json_rms(row.error.reprojection_px),
+                              json_or_null(row.error.wrong_of_terrain_percent),
+                              row.error.wrong_percent, row.hidden_percent, row.error.flip});
     }
     return table;
 }

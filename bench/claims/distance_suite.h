@@ -13,8 +13,11 @@ namespace reljef::bench {
 struct DistanceOptions {
     SuiteOptions suite;
     std::vector<std::string> terrains{"urban", "natural"};
-    std::vector<scene::Technique> techniques{
-        {scene::Texture{}}, {scene::Parallax{}}, {scene::Relief{}}, {scene::Exact{}}};
+    std::vector<scene::Technique> techniques{{scene::Texture{}},
+                                             {scene::Parallax{}},
+                                             {scene::Relief{}},
+                                             {scene::Relief{.bisection_steps = 16}},
+                                             {scene::Exact{}}};
     std::vector<double> distances{100.0, 300.0, 1000.0, 3000.0, 10'000.0}; ///< of the eye, metres
 };
 

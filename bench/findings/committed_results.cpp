@@ -1,6 +1,7 @@
 #include "bench/findings/committed_results.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <system_error>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/message.h"
+#include "app/cli/parsed_option.h"
 #include "bench/report/report_json.h"
 #include "bench/report/results.h"
 
@@ -31,7 +33,7 @@ QuantityInfo info_of(Quantity quantity) {
     case Quantity::ms:
         return {.pointer = "/ms/median", .low = min_ms};
     case Quantity::wrong:
-        return {.pointer = "/error/wrong_percent", .high = 100.0};
+        return {.pointer = "/error/wrong_of_terrain_percent", .high = 100.0};
     case Quantity::hidden:
         return {.pointer = "/error/hidden_percent", .high = 100.0};
     case Quantity::error_px:
@@ -115,6 +117,46 @@ Result<std::optional<double>> value_at(const json& row, const QuantityInfo& info
     return std::optional<double>(number);
 }
 
+// Of "1024x768".
+std::optional<double> pixels_of(const std::string& size) {
+    const auto middle = size.find('x');
+    const auto cols = cli::number_from<double>(size.substr(0, middle));
+    const auto rows = middle == std::string::npos
+                          ? std::nullopt
+                          : cli::number_from<double>(size.substr(middle + 1));
+    return cols && rows ? std::optional(*cols * *rows) : std::nullopt;
+}
+
+// Rows of techniques of earlier versions have the share of the picture and the counts of its
+// pixels.
+Result<std::optional<double>> wrong_of_terrain(const json& row) {
+    std::array<double, 4> found{};
+    constexpr std::array pointers{"/error/wrong_percent", "/error/reprojection_px/count",
+                                  "/error/reprojection_px/unbounded", "/error/holes"};
+    for (std::size_t i = 0; i < pointers.size(); ++i) {
+        const auto value = value_at(row, {.pointer = pointers[i]});
+        if (!value || !*value) {
+            return value;
+        }
+        found[i] = **value;
+    }
+    const auto [wrong, finite, unbounded, holes] = found;
+    const auto size = row.find("size");
+    const auto pixels = size != row.end() && size->is_string()
+                            ? pixels_of(size->get_ref<const std::string&>())
+                            : std::optional<double>();
+    const double terrain = finite + unbounded + holes;
+    if (!pixels || !(terrain > 0.0)) {
+        return std::optional<double>();
+    }
+    return std::optional(std::min(wrong * *pixels / terrain, 100.0));
+}
+
+Result<std::optional<double>> quantity_of(const json& row, Quantity quantity) {
+    const auto value = value_at(row, info_of(quantity));
+    return value && !*value && quantity == Quantity::wrong ? wrong_of_terrain(row) : value;
+}
+
 // The farther end of the interval of a median, a share of the median; 0 without an interval.
 Result<double> spread_of(const json& row, double median) {
     double spread = 0.0;
@@ -128,16 +170,30 @@ Result<double> spread_of(const json& row, double median) {
     return spread;
 }
 
-// Of a time, a share. Rows of a suite without a noise floor count as noisy as a row may be that is
-// not marked noisy.
-Result<double> noise_of(const json& row) {
+// A time. Rows of a suite without a noise floor count as noisy as a row may be that is not marked
+// noisy.
+Result<Number> time_of(const json& row, double median) {
     const auto floor = value_at(row, {.pointer = "/noise_floor"});
-    const auto median = value_at(row, info_of(Quantity::ms));
-    if (!floor || !median) {
-        return floor ? median.error() : floor.error();
+    const auto spread = spread_of(row, median);
+    if (!floor || !spread) {
+        return floor ? spread.error() : floor.error();
     }
-    const auto spread = *median ? spread_of(row, **median) : Result<double>(0.0);
-    return spread ? Result<double>(std::max(floor->value_or(max_noise), *spread)) : spread;
+    return Number{median, median * floor->value_or(max_noise), median * *spread};
+}
+
+Result<std::optional<Number>> number_in(const json& row, Quantity quantity) {
+    const auto value = quantity_of(row, quantity);
+    if (!value) {
+        return value.error();
+    }
+    if (!*value) {
+        return std::optional<Number>();
+    }
+    if (quantity != Quantity::ms) {
+        return std::optional(Number{**value});
+    }
+    const auto time = time_of(row, **value);
+    return time ? Result<std::optional<Number>>(*time) : time.error();
 }
 
 } // namespace
@@ -188,14 +244,12 @@ Result<std::optional<Number>> CommittedResults::number(const RowName& row,
     if (found == nullptr) {
         return std::optional<Number>();
     }
-    const auto value = value_at(*found, info_of(quantity));
-    const auto noise = quantity == Quantity::ms ? noise_of(*found) : Result<double>(0.0);
-    if (!value || !noise) {
-        const Error& error = value ? noise.error() : value.error();
+    auto number = number_in(*found, quantity);
+    if (!number) {
         return Error{fmt::format("{}: row '{}': {}", (folder_ / row.file).string(), text_of(row),
-                                 error.message)};
+                                 number.error().message)};
     }
-    return *value ? std::optional(Number{**value, **value * *noise}) : std::optional<Number>();
+    return number;
 }
 
 std::optional<Machine> CommittedResults::machine(const std::string& file) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -13,10 +14,14 @@
 
 namespace reljef::bench {
 
-/// A measured number. The true one is at most `uncertainty` away.
+/// A measured number.
 struct Number {
     double value = 0.0;
-    double uncertainty = 0.0;
+    double noise = 0.0;  ///< of its run: that of two numbers of one run is one
+    double spread = 0.0; ///< of this number: that of others is independent
+
+    /// How far the true number may be away.
+    [[nodiscard]] double uncertainty() const { return std::max(noise, spread); }
 };
 
 /// Where results were measured.

@@ -12,7 +12,7 @@ namespace reljef::bench {
 /// A number of a row of a results file.
 enum class Quantity {
     ms,        ///< median time of a frame; its uncertainty is the noise floor of the row
-    wrong,     ///< pixels that show a wrong point, percent
+    wrong,     ///< pixels that show a wrong point, percent of those that show terrain
     hidden,    ///< pixels that show a point which the terrain hides, percent
     error_px,  ///< root mean square of the reprojection error, pixels
     flip,      ///< mean FLIP of the picture

@@ -26,13 +26,13 @@ struct PlotPanel {
     std::vector<PlotLine> lines = {};
     double low = 0.01; // of the quantity
     double high = 1000.0;
-    double left = 0.0; // of the plot in the picture, SVG units
-    double mark = 0.0; // a line across, with these words
+    double farthest = 10'000.0; // metres
+    double left = 0.0;          // of the plot in the picture, SVG units
+    double mark = 0.0;          // a line across, with these words
     std::string mark_words = {};
 };
 
-constexpr double nearest = 100.0; // metres
-constexpr double farthest = 10'000.0;
+constexpr double nearest = 100.0;    // metres
 constexpr double plot_width = 330.0; // SVG units
 constexpr double plot_top = 40.0;
 constexpr double plot_height = 240.0;
@@ -84,11 +84,11 @@ RowName time_row(double metres, const Drawn& drawn) {
 }
 
 double share_between(double value, double low, double high) {
-    return std::log(value / low) / std::log(high / low);
+    return std::clamp(std::log(value / low) / std::log(high / low), 0.0, 1.0);
 }
 
 glm::dvec2 place_of(const PlotPanel& panel, glm::dvec2 point) {
-    return {panel.left + plot_width * share_between(point.x, nearest, farthest),
+    return {panel.left + plot_width * share_between(point.x, nearest, panel.farthest),
             plot_top + plot_height * (1.0 - share_between(point.y, panel.low, panel.high))};
 }
 
@@ -105,23 +105,30 @@ std::string rule(glm::dvec2 from, glm::dvec2 to, const char* color, double width
 
 std::string axes(const PlotPanel& panel) {
     std::string svg = text_at({panel.left, plot_top - 16.0}, "start", panel.title);
-    for (const auto& [metres, name] :
-         {std::pair{100.0, "100 m"}, {1000.0, "1 km"}, {10'000.0, "10 km"}}) {
+    for (const auto& [metres, name] : {std::pair{100.0, "100 m"},
+                                       {300.0, "300 m"},
+                                       {1000.0, "1 km"},
+                                       {3000.0, "3 km"},
+                                       {10'000.0, "10 km"}}) {
+        if (metres > panel.farthest) {
+            continue;
+        }
         const glm::dvec2 bottom = place_of(panel, {metres, panel.low});
         svg += rule(bottom, place_of(panel, {metres, panel.high}), "#e4e4e4", 1.0);
         svg += text_at(bottom + glm::dvec2(0.0, 18.0), "middle", name);
     }
-    for (const double value : {0.01, 0.1, 1.0, 10.0, 100.0, 1000.0}) {
-        if (value < panel.low || value > panel.high) {
+    for (const double value : {0.01, 0.1, 1.0, 10.0, 20.0, 50.0, 100.0, 1000.0}) {
+        const bool is_between = value == 20.0 || value == 50.0; // for short axes
+        if (value < panel.low || value > panel.high || (is_between && panel.low < 1.0)) {
             continue;
         }
         const glm::dvec2 start = place_of(panel, {nearest, value});
-        svg += rule(start, place_of(panel, {farthest, value}), "#e4e4e4", 1.0);
+        svg += rule(start, place_of(panel, {panel.farthest, value}), "#e4e4e4", 1.0);
         svg += text_at(start + glm::dvec2(-8.0, 4.0), "end", fmt::format("{:g}", value));
     }
     if (!panel.mark_words.empty()) {
         const glm::dvec2 start = place_of(panel, {nearest, panel.mark});
-        svg += rule(start, place_of(panel, {farthest, panel.mark}), "#555555", 1.5);
+        svg += rule(start, place_of(panel, {panel.farthest, panel.mark}), "#555555", 1.5);
         svg += text_at(start + glm::dvec2(6.0, 16.0), "start", panel.mark_words);
     }
     return svg;

@@ -60,11 +60,11 @@ RowName city(const CityView& view, const std::string& form, const scene::Techniq
 
 RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique) {
-    return {"stress.json",
+    return {"angles.json",
             {{"stress", "grazing view"},
              {"terrain", terrain},
              {"technique", scene::to_string(technique)},
-             {"figure", "% of pixels wrong"},
+             {"figure", "% of terrain wrong"},
              {"at", angle}}};
 }
 

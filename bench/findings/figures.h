@@ -31,7 +31,7 @@ struct CityView {
 };
 /// `form`: a name of building::city_form_names.
 RowName city(const CityView& view, const std::string& form, const scene::Technique& technique);
-/// A grazing view of `terrain`, "10 degrees" above the horizon, in stress.json.
+/// A grazing view of `terrain`, "10 degrees" above the horizon, in angles.json.
 RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique);
 /// Irrlicht's terrain node, still, pose overview, peers.json.

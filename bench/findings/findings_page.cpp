@@ -40,7 +40,7 @@ The numbers after D, M and J are chapters. A conclusion is
 - **not measured yet** if a figure is missing.
 
 Words such as "much" and "good" have no figure in the sources. Then the rule is our reading of them, and the column
-says so. *Wrong* is the share of pixels that show a point more than one texel from the correct one. The error in pixels
+says so. *Wrong* is the share of the pixels of terrain that show a point more than one texel from the correct one. The error in pixels
 is the distance between where a point is shown and its true place (root mean square). A number with × is a ratio. A time
 is as uncertain as the noise floor of its run (10 % if the run has none), or as the interval of its median if that is wider.
 *CPU* stands for a software renderer, *GPU* for a graphics card; without either word, it is a software renderer. The last

@@ -8,13 +8,16 @@
 namespace reljef::bench {
 namespace {
 
-// A quotient of two measured numbers. Their uncertainties add relatively (to first order).
+double share_of(double part, double whole) {
+    return whole == 0.0 ? 0.0 : part / whole;
+}
+
+// A quotient of two measured numbers, to first order. A noise floor is already that of a difference
+// of two rows of its run; spreads are independent.
 Number quotient(const Number& above, const Number& below) {
     const double value = above.value / below.value;
-    const double above_share = above.value == 0.0 ? 0.0 : above.uncertainty / above.value;
-    // Both noise floors are those of one run, whose null rows measure a difference of two rows.
-    const double share = std::max(above_share, below.uncertainty / below.value);
-    return {value, value * share};
+    return {value, value * std::max(share_of(above.noise, above.value), below.noise / below.value),
+            value * std::hypot(share_of(above.spread, above.value), below.spread / below.value)};
 }
 
 std::optional<Number> computed(Figure::Form form, const Number& number,
@@ -24,15 +27,18 @@ std::optional<Number> computed(Figure::Form form, const Number& number,
     case Figure::Form::constant:
         return number;
     case Figure::Form::rate:
-        return quotient({1000.0, 0.0}, number);
-    case Figure::Form::ratio:
-        return base && base->value > 0.0 ? std::optional(quotient(number, *base)) : std::nullopt;
+        return quotient({1000.0}, number);
+    case Figure::Form::ratio: {
+        const auto found =
+            base && base->value > 0.0 ? std::optional(quotient(number, *base)) : std::nullopt;
+        return found && std::isfinite(found->value) ? found : std::nullopt;
+    }
     case Figure::Form::drop:
         if (!base) {
             return {};
         }
         const Number kept = quotient(*base, number);
-        return Number{100.0 * (1.0 - kept.value), 100.0 * kept.uncertainty};
+        return Number{100.0 * (1.0 - kept.value), 100.0 * kept.noise, 100.0 * kept.spread};
     }
     return {};
 }
@@ -40,8 +46,8 @@ std::optional<Number> computed(Figure::Form form, const Number& number,
 enum class Place { inside, outside, open };
 
 Place place_of(const Number& number, const Range& range) {
-    const double low = number.value - number.uncertainty;
-    const double high = number.value + number.uncertainty;
+    const double low = number.value - number.uncertainty();
+    const double high = number.value + number.uncertainty();
     if (low >= range.low && high <= range.high) {
         return Place::inside;
     }

@@ -30,8 +30,10 @@ std::vector<ResultsSource> results_sources() {
          "--markdown bench/results/pareto-quick.md"},
         {"peers", "Irrlicht's terrain node, which J used, beside our triangles.",
          "reljef-bench peers --terrain N45E006.hgt --rounds 15 --json bench/results/peers.json"},
-        {"stress", "Numerical stability; here: views at flat angles.",
-         "reljef-bench stress --context osmesa --json bench/results/stress.json", false},
+        {"angles", "Wrong pixels of all techniques from straight above to flat angles.",
+         "reljef-bench stress --only grazing-view --context osmesa "
+         "--json bench/results/angles.json",
+         false},
         {"steps", "The searches of M's figures, with their numbers of steps.",
          "reljef-bench tables --context osmesa --terrain bench/scenes/urban-s05.toml "
          "--terrain natural --pose oblique --rounds 5 --technique relief:n=1,k=8 "

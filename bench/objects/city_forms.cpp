@@ -139,6 +139,11 @@ Result<void> CityForms::open_scene_file(const std::string& file, const std::stop
 Result<CityForms> CityForms::open(const CityChoice& choice, const SuiteOptions& options,
                                   const std::stop_token& stop) {
     CityForms city(choice.terrain, options);
+    if (choice.terrain != "urban" && !choice.terrain.ends_with(".toml")) {
+        return Error{fmt::format("{}: found, urban or a scene file (.toml) of bare ground with "
+                                 "[[footprints]] was expected",
+                                 choice.terrain)};
+    }
     auto opened = choice.terrain == "urban" ? city.open_urban(choice.size, stop)
                                             : city.open_scene_file(choice.terrain, stop);
     if (!opened) {

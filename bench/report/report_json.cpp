@@ -116,6 +116,7 @@ static void describe(Fields& fields, typename Fields::template Of<RowError>& err
     fields.object("reprojection_px", error.reprojection_px);
     fields.object("hit_texels", error.hit_texels);
     fields.field("wrong_percent", error.wrong_percent, JsonRange{0.0, 100.0});
+    fields.later_field("wrong_of_terrain_percent", error.wrong_of_terrain_percent);
     fields.field("holes", error.holes);
     fields.field("rmse", error.rmse, share);
     fields.field("psnr", error.psnr);

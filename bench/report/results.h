@@ -94,6 +94,8 @@ struct RowError {
     std::optional<Geometric> reprojection_px; ///< absent if no pixel has a finite error
     std::optional<Geometric> hit_texels;      ///< likewise
     double wrong_percent = 0.0;               ///< of all pixels
+    /// Of the pixels that show terrain in the picture or in the true one; absent in old results.
+    std::optional<double> wrong_of_terrain_percent = {};
     std::size_t holes = 0;                    ///< pixels
     double rmse = 0.0;
     std::optional<double> psnr; ///< dB; absent for identical pictures

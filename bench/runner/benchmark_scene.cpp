@@ -64,6 +64,7 @@ RowError row_error_of(const truth::GeometricErrors& geometric, const truth::Imag
     return {.reprojection_px = geometric_of(geometric.reprojection),
             .hit_texels = geometric_of(geometric.hit),
             .wrong_percent = geometric.wrong_percent,
+            .wrong_of_terrain_percent = geometric.wrong_of_terrain_percent,
             .holes = geometric.holes,
             .rmse = image.rmse,
             .psnr = std::isfinite(image.psnr) ? std::optional(image.psnr) : std::nullopt,

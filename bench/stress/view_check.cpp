@@ -3,14 +3,23 @@
 namespace reljef::bench {
 namespace {
 
-// Pixels that show another place than the exact hits by more than a sample, percent.
-Result<double> wrong_percent(const StressStage& stage, const HitBuffer& shown,
-                             const HitBuffer& truth) {
+// Pixels that show another place than the exact hits by more than a sample, percent: of the
+// picture, and of its terrain.
+struct WrongPixels {
+    double percent = 0.0;
+    double of_terrain_percent = 0.0;
+};
+
+Result<WrongPixels> wrong_pixels(const StressStage& stage, const HitBuffer& shown,
+                                 const HitBuffer& truth) {
     if (!truth::has_terrain(shown) && !truth::has_terrain(truth)) {
-        return 0.0;
+        return WrongPixels{};
     }
     const auto errors = truth::geometric_errors(stage.surface_view(), shown, truth);
-    return errors ? Result<double>(errors->wrong_percent) : errors.error();
+    if (!errors) {
+        return errors.error();
+    }
+    return WrongPixels{errors->wrong_percent, errors->wrong_of_terrain_percent};
 }
 
 // The rows of one technique.
@@ -31,16 +40,17 @@ public:
             refusal_ = shown.error().message;
             return {};
         }
-        const auto wrong = wrong_percent(stage, *shown, truth);
+        const auto wrong = wrong_pixels(stage, *shown, truth);
         if (!wrong) {
             return wrong.error();
         }
         not_finite_.add(static_cast<double>(count_not_finite(*shown)), view.name);
         sky_.add(static_cast<double>(count_sky_over_ground(stage, *shown, truth, tolerance_)),
                  view.name);
-        wrong_.add(*wrong, view.name);
+        wrong_.add(wrong->percent, view.name);
         if (check_.has_row_per_view) {
-            add(run, "% of pixels wrong", *wrong, wrong_limit(), view.name);
+            add(run, "% of pixels wrong", wrong->percent, wrong_limit(), view.name);
+            add(run, "% of terrain wrong", wrong->of_terrain_percent, {}, view.name);
         }
         return {};
     }

@@ -232,7 +232,8 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
 Box whole_bounds(const TerrainScene& scene) {
     const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const Grid<float>& heights = surface.heightfield().heights;
-    const Box land = is_island(scene) ? land_samples(heights) : Box();
+    const bool shows_edges = scene.surroundings.base != BaseKind::plane;
+    const Box land = !shows_edges && is_island(scene) ? land_samples(heights) : Box();
     if (land.empty()) {
         return scene.shown_bounds();
     }

@@ -105,8 +105,11 @@ void count_verdicts(GeometricErrors& errors) {
     };
     errors.holes = count(Verdict::hole);
     errors.wrong = count(Verdict::wrong) + errors.holes;
-    errors.wrong_percent =
-        100.0 * static_cast<double>(errors.wrong) / static_cast<double>(verdicts.size());
+    const auto wrong = static_cast<double>(errors.wrong);
+    errors.wrong_percent = 100.0 * wrong / static_cast<double>(verdicts.size());
+    const std::size_t terrain = verdicts.size() - count(Verdict::no_terrain);
+    errors.wrong_of_terrain_percent =
+        100.0 * wrong / static_cast<double>(std::max(terrain, std::size_t{1}));
 }
 
 } // namespace

@@ -326,6 +326,7 @@ TEST(WrongSurface, CountsEveryKindOfPixelByChance) {
         HitBuffer shown(20, 15);
         std::size_t holes = 0;
         std::size_t wrong = 0;
+        std::size_t terrain = 0;
         for (std::size_t i = 0; i < truth.size(); ++i) {
             const int a = kinds(random);
             const int b = kinds(random);
@@ -333,12 +334,15 @@ TEST(WrongSurface, CountsEveryKindOfPixelByChance) {
             truth.samples()[i] = hits[static_cast<std::size_t>(b)];
             holes += a < 2 && b >= 2 ? 1 : 0;
             wrong += (a < 2) != (b < 2) || (a >= 2 && a != b) ? 1 : 0;
+            terrain += a >= 2 || b >= 2 ? 1 : 0;
         }
         const auto errors = geometric_errors(setting.view(), shown, truth);
         ASSERT_TRUE(errors);
         ASSERT_EQ(errors->holes, holes);
         ASSERT_EQ(errors->wrong, wrong);
         ASSERT_DOUBLE_EQ(errors->wrong_percent, 100.0 * static_cast<double>(wrong) / 300.0);
+        ASSERT_DOUBLE_EQ(errors->wrong_of_terrain_percent,
+                         100.0 * static_cast<double>(wrong) / static_cast<double>(terrain));
     }
 }
 

@@ -75,7 +75,9 @@ private:
     }
     // An outlet, or a river that flows in, is a small part of the shore.
     [[nodiscard]] bool is_water(float height) const {
-        const bool is_basin = samples_.size() >= min_lake_samples && 20 * lower_ <= higher_;
+        const bool has_shore = higher_ > 0; // without, it is a plain
+        const bool is_basin =
+            has_shore && samples_.size() >= min_lake_samples && 20 * lower_ <= higher_;
         return height == 0.0F || is_basin;
     }
     void spread(glm::ivec2 from) {

@@ -74,9 +74,10 @@ TEST_F(ReadCommittedResults, RefusesDamageAndOtherVersionsInOneSentence) {
 TEST_F(ReadCommittedResults, RefusesNumbersThatCannotBe) {
     for (const char* const wrong : {"-1", "100.5", "\"many\"", "true", "[]"}) {
         const std::string row =
-            std::string(R"({"label": "a", "error": {"wrong_percent": )") + wrong + "}}";
-        EXPECT_THAT(number_refusal(row, Quantity::wrong),
-                    AllOf(HasSubstr("row 'a': /error/wrong_percent: "), HasSubstr("0 to 100")));
+            std::string(R"({"label": "a", "error": {"wrong_of_terrain_percent": )") + wrong + "}}";
+        EXPECT_THAT(
+            number_refusal(row, Quantity::wrong),
+            AllOf(HasSubstr("row 'a': /error/wrong_of_terrain_percent: "), HasSubstr("0 to 100")));
     }
     for (const char* const median : {"0", "-2", "1e-300"}) {
         const std::string row = std::string(R"({"label": "a", "ms": {"median": )") + median + "}}";
@@ -106,10 +107,26 @@ TEST_F(ReadCommittedResults, HasNoNumberWithoutFileRowOrValue) {
 }
 
 TEST_F(ReadCommittedResults, SkipsNullRows) {
-    EXPECT_EQ(number_refusal(R"({"label": "a", "null_row": true, "error": {"wrong_percent": 1}},)"
-                             R"({"label": "a", "null_row": false, "error": {"wrong_percent": 2}})",
-                             Quantity::wrong),
+    EXPECT_EQ(number_refusal(
+                  R"({"label": "a", "null_row": true, "error": {"wrong_of_terrain_percent": 1}},)"
+                  R"({"label": "a", "null_row": false, "error": {"wrong_of_terrain_percent": 2}})",
+                  Quantity::wrong),
               "");
+}
+
+// Rows of earlier versions know the share of the picture only.
+TEST_F(ReadCommittedResults, HaveTheWrongPixelsOfTheTerrainNotOfThePicture) {
+    const auto wrong = [&](const std::string& error) {
+        const auto results = read(with_rows(
+            R"({"label": "a", "size": "100x50", "error": {"wrong_percent": 2, )" + error + "}}"));
+        const auto number = results->number({"r.json", {{"label", "a"}}}, Quantity::wrong);
+        return number && *number ? (*number)->value : -1.0;
+    };
+    const std::string counts = R"("reprojection_px": {"count": 300, "unbounded": 60}, "holes": 40)";
+    EXPECT_DOUBLE_EQ(wrong(counts), 25.0); // 100 of 400 pixels
+    EXPECT_DOUBLE_EQ(wrong(counts + R"(, "wrong_of_terrain_percent": 7)"), 7.0);
+    EXPECT_DOUBLE_EQ(wrong(R"("reprojection_px": null, "holes": 40)"), -1.0);
+    EXPECT_DOUBLE_EQ(wrong(R"("reprojection_px": {"count": 0, "unbounded": 0}, "holes": 0)"), -1.0);
 }
 
 TEST_F(ReadCommittedResults, AreAsUncertainAsTheIntervalIfItIsWiderThanTheNoise) {
@@ -118,7 +135,7 @@ TEST_F(ReadCommittedResults, AreAsUncertainAsTheIntervalIfItIsWiderThanTheNoise)
             std::string(R"({"label": "a", "noise_floor": 0.02, "ms": {"median": 2, "interval": )") +
             interval + "}}"));
         const auto number = results->number({"r.json", {{"label", "a"}}}, Quantity::ms);
-        return number && *number ? (*number)->uncertainty : -1.0;
+        return number && *number ? (*number)->uncertainty() : -1.0;
     };
     EXPECT_DOUBLE_EQ(uncertainty("[1.99, 2.01]"), 0.04);
     EXPECT_DOUBLE_EQ(uncertainty("[1.5, 2.25]"), 0.5);

@@ -166,8 +166,9 @@ TEST(Findings, WithoutResultsNothingIsMeasuredAndNothingIsClaimed) {
 
 TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {
     const test::TemporaryFolder folder;
-    folder.write("tables.json", R"({"schema": "reljef-bench/1", "rows": [{"test": "relief-1",)"
-                                R"( "label": "texture", "error": {"wrong_percent": 20}}]})");
+    folder.write("tables.json",
+                 R"({"schema": "reljef-bench/1", "rows": [{"test": "relief-1",)"
+                 R"( "label": "texture", "error": {"wrong_of_terrain_percent": 20}}]})");
     const std::vector<std::string> files{"tables.json"};
     const auto results = CommittedResults::read(folder.path(), files);
     ASSERT_TRUE(results);

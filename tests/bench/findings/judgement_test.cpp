@@ -88,33 +88,33 @@ TEST_F(JudgedFigures, ARatioOfTimesIsAsNoisyAsItsRun) {
         number(ratio("", Quantity::ms, row("a"), row("b"), {}), ms(30.0, 0.02), ms(20.0, 0.02));
     ASSERT_TRUE(found && *found);
     EXPECT_DOUBLE_EQ((*found)->value, 1.5);
-    EXPECT_DOUBLE_EQ((*found)->uncertainty, 0.03);
+    EXPECT_DOUBLE_EQ((*found)->uncertainty(), 0.03);
 }
 
 TEST_F(JudgedFigures, ADropIsTheShareOfFramesThatIsLost) {
     const auto found = number(drop("", row("a"), row("b"), {}), ms(40.0, 0.02), ms(10.0, 0.02));
     ASSERT_TRUE(found && *found);
     EXPECT_DOUBLE_EQ((*found)->value, 75.0);
-    EXPECT_DOUBLE_EQ((*found)->uncertainty, 0.5);
+    EXPECT_DOUBLE_EQ((*found)->uncertainty(), 0.5);
 }
 
 TEST_F(JudgedFigures, ARateIsInFramesPerSecond) {
     const auto found = number(frame_rate("", row("a"), {}), ms(40.0, 0.1), ms(1.0, 0.0));
     ASSERT_TRUE(found && *found);
     EXPECT_DOUBLE_EQ((*found)->value, 25.0);
-    EXPECT_DOUBLE_EQ((*found)->uncertainty, 2.5);
+    EXPECT_DOUBLE_EQ((*found)->uncertainty(), 2.5);
 }
 
 TEST_F(JudgedFigures, TimesWithoutANoiseFloorCountAsNoisy) {
     const auto found =
         number(frame_rate("", row("a"), {}), R"("ms": {"median": 100})", R"("ms": {"median": 1})");
     ASSERT_TRUE(found && *found);
-    EXPECT_DOUBLE_EQ((*found)->uncertainty, 1.0);
+    EXPECT_DOUBLE_EQ((*found)->uncertainty(), 1.0);
 }
 
 TEST_F(JudgedFigures, ARatioToNothingOrToAMissingRowIsNoNumber) {
-    const std::string wrong = R"("error": {"wrong_percent": 1})";
-    const std::string none = R"("error": {"wrong_percent": 0})";
+    const std::string wrong = R"("error": {"wrong_of_terrain_percent": 1})";
+    const std::string none = R"("error": {"wrong_of_terrain_percent": 0})";
     const auto to_nothing = number(ratio("", Quantity::wrong, row("a"), row("b"), {}), wrong, none);
     ASSERT_TRUE(to_nothing);
     EXPECT_FALSE(to_nothing->has_value());
