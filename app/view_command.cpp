@@ -242,7 +242,9 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "Keys:\n" + Viewer::keys() +
         "With --path, the flight begins at once. Without it, P flies over the terrain. A view "
         "without\nmotion is not drawn again. With --frames N, the window draws N frames and "
-        "closes. Ctrl-C\ncloses the window as Esc does, with exit status 0.\n"
+        "closes. Ctrl-C\ncloses the window as Esc does, with exit status 0, or at once with the "
+        "status of the\n"
+        "signal (130) if a frame takes longer than a second.\n"
         "Examples:\n"
         "  reljef view natural\n"
         "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"
