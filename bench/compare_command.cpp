@@ -54,6 +54,12 @@ const Environment& machine_of(const Document& document) {
     return table != nullptr ? table->environment : std::get<Results>(document).environment;
 }
 
+// Of the pictures: "1024x768"; empty: not known, or a part of the rows' names.
+std::string size_of(const Document& document) {
+    const auto* const table = std::get_if<FigureTable>(&document);
+    return table != nullptr && table->settings.is_object() ? table->settings.value("size", "") : "";
+}
+
 // Fails with one sentence if the runs cannot be compared.
 Result<Comparison> compare_documents(const CompareChoice& choice, const Document& before,
                                      const Document& after) {
@@ -64,6 +70,11 @@ Result<Comparison> compare_documents(const CompareChoice& choice, const Document
             fmt::format("{} has results of {}, and {} of {}; two of one suite were expected",
                         choice.before.string(), cli::printable(suite), choice.after.string(),
                         cli::printable(other))};
+    }
+    if (size_of(before) != size_of(after) && !size_of(before).empty() && !size_of(after).empty()) {
+        return Error{fmt::format("{}: pictures of {} found, {} as in {} was expected",
+                                 choice.after.string(), cli::printable(size_of(after)),
+                                 cli::printable(size_of(before)), choice.before.string())};
     }
     const double threshold = 0.01 * choice.threshold_percent;
     const auto* const table = std::get_if<FigureTable>(&before);

@@ -96,7 +96,7 @@ struct RowError {
     double wrong_percent = 0.0;               ///< of all pixels
     /// Of the pixels that show terrain in the picture or in the true one; absent in old results.
     std::optional<double> wrong_of_terrain_percent = {};
-    std::size_t holes = 0;                    ///< pixels
+    std::size_t holes = 0; ///< pixels
     double rmse = 0.0;
     std::optional<double> psnr; ///< dB; absent for identical pictures
     std::optional<double> ssim; ///< absent if the picture is smaller than the SSIM window

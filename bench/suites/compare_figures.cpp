@@ -71,6 +71,25 @@ std::optional<double> number_at(const FigureTable& table, const FigureJson& row,
     return std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
+// A sentence for each setting that only one run has or both have with other values.
+std::vector<std::string> notes_on_settings(const FigureJson& a, const FigureJson& b) {
+    std::vector<std::string> notes;
+    if (!a.is_object() || !b.is_object()) {
+        return notes;
+    }
+    FigureJson all = a;
+    all.update(b);
+    for (const auto& [name, value] : all.items()) {
+        const std::string before = a.contains(name) ? name_part(a.at(name)) : "none";
+        const std::string after = b.contains(name) ? name_part(b.at(name)) : "none";
+        if (before != after) {
+            notes.push_back(fmt::format("Other settings: {} {} in the first run, {} in the second.",
+                                        name, before, after));
+        }
+    }
+    return notes;
+}
+
 class FigureComparison {
 public:
     FigureComparison(const FigureTable& a, const FigureTable& b, double threshold)
@@ -158,7 +177,11 @@ private:
 
 Comparison compare(const FigureTable& a, const FigureTable& b, double threshold) {
     check(threshold >= 0.0, "a threshold below 0");
-    return FigureComparison(a, b, threshold).run();
+    Comparison comparison = FigureComparison(a, b, threshold).run();
+    for (std::string& note : notes_on_settings(a.settings, b.settings)) {
+        comparison.notes.push_back(std::move(note));
+    }
+    return comparison;
 }
 
 } // namespace reljef::bench

@@ -55,7 +55,7 @@ struct GeometricErrors {
     Grid<Verdict> verdicts;
     std::size_t wrong = 0; ///< pixels, including holes
     std::size_t holes = 0;
-    double wrong_percent = 0.0; ///< of all pixels of the frame, including sky
+    double wrong_percent = 0.0;            ///< of all pixels of the frame, including sky
     double wrong_of_terrain_percent = 0.0; ///< of the pixels where either shows terrain
 };
 

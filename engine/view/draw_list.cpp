@@ -34,13 +34,18 @@ double brightness_at(glm::dvec3 eye, const scene::PlacedPointLight& light) {
     return luminance * light.light.intensity / std::max(glm::dot(way, way), 1.0);
 }
 
+// The box by which a level is chosen, local metres.
+const Box& choosing_bounds(const scene::MeshLevel& level, const MeshDraw& draw) {
+    return level.together.empty() ? draw.local_bounds : level.together;
+}
+
 bool shows_picture(const scene::MeshLevel& level, const MeshDraw& draw, const PictureError& seen) {
     const scene::SurfaceDetail& detail = draw.mesh->material.detail;
-    if (detail.set == nullptr) {
-        return true;
+    if (!level.repeat) {
+        return detail.set == nullptr;
     }
-    return level.repeat && scene::is_picture(detail) &&
-           seen.of_any_direction(draw.local_bounds, *level.repeat) <= max_repeat_pixels;
+    return (detail.set == nullptr || scene::is_picture(detail)) &&
+           seen.of_any_direction(choosing_bounds(level, draw), *level.repeat) <= max_repeat_pixels;
 }
 
 } // namespace
@@ -59,12 +64,13 @@ MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error) {
         return draw;
     }
     const PictureError seen(list.camera, list.size, draw.world_from_local);
-    // The corners of triangles beside the picture are rounded more than what is seen.
-    const double of_corners = left.of_operations * (seen.depth_ratio(draw.local_bounds) - 1.0);
     for (std::size_t level = mesh.levels->size(); level > 0; --level) {
         const scene::MeshLevel& coarser = (*mesh.levels)[level - 1];
-        const double error = of_corners + seen.of_any_direction(draw.local_bounds, coarser.error);
-        const double shaded = seen.of_any_direction(draw.local_bounds, coarser.shaded_width);
+        const Box& bounds = choosing_bounds(coarser, draw);
+        // The corners of triangles beside the picture are rounded more than what is seen.
+        const double of_corners = left.of_operations * (seen.depth_ratio(bounds) - 1.0);
+        const double error = of_corners + seen.of_any_direction(bounds, coarser.error);
+        const double shaded = seen.of_any_direction(bounds, coarser.shaded_width);
         if (error <= mesh_share * left.error && shaded <= max_shaded_pixels &&
             shows_picture(coarser, draw, seen)) {
             draw.level = level;

@@ -55,6 +55,10 @@ struct MeshLevel {
     /// all show its mean. 0: it shows the picture at the same places. Absent: for plain meshes
     /// only.
     std::optional<double> repeat = std::nullopt;
+    /// For meshes that were proven together, as the walls and roofs of houses: the bounds of all of
+    /// them, local metres. Their levels are chosen by this box, and so together, if their nodes
+    /// have one place, error, width and repeat. Empty: for a mesh of its own.
+    Box together = {};
 };
 /// From fine to coarse, with growing errors.
 using MeshLevels = std::vector<MeshLevel>;

@@ -215,6 +215,7 @@ BuildingLevels building_levels(const scene::Mesh& walls, const scene::Mesh& othe
     const std::vector<scene::Mesh> apart = buildings_of(walls, others, buildings);
     const Square all{walls, others};
     const scene::Mesh whole = all.whole();
+    const Box bounds = scene::bounds_of(whole);
     std::size_t last = all.triangles();
     double error = 0.0;
     for (const double tolerance : building_tolerances) {
@@ -226,13 +227,14 @@ BuildingLevels building_levels(const scene::Mesh& walls, const scene::Mesh& othe
         last = square.triangles();
         const scene::Mesh coarse = square.whole();
         error = std::max({error, tolerance, *scene::max_distance_between(whole, coarse)});
-        const auto level = [&](scene::Mesh mesh, double repeat) {
+        // Proven together, chosen together: roofs wait for the windows.
+        const auto level = [&](scene::Mesh mesh) {
             return scene::MeshLevel{std::make_shared<const scene::Mesh>(std::move(mesh)), error,
-                                    0.0, repeat};
+                                    0.0, std::max(building::window_bay, building::window_storey),
+                                    bounds};
         };
-        levels.walls.push_back(level(std::move(square.walls),
-                                     std::max(building::window_bay, building::window_storey)));
-        levels.others.push_back(level(std::move(square.others), 0.0));
+        levels.walls.push_back(level(std::move(square.walls)));
+        levels.others.push_back(level(std::move(square.others)));
     }
     return levels;
 }

@@ -127,6 +127,17 @@ TEST(CompareFigures, TimesOfOtherMachinesAreNotCompared) {
     EXPECT_EQ(compare(test::made_figures(), other).regressions(), 1U);
 }
 
+TEST(CompareFigures, EachSettingThatDiffersIsTold) {
+    FigureTable before = test::made_figures();
+    before.settings = {{"max_error", 1.0}, {"size", "64x48"}};
+    FigureTable after = before;
+    EXPECT_THAT(compare(before, after).notes, IsEmpty());
+    after.settings = {{"max_error", 2.0}, {"size", "64x48"}, {"memory_mb", 512}};
+    EXPECT_THAT(compare(before, after).notes,
+                ElementsAre(HasSubstr("max_error 1.0 in the first run, 2.0 in the second"),
+                            HasSubstr("memory_mb none in the first run, 512 in the second")));
+}
+
 TEST(CompareFigures, ARunThatEndedEarlyIsTold) {
     FigureTable stopped = test::made_figures();
     stopped.end.stopped = Error{"interrupted"};
@@ -191,6 +202,18 @@ TEST_F(CompareDocuments, OfOtherSuitesCannotBeCompared) {
         EXPECT_EQ(result.err, "reljef-bench: " + peers + " has results of peers, and " + other +
                                   " of " + suite + "; two of one suite were expected\n");
     }
+}
+
+// All errors in pixels would halve with the size.
+TEST_F(CompareDocuments, OfOtherSizesCannotBeCompared) {
+    FigureTable table = test::made_figures();
+    table.settings = {{"size", "1024x768"}};
+    const std::string before = file("a.json", table);
+    table.settings = {{"size", "512x384"}};
+    const std::string after = file("b.json", table);
+    const auto run = test::reljef_bench({"compare", before, after});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr("b.json: pictures of 512x384 found, 1024x768 as in"));
 }
 
 TEST_F(CompareDocuments, OfPartsAreReadAsOneRun) {

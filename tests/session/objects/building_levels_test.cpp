@@ -2,13 +2,18 @@
 #include "engine/session/objects/building_levels.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <random>
 
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
 #include "engine/scene/levels/mesh_distance.h"
 #include "engine/session/objects/building_meshes.h"
+#include "engine/view/draw_list.h"
 
 namespace reljef::session {
 namespace {
@@ -96,7 +101,7 @@ TEST_F(LevelsOfBuildings, KeepTheSizeOfWindowsAndTheColoursOfRoofs) {
         }
     }
     for (const scene::MeshLevel& level : *roofs_->levels) {
-        EXPECT_EQ(level.repeat, 0.0);
+        EXPECT_EQ(level.repeat, building::window_bay) << "they wait for the windows";
         for (std::size_t i = 0; i < level.mesh->indices.size(); i += 3) {
             const scene::TriangleEdges edges = scene::triangle_edges(*level.mesh, i);
             EXPECT_EQ(edges.s, glm::dvec2(0.0)) << "one colour";
@@ -107,6 +112,36 @@ TEST_F(LevelsOfBuildings, KeepTheSizeOfWindowsAndTheColoursOfRoofs) {
                       known.end());
         }
     }
+}
+
+// Only so is what is drawn what was proven.
+TEST_F(LevelsOfBuildings, AreTheSameOfWallsAndRoofsFromEverywhere) {
+    view::DrawList list;
+    list.size = {512, 384};
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> power(1.5, 4.0); // of ten, metres
+    std::uniform_real_distribution<double> turn(-180.0, 180.0);
+    std::array<std::size_t, 3> chosen{};
+    for (int i = 0; i < 4000; ++i) {
+        const double distance = std::pow(10.0, power(random));
+        const double angle = glm::radians(turn(random));
+        list.camera.target = {70.0, 10.0, 5.0};
+        list.camera.eye =
+            list.camera.target + distance * glm::dvec3(std::cos(angle), std::sin(angle), 0.3);
+        const auto level_of = [&](const scene::MeshNode& node) {
+            view::MeshDraw draw;
+            draw.mesh = &node;
+            draw.local_bounds = scene::bounds_of(*node.mesh);
+            return view::with_level(draw, list, 4.0);
+        };
+        const view::MeshDraw walls = level_of(*walls_);
+        const view::MeshDraw roofs = level_of(*roofs_);
+        ASSERT_EQ(walls.level, roofs.level) << distance;
+        ASSERT_EQ(walls.error, roofs.error) << distance;
+        ++chosen.at(std::min(walls.level, chosen.size() - 1));
+    }
+    EXPECT_GT(chosen[0], 100U);
+    EXPECT_GT(chosen[1] + chosen[2], 100U);
 }
 
 } // namespace
