@@ -57,7 +57,9 @@ const Environment& machine_of(const Document& document) {
 // Of the pictures: "1024x768"; empty: not known, or a part of the rows' names.
 std::string size_of(const Document& document) {
     const auto* const table = std::get_if<FigureTable>(&document);
-    return table != nullptr && table->settings.is_object() ? table->settings.value("size", "") : "";
+    const bool has_size = table != nullptr && table->settings.is_object() &&
+                          table->settings.contains("size") && table->settings["size"].is_string();
+    return has_size ? table->settings["size"].get<std::string>() : std::string();
 }
 
 // Fails with one sentence if the runs cannot be compared.

@@ -134,7 +134,7 @@ Result<std::optional<double>> wrong_of_terrain(const json& row) {
     constexpr std::array pointers{"/error/wrong_percent", "/error/reprojection_px/count",
                                   "/error/reprojection_px/unbounded", "/error/holes"};
     for (std::size_t i = 0; i < pointers.size(); ++i) {
-        const auto value = value_at(row, {.pointer = pointers[i]});
+        auto value = value_at(row, {.pointer = pointers[i]});
         if (!value || !*value) {
             return value;
         }
@@ -153,7 +153,7 @@ Result<std::optional<double>> wrong_of_terrain(const json& row) {
 }
 
 Result<std::optional<double>> quantity_of(const json& row, Quantity quantity) {
-    const auto value = value_at(row, info_of(quantity));
+    auto value = value_at(row, info_of(quantity));
     return value && !*value && quantity == Quantity::wrong ? wrong_of_terrain(row) : value;
 }
 

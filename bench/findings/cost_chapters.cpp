@@ -75,10 +75,6 @@ std::vector<Figure> oblique_ratios(Quantity quantity, const Technique& technique
             ratio("landscape", quantity, seen(landscape, technique), seen(landscape, base), range)};
 }
 
-View bricks() {
-    return {"pareto-quick.json", "tile brick", "oblique"};
-}
-
 // The times of two techniques on the gallery's bricks.
 Figure brick_ratio(const std::string& words, const Technique& technique, const Technique& base,
                    const Range& range) {

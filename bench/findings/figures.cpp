@@ -51,6 +51,10 @@ RowName seen(const View& view, const scene::Technique& technique) {
             {{"scene", view.scene}, {"pose", view.pose}, {"label", scene::to_string(technique)}}};
 }
 
+View bricks() {
+    return {"pareto-quick.json", "tile brick", "oblique"};
+}
+
 RowName city(const CityView& view, const std::string& form, const scene::Technique& technique) {
     return {view.file,
             {{"scene", view.scene},

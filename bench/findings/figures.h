@@ -22,6 +22,7 @@ struct View {
     std::string pose;
 };
 RowName seen(const View& view, const scene::Technique& technique);
+View bricks(); ///< a square with the gallery's bricks, oblique
 /// A city from a distance.
 struct CityView {
     std::string file; ///< "objects.json"

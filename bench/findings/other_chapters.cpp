@@ -11,10 +11,6 @@ using scene::Technique;
 
 constexpr double small_loss = 25.0; // percent of the frame rate: the most that J calls small
 
-View bricks() {
-    return {"pareto-quick.json", "tile brick", "oblique"};
-}
-
 Figure brick_cost(const std::string& words, const Technique& technique, const Technique& base,
                   const Range& range) {
     return drop(words, seen(bricks(), technique), seen(bricks(), base), range);

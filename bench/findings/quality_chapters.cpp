@@ -149,7 +149,6 @@ std::vector<Conclusion> steps_by_angle() {
     Technique faded{Relief{}};
     faded.options.fade = scene::Fade{};
     const Technique everywhere{Relief{.linear_steps = 25}};
-    const View bricks{"pareto-quick.json", "tile brick", "oblique"};
     return {
         {"M 3.6.4", "Steps by angle, 5 to 25, are as accurate as 25 everywhere.",
          "at most 1.25 times the wrong pixels (our reading)",
@@ -161,8 +160,8 @@ std::vector<Conclusion> steps_by_angle() {
         {.source = "M 3.6.4",
          .claim = "Lower heights at flat angles remove errors.",
          .rule = "fewer wrong pixels",
-         .figures = {ratio("bricks", Quantity::wrong, seen(bricks, faded), seen(bricks, {Relief{}}),
-                           at_most(1.0))},
+         .figures = {ratio("bricks", Quantity::wrong, seen(bricks(), faded),
+                           seen(bricks(), {Relief{}}), at_most(1.0))},
          .reason = "They remove missed hits, which are few, but a lower surface is another one: "
                    "where it is lowered, each pixel shows a wrong point."},
     };

@@ -72,8 +72,8 @@ std::vector<Chapter::Sentence> findings_summary() {
          "of its pixels are wrong over the built-in city, {} over Ann Arbor and {} over Delft. It "
          "takes {}, {} and {} of the time of buildings and ground as triangles.",
          {wrong_city(built_in_city), wrong_city(ann_arbor_city), wrong_city(delft_city),
-          of_objects(built_in_city, at_most(1.0)), of_objects(ann_arbor_city, at_most(1.0)),
-          of_objects(delft_city, at_most(1.0))}},
+          of_objects(built_in_city, {}), of_objects(ann_arbor_city, {}),
+          of_objects(delft_city, {})}},
         {"**On terrain, triangles win, if a bound on their error chooses them.** Within one pixel, "
          "they take {} the time of relief on a CPU and {} on a GPU. J's five levels are faster "
          "still, and {} of their pixels are wrong.",

@@ -12,8 +12,8 @@ namespace reljef::bench {
 /// A figure changed if it differs by more than `threshold` (a share, >= 0) and by more than the
 /// noise floors of both rows. If its column has a noise floor and a row has none, there is no
 /// verdict: it is `untimed`. A figure within its limit in both runs is the same. Times (ms, s) of
-/// different environments are not compared. Each setting that differs is a note. A missing or infinite figure is worse than any; if
-/// neither run has one, nothing is compared.
+/// different environments are not compared. Each setting that differs is a note. A missing or
+/// infinite figure is worse than any; if neither run has one, nothing is compared.
 Comparison compare(const FigureTable& a, const FigureTable& b, double threshold = 0.10);
 
 } // namespace reljef::bench

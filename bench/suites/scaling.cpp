@@ -264,14 +264,15 @@ FigureTable figure_table(const ScalingResults& results) {
                      {"max_error", options.error},
                      {"memory_mb", options.memory_megabytes}},
         .summary = {},
-        .columns = {
-            name("/side", "side"), name("/pose", "pose"), plain("/streamed", "streamed"),
-            less("/first_picture_s", "first picture", "s"),
-            less("/last_picture_s", "last picture", "s"), detail(plain("/frames", "frames")),
-            less("/ms/median", "median", "ms"), detail(plain("/ms/p95", "p95", "ms")),
-            plain("/ms/p99", "p99", "ms"), plain("/tiles", "tiles"), less("/triangles", "triangles"),
-            less("/memory_bytes", "memory", "bytes", 0), detail(plain("/pixels", "checked pixels")),
-            less("/worst_px", "worst", "px", 3), less("/p99_px", "p99", "px", 3)}};
+        .columns = {name("/side", "side"), name("/pose", "pose"), plain("/streamed", "streamed"),
+                    less("/first_picture_s", "first picture", "s"),
+                    less("/last_picture_s", "last picture", "s"),
+                    detail(plain("/frames", "frames")), less("/ms/median", "median", "ms"),
+                    detail(plain("/ms/p95", "p95", "ms")), plain("/ms/p99", "p99", "ms"),
+                    plain("/tiles", "tiles"), less("/triangles", "triangles"),
+                    less("/memory_bytes", "memory", "bytes", 0),
+                    detail(plain("/pixels", "checked pixels")), less("/worst_px", "worst", "px", 3),
+                    less("/p99_px", "p99", "px", 3)}};
     table.end = results.end;
     for (const ScalingRow& row : results.rows) {
         table.rows.push_back({row.side, scene::to_string(row.pose), row.streamed, row.first_picture,

@@ -353,6 +353,12 @@ Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
     return placed ? place_point_lights(scene, source, view, log) : placed;
 }
 
+void set_limits(scene::TerrainNode& shown, const TerrainSource& source, int megabytes) {
+    shown.stream = make_stream(source, shown.surface);
+    shown.max_triangles = triangles_within(megabytes);
+    shown.max_vertices = vertices_within(megabytes);
+}
+
 } // namespace
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
@@ -370,9 +376,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     result.terrain = *node;
     auto& shown = *result.terrain->get<scene::TerrainNode>();
-    shown.stream = make_stream(source, shown.surface);
-    shown.max_triangles = triangles_within(terrain.memory_megabytes);
-    shown.max_vertices = vertices_within(terrain.memory_megabytes);
+    set_limits(shown, source, terrain.memory_megabytes);
     set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
     auto city = city_surface(std::move(source.city_heights), shown.surface->heightfield().spacing,
@@ -402,11 +406,10 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         }
         shadow_floor(shown, result.models);
     }
-    if (auto done = finish_materials(result, source.description, view); !done) {
-        return done.error();
-    }
-    if (auto done = add_daylight(result, source.description, view, log); !done) {
-        return done.error();
+    auto finished = finish_materials(result, source.description, view);
+    finished = finished ? add_daylight(result, source.description, view, log) : finished;
+    if (!finished) {
+        return finished.error();
     }
     auto camera = choose_camera(result, source.description, view);
     if (!camera) {

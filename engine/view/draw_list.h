@@ -91,8 +91,8 @@ const std::shared_ptr<const scene::Mesh>& drawn_mesh(const MeshDraw& draw);
 
 struct DrawList;
 /// The draw with the coarsest level that keeps a quarter of an error bound (pixels; 0: no bound) in
-/// the list's picture, and whose normals look like those of the mesh. It has all triangles if no
-/// level does, and if the mesh has a detail texture.
+/// the list's picture, whose normals look like those of the mesh, and whose picture shows its mean
+/// only. It has all triangles if no level does.
 MeshDraw with_level(MeshDraw draw, const DrawList& list, double max_error);
 
 /// What to draw in a frame: pure data. Valid as long as the scene is unchanged.

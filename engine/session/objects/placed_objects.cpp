@@ -140,6 +140,27 @@ private:
     std::vector<std::string> notes_;
 };
 
+// An object of the description whose place is on the terrain.
+Result<PlacedObject> object_on(const scene::TerrainSurface& surface,
+                               const io::ObjectDescription& description,
+                               const SourceHeight& height) {
+    PlacedObject object{nullptr, description, 0.0, {}};
+    if (!description.at) {
+        return Error{fmt::format("{}: no place found, at=LAT,LON was expected on a terrain",
+                                 description.file.string())};
+    }
+    if (height) {
+        object.ground_height = height(*description.at);
+        if (!object.ground_height) {
+            return misplaced(place_of(object), "no height", "a place on the terrain with one");
+        }
+    }
+    if (auto place = scene_from_object(surface, object); !place) {
+        return place.error();
+    }
+    return object;
+}
+
 } // namespace
 
 Result<glm::dmat4> scene_from_object(const scene::TerrainSurface& surface,
@@ -164,34 +185,24 @@ Result<PlacedObjects> add_objects(scene::Scene& scene, const scene::TerrainSurfa
     MeshFiles files(stop);
     std::vector<std::string> unseen_notes;
     for (const io::ObjectDescription& description : objects) {
-        PlacedObject object{nullptr, description, 0.0, {}};
-        if (!description.at) {
-            return Error{fmt::format("{}: no place found, at=LAT,LON was expected on a terrain",
-                                     description.file.string())};
-        }
-        if (height) {
-            object.ground_height = height(*description.at);
-            if (!object.ground_height) {
-                return misplaced(place_of(object), "no height", "a place on the terrain with one");
-            }
-        }
-        if (auto place = scene_from_object(surface, object); !place) {
-            return place.error(); // before the file is read
+        auto object = object_on(surface, description, height);
+        if (!object) {
+            return object.error(); // before the file is read
         }
         const auto mesh = files.of(description.file);
         if (!mesh) {
             return mesh.error();
         }
-        object.lowest = (*mesh)->bounds.low.z;
-        object.node = &scene.root().add(description.file.stem().string());
+        object->lowest = (*mesh)->bounds.low.z;
+        object->node = &scene.root().add(description.file.stem().string());
         for (const scene::MeshNode& part : (*mesh)->parts) {
-            object.node->add("part", part);
+            object->node->add("part", part);
         }
-        if (const std::string why = unseen(surface, object, **mesh); !why.empty()) {
+        if (const std::string why = unseen(surface, *object, **mesh); !why.empty()) {
             unseen_notes.push_back(
                 fmt::format("{}: nothing of it can be seen: {}", description.file.string(), why));
         }
-        placed.objects.push_back(std::move(object));
+        placed.objects.push_back(std::move(*object));
     }
     placed.notes = files.notes();
     placed.notes.insert(placed.notes.end(), unseen_notes.begin(), unseen_notes.end());
