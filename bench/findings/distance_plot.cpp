@@ -49,7 +49,7 @@ std::vector<Drawn> drawn_forms() {
     return {{"plain texture", "#777777", {scene::Texture{}}},
             {"parallax", "#c87800", {scene::Parallax{}}},
             {"relief", "#1f6fb4", {scene::Relief{}}},
-            {"objects", "#2a8a3e", {scene::Polygons{.error = 1.0}}, true}};
+            {"buildings, ground", "#2a8a3e", {scene::Polygons{.error = 1.0}}, true}};
 }
 
 // The row of each distance in metres.
@@ -184,7 +184,8 @@ Result<std::string> distance_plot(const CommittedResults& results) {
     errors.mark_words = "one pixel";
     PlotPanel times{.title = "time of a frame over 476 buildings, ms",
                     .low = 5.0,
-                    .high = 200.0,
+                    .high = 150.0,
+                    .farthest = 3000.0,
                     .left = 490.0};
     for (const Drawn& drawn : drawn_forms()) {
         auto error = line_of(drawn, Quantity::error_px, error_row, results);
@@ -195,10 +196,10 @@ Result<std::string> distance_plot(const CommittedResults& results) {
         errors.lines.push_back(std::move(*error));
         times.lines.push_back(std::move(*time));
     }
-    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 840 310\" "
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 310\" "
            "font-family=\"sans-serif\" font-size=\"13\">\n"
            "<title>Error and time over the distance of the eye from a city</title>\n"
-           "<rect width=\"840\" height=\"310\" fill=\"white\"/>\n" +
+           "<rect width=\"960\" height=\"310\" fill=\"white\"/>\n" +
            panel_svg(errors) + panel_svg(times) + "</svg>\n";
 }
 

@@ -156,18 +156,18 @@ Result<std::string> sentence_text(const Chapter::Sentence& sentence,
     return holds ? fmt::vformat(sentence.text, texts) : std::string();
 }
 
-// The sentences that hold, one a line; empty if none does.
-Result<std::string> answer_text(std::span<const Chapter::Sentence> sentences,
-                                const CommittedResults& results) {
+// The sentences that hold, each on a line that begins with `bullet`.
+Result<std::string> sentences_text(std::span<const Chapter::Sentence> sentences,
+                                   std::string_view bullet, const CommittedResults& results) {
     std::string text;
     for (const Chapter::Sentence& sentence : sentences) {
         const auto shown = sentence_text(sentence, results);
         if (!shown) {
             return shown.error();
         }
-        text += shown->empty() ? "" : *shown + "\n";
+        text += shown->empty() ? "" : fmt::format("{}{}\n", bullet, *shown);
     }
-    return text.empty() ? text : text + "\n";
+    return text;
 }
 
 // Why a conclusion does not hold.
@@ -184,11 +184,13 @@ struct ChapterText {
 };
 
 Result<ChapterText> chapter_text(const Chapter& chapter, const PageContext& context) {
-    const auto answer = answer_text(chapter.answer, context.results);
+    const auto answer = sentences_text(chapter.answer, "", context.results);
     if (!answer) {
         return answer.error();
     }
-    ChapterText shown{fmt::format("\n## {}\n\n{}{}", chapter.question, *answer, table_head), {}};
+    ChapterText shown{fmt::format("\n## {}\n\n{}{}{}", chapter.question, *answer,
+                                  answer->empty() ? "" : "\n", table_head),
+                      {}};
     std::string reasons;
     for (const Conclusion& conclusion : chapter.conclusions) {
         const auto judgement = judge(conclusion, context.results);
@@ -219,22 +221,16 @@ std::string counts_text(const std::vector<Finding>& verdicts) {
         missing == 0 ? "" : fmt::format(", and {} are not measured yet", missing));
 }
 
-// The sentences that hold, as a list.
-Result<std::string> summary_text(std::span<const Chapter::Sentence> sentences,
-                                 const CommittedResults& results) {
-    std::string text;
-    for (const Chapter::Sentence& sentence : sentences) {
-        const auto shown = sentence_text(sentence, results);
-        if (!shown) {
-            return shown.error();
-        }
-        text += shown->empty() ? "" : fmt::format("- {}\n", *shown);
+std::string summary_text(const std::string& sentences, const CommittedResults& results) {
+    if (sentences.empty()) {
+        return sentences;
     }
-    if (!text.empty() && results.has("distance.json")) {
-        text += fmt::format("\n![Error and time over the distance of the eye from a city]({})\n",
-                            distance_plot_file);
-    }
-    return text.empty() ? text : "\n## In short\n\n" + text;
+    const std::string plot =
+        results.has("distance.json")
+            ? fmt::format("\n![Error and time over the distance of the eye from a city]({})\n",
+                          distance_plot_file)
+            : "";
+    return "\n## In short\n\n" + sentences + plot;
 }
 
 std::string limits_text(const std::string& limits) {
@@ -304,7 +300,7 @@ std::string number_text(const Figure& figure, const Number& number) {
 Result<std::string> findings_page(const Findings& findings, std::span<const ResultsSource> sources,
                                   const CommittedResults& results) {
     const PageContext context{sources, results, letters_of(sources, results)};
-    const auto summary = summary_text(findings.summary, results);
+    const auto summary = sentences_text(findings.summary, "- ", results);
     if (!summary) {
         return summary.error();
     }
@@ -318,8 +314,8 @@ Result<std::string> findings_page(const Findings& findings, std::span<const Resu
         text += shown->text;
         verdicts.insert(verdicts.end(), shown->verdicts.begin(), shown->verdicts.end());
     }
-    text = std::string(page_head) + *summary + counts_text(verdicts) + std::string(how_to_read) +
-           text + limits_text(findings.limits) + machines_text(context);
+    text = std::string(page_head) + summary_text(*summary, results) + counts_text(verdicts) +
+           std::string(how_to_read) + text + limits_text(findings.limits) + machines_text(context);
     for (const ResultsSource& source : sources) {
         text += source_text(source, context);
     }

@@ -94,14 +94,14 @@ std::vector<FigureColumn> flight_columns() {
             plain("/tiles/cancelled", "tiles cancelled"),
             plain("/tiles/evicted", "tiles evicted"),
             less("/tiles/bytes_read", "files read", "bytes", 1),
-            less("/tiles/most_bytes", "tiles in memory, at most", "bytes", 1),
+            less("/tiles/max_bytes", "tiles in memory, at most", "bytes", 1),
             less("/kept_error_px", "kept error, at most", "px"),
             less("/median_kept_error_px", "kept error, median", "px"),
             less("/tiles_unproven", "unproven tiles, at most"),
             less("/faulty_files", "faulty files"),
             detail(plain("/memory/allowed", "memory allowed", "bytes", 1)),
             detail(plain("/memory/before", "memory before", "bytes", 1)),
-            less("/memory/most", "memory, at most", "bytes", 1),
+            less("/memory/max", "memory, at most", "bytes", 1),
             less("/memory/share_of_allowed", "memory, share of the allowed")};
 }
 
