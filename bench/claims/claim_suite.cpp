@@ -1,5 +1,7 @@
 #include "bench/claims/claim_suite.h"
 
+#include <array>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -8,6 +10,7 @@
 
 #include "app/cli/message.h"
 #include "app/cli/progress_line.h"
+#include "bench/claims/warp_phases.h"
 #include "bench/report/report_json.h"
 #include "bench/runner/benchmark_scene.h"
 #include "bench/runner/measure.h"
@@ -89,6 +92,15 @@ FigureJson rms_figure(const std::optional<RowError::Geometric>& error) {
     return error ? FigureJson(error->distribution.rms) : FigureJson();
 }
 
+// In the order of the columns: wrong, of the terrain and of the picture, reprojection, FLIP.
+std::array<FigureJson, 4> error_figures(const std::optional<RowError>& error) {
+    if (!error) {
+        return {nullptr, nullptr, nullptr, nullptr};
+    }
+    return {json_or_null(error->wrong_of_terrain_percent), error->wrong_percent,
+            rms_figure(error->reprojection_px), error->flip};
+}
+
 class ClaimRun {
 public:
     ClaimRun(ClaimResults& results, std::stop_token stop)
@@ -102,7 +114,7 @@ public:
         }
         results_.environment = environment_of(*device, options_.suite.threads);
         is_software_ = device->info().is_software;
-        parts_ = (options_.copies.size() + 1) * options_.poses.size() + 1;
+        parts_ = (options_.copies.size() + 1) * options_.poses.size() + 2;
         for (const int copies : options_.copies) {
             const auto city = repeated_city(options_.tile, copies, threads());
             if (auto done = run_city("repeat", city, forms_of_repeat()); !done) {
@@ -111,6 +123,9 @@ public:
         }
         const auto city = lone_city(options_.lone);
         if (auto done = run_city("city only", city, forms_of_lone_city()); !done) {
+            return done;
+        }
+        if (auto done = run_warping(*city); !done) {
             return done;
         }
         return stop_.stop_requested() ? Result<void>() : run_layers();
@@ -229,10 +244,7 @@ private:
                 return {};
             });
         }
-        MeasureOptions timing =
-            measuring(options_.suite, parts_,
-                      group_seconds(options_.suite, since_run_.seconds(), parts_ - parts_done_));
-        timing.stop = stop_;
+        MeasureOptions timing = timing_of_part();
         timing.null_pair = {0, frames.size() - 1};
         const auto measurement = measure(frames, timing);
         if (!measurement || measurement->ms.back().empty()) {
@@ -245,6 +257,33 @@ private:
             results_.rows.push_back(std::move(row));
         }
         return {};
+    }
+
+    Result<void> run_warping(const CutCity& city) {
+        const MeasureOptions timing = timing_of_part();
+        const auto measurement = measure_warp_phases(city, timing, threads());
+        if (!measurement || measurement->ms.back().empty()) {
+            return measurement ? Result<void>() : measurement.error();
+        }
+        for (std::size_t i = 0; i < std::size(warp_phase_names); ++i) {
+            results_.rows.push_back(
+                {.test = "warping",
+                 .scene = city.name,
+                 .pose = scene::Pose::oblique,
+                 .form = warp_phase_names[i],
+                 .label = scene::to_string(scene::Technique{scene::Prewarp{}}),
+                 .timing = timed(measurement->ms[i], measurement->noise_floor)});
+        }
+        line_.update(static_cast<double>(++parts_done_) / static_cast<double>(parts_));
+        return {};
+    }
+
+    [[nodiscard]] MeasureOptions timing_of_part() const {
+        MeasureOptions timing =
+            measuring(options_.suite, parts_,
+                      group_seconds(options_.suite, since_run_.seconds(), parts_ - parts_done_));
+        timing.stop = stop_;
+        return timing;
     }
 
     // Bricks are solid below their heights, which four layers show as well. One layer is measured
@@ -274,7 +313,7 @@ private:
                                          .form = layers_form,
                                          .label = row.setting.label,
                                          .timing = std::move(row.timing),
-                                         .error = *row.error});
+                                         .error = std::move(row.error)});
             }
         }
         return {};
@@ -323,13 +362,22 @@ FigureTable figure_table(const ClaimResults& results) {
                     less("/error/flip", "FLIP", "", 4)}};
     table.end = results.end;
     for (const ClaimRow& row : results.rows) {
-        table.rows.push_back(
-            {row.test, row.scene, std::string(scene::to_string(row.pose)), row.form, row.label,
-             row.timing.ms.median, json_or_null(row.timing.noise_floor), row.timing.frames,
-             row.nodes, row.timing.stats.triangles,
-             row.bytes > 0 ? FigureJson(row.bytes) : FigureJson(), json_or_null(row.taps),
-             json_or_null(row.error.wrong_of_terrain_percent), row.error.wrong_percent,
-             rms_figure(row.error.reprojection_px), row.error.flip});
+        FigureJson figures{row.test,
+                           row.scene,
+                           std::string(scene::to_string(row.pose)),
+                           row.form,
+                           row.label,
+                           row.timing.ms.median,
+                           json_or_null(row.timing.noise_floor),
+                           row.timing.frames,
+                           row.nodes,
+                           row.error ? FigureJson(row.timing.stats.triangles) : FigureJson(),
+                           row.bytes > 0 ? FigureJson(row.bytes) : FigureJson(),
+                           json_or_null(row.taps)};
+        for (FigureJson& figure : error_figures(row.error)) {
+            figures.push_back(std::move(figure));
+        }
+        table.rows.push_back(std::move(figures));
     }
     return table;
 }

@@ -23,16 +23,16 @@ struct ClaimOptions {
 
 /// A way to draw a surface.
 struct ClaimRow {
-    std::string test; ///< "repeat", "city only" or "layers"
+    std::string test; ///< "repeat", "city only", "layers" or "warping"
     std::string scene;
     scene::Pose pose = scene::Pose::overview;
     std::string form;  ///< "one terrain", "one tile" …
     std::string label; ///< of the technique
     Timing timing = {};
-    std::size_t nodes = 1;           ///< that draw the surface
-    std::size_t bytes = 0;           ///< sent to the GPU for the first frame; 0: not counted
-    std::optional<double> taps = {}; ///< for each pixel; absent: not counted
-    RowError error = {};
+    std::size_t nodes = 1;              ///< that draw the surface
+    std::size_t bytes = 0;              ///< sent to the GPU for the first frame; 0: not counted
+    std::optional<double> taps = {};    ///< for each pixel; absent: not counted
+    std::optional<RowError> error = {}; ///< absent: no picture was drawn
 };
 
 struct ClaimResults {
@@ -48,7 +48,8 @@ FigureTable figure_table(const ClaimResults& results);
 /// - repeat: a city of one tile, drawn as one terrain and as nodes that share the tile;
 /// - city only: a city in the middle of level ground, drawn by one technique everywhere, as one
 ///   terrain and in pieces, and by a plain texture on the pieces of one height;
-/// - layers: bricks, which one layer shows, by relief and by four layers.
+/// - layers: bricks, which one layer shows, by relief and by four layers;
+/// - warping: the two phases of forward warping.
 /// Errors are those against the exact picture of the whole surface.
 ClaimResults run_claims(const ClaimOptions& options, const std::stop_token& stop);
 

@@ -219,12 +219,9 @@ Result<truth::GeometricErrors> CityForms::errors(CityForm form, const HitBuffer&
                                   surface(form).placement(),
                                   slot(form)->terrain->world_from_local(), camera};
     const auto reprojection = [&](glm::ivec2 pixel, const Hit& hit) {
-        const Hit& drawn = shown(pixel.x, pixel.y);
-        if (!is_of_mesh(drawn)) {
-            return truth::reprojection_error(view, options_.size, pixel, hit);
-        }
-        const Ray ray = scene::view_ray(camera, options_.size, glm::dvec2(pixel) + 0.5);
-        return truth::distance_to_pixel(camera, options_.size, pixel, ray.at(drawn.depth));
+        return is_of_mesh(shown(pixel.x, pixel.y))
+                   ? std::nullopt
+                   : std::optional(truth::reprojection_error(view, options_.size, pixel, hit));
     };
     return truth::geometric_errors({reprojection, truth::hit_error}, on_terrain(shown),
                                    on_terrain(truth), static_cast<unsigned>(options_.threads));

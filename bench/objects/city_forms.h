@@ -50,8 +50,8 @@ public:
     /// The errors of a form's picture against the true picture of the form meshes:
     /// - hit error, wrong surfaces and holes: how far the place that a pixel shows is from the
     ///   place that it should show, in samples of the heights; places on meshes count as well;
-    /// - reprojection: of a terrain's texel by the heights of its own form, of a mesh by the place
-    ///   itself.
+    /// - reprojection: of a terrain's texel by the heights of its own form. A mesh has no texels,
+    ///   so its pixels have none.
     [[nodiscard]] Result<truth::GeometricErrors>
     errors(building::CityForm form, const HitBuffer& shown, const HitBuffer& truth) const;
     [[nodiscard]] Result<truth::Picture> draw_truth(const std::stop_token& stop);

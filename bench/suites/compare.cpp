@@ -312,9 +312,11 @@ std::string comparison_report(const Comparison& comparison) {
            changes_text(comparison.changes, Verdict::better, "better") +
            names_text(comparison.only_a, "gone, only in the first") +
            names_text(comparison.only_b, "only in the second") +
-           names_text(comparison.untimed,
-                      fmt::format("no verdict of time, under {} frames or no ratio to texture",
-                                  min_frames)) +
+           names_text(
+               comparison.untimed,
+               fmt::format(
+                   "no verdict of time: under {} frames, no noise floor or no ratio to texture",
+                   min_frames)) +
            fmt::format("{} worse, {} better, {} the same within the noise, {} gone\n",
                        count_of(comparison.changes, Verdict::worse),
                        count_of(comparison.changes, Verdict::better),

@@ -122,9 +122,20 @@ private:
         for (const FigureColumn& column : a_.columns) {
             const bool is_skipped = column.better == FigureColumn::Better::none ||
                                     (is_time(column) && !comparison_.same_environment);
-            if (!is_skipped) {
+            if (is_skipped) {
+                continue;
+            }
+            if (is_time(column) && column.noise.empty()) {
+                add_untimed(name);
+            } else {
                 compare_figures(name, column, a, b);
             }
+        }
+    }
+
+    void add_untimed(const std::string& name) {
+        if (comparison_.untimed.empty() || comparison_.untimed.back() != name) {
+            comparison_.untimed.push_back(name);
         }
     }
 
@@ -140,7 +151,7 @@ private:
             const auto noise_a = number_at(a_, a, column.noise);
             const auto noise_b = number_at(b_, b, column.noise);
             if (!noise_a || !noise_b) {
-                comparison_.untimed.push_back(name);
+                add_untimed(name);
                 return;
             }
             noise = std::max({noise, *noise_a, *noise_b});

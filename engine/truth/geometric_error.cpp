@@ -61,8 +61,9 @@ void judge_pixel(const PixelMeasure& measure, const HitBuffer& shown, const HitB
     const Hit& true_hit = truth(pixel.x, pixel.y);
     double texels_off = no_bound;
     if (shows_terrain(hit)) {
-        errors.reprojection.map(pixel.x, pixel.y) =
-            static_cast<float>(bounded(measure.reprojection(pixel, hit)));
+        if (const auto pixels_off = measure.reprojection(pixel, hit)) {
+            errors.reprojection.map(pixel.x, pixel.y) = static_cast<float>(bounded(*pixels_off));
+        }
         if (shows_terrain(true_hit)) {
             texels_off = bounded(measure.hit(hit, true_hit));
             errors.hit.map(pixel.x, pixel.y) = static_cast<float>(texels_off);

@@ -83,8 +83,9 @@ double hit_error(const Hit& shown, const Hit& true_hit);
 
 /// The error functions of one pixel. Values that are not finite count as unbounded.
 struct PixelMeasure {
-    std::function<double(glm::ivec2 pixel, const Hit& hit)> reprojection; ///< pixels
-    std::function<double(const Hit& shown, const Hit& true_hit)> hit;     ///< texels
+    /// Pixels; empty for a hit that has no such error.
+    std::function<std::optional<double>(glm::ivec2 pixel, const Hit& hit)> reprojection;
+    std::function<double(const Hit& shown, const Hit& true_hit)> hit; ///< texels
 };
 
 /// The errors of a frame: reprojection error over the pixels where the technique shows terrain; hit

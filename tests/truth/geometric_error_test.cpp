@@ -386,6 +386,21 @@ TEST(GeometricErrors, DistributionTellsOnePixelInAHundred) {
     EXPECT_EQ(errors->wrong_percent, 1.0);
 }
 
+TEST(GeometricErrors, OfAHitWithoutOneAreNeitherCountedNorUnbounded) {
+    const HitBuffer hits(4, 1, hit_at(2.0, 2.0));
+    const PixelMeasure measure{[](glm::ivec2 pixel, const Hit&) -> std::optional<double> {
+                                   return pixel.x == 0 ? std::nullopt : std::optional(2.0);
+                               },
+                               hit_error};
+    const auto errors = geometric_errors(measure, hits, hits);
+    ASSERT_TRUE(errors);
+    EXPECT_TRUE(std::isnan(errors->reprojection.map(0, 0)));
+    EXPECT_EQ(errors->reprojection.unbounded, 0U);
+    ASSERT_TRUE(errors->reprojection.distribution);
+    EXPECT_EQ(errors->reprojection.distribution->count, 3U);
+    EXPECT_EQ(errors->wrong, 0U);
+}
+
 // A technique that shows nothing at all is wrong, not perfect.
 TEST(GeometricErrors, OfAnEmptyFrameBeforeTerrainAreAllHoles) {
     const glm::ivec2 size(16, 16);

@@ -102,7 +102,7 @@ FigureTable made_claims() {
     row.error = test::made_error(0.5);
     results.rows = {row, row};
     results.rows[1].bytes = 500;
-    results.rows[1].error.reprojection_px.reset();
+    results.rows[1].error->reprojection_px.reset();
     return figure_table(results);
 }
 

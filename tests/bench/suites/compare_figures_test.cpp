@@ -51,6 +51,19 @@ void expect_worse(std::size_t column, const FigureJson& value, const std::string
     EXPECT_EQ(compare(after, before).regressions(), 0U) << figure << value;
 }
 
+TEST(CompareFigures, ATimeWithoutANoiseFloorGetsNoVerdict) {
+    FigureTable before = test::made_figures();
+    before.columns[ms_column].noise.clear();
+    FigureTable after = before;
+    after.rows[0][ms_column] = 1e6;
+    const Comparison comparison = compare(before, after);
+    EXPECT_EQ(comparison.regressions(), 0U);
+    EXPECT_THAT(comparison.untimed, testing::Contains("natural, ours").Times(1));
+    for (const Change& change : comparison.changes) {
+        EXPECT_NE(change.figure, heading_text(before.columns[ms_column]));
+    }
+}
+
 TEST(CompareFigures, ARunWithItselfIsTheSame) {
     const Comparison comparison = compare(test::made_figures(), test::made_figures());
     EXPECT_EQ(comparison.changes.size(), 11U); // four figures, and one error is missing

@@ -145,7 +145,8 @@ TEST(Compare, few_frames_get_no_verdict_of_time_and_are_named) {
         EXPECT_EQ(comparison.regressions(), 0U);
         EXPECT_THAT(comparison.untimed, ElementsAre(HasSubstr("polygons:lods=1")));
         EXPECT_THAT(comparison_report(comparison),
-                    HasSubstr("no verdict of time, under 5 frames or no ratio to texture:\n  "
+                    HasSubstr("no verdict of time: under 5 frames, no noise floor or no ratio to "
+                              "texture:\n  "
                               "tables, natural, overview, polygons"));
     }
 }
