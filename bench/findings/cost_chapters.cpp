@@ -118,6 +118,23 @@ std::vector<Chapter::Sentence> parallax_answer() {
              wrongs(parallax, parallax_tests(), at_least(good_wrong))}};
 }
 
+// The time of another program over ours for the same work.
+Figure over_ours(const std::string& work, const std::string& what, const Technique& ours) {
+    return ratio("", Quantity::ms, peer(work, what), peer(work, scene::to_string(ours)), {});
+}
+
+Chapter::Sentence programs_beside_ours() {
+    const Technique exact{scene::Exact{}};
+    return {
+        "From the same view of the Alps, OpenSceneGraph takes {} our time for a vertex at every "
+        "sample, Irrlicht's parallax material {} that of our parallax, and Embree {} and "
+        "POV-Ray {} that of our exact rays.",
+        {over_ours("a vertex for every sample", "OpenSceneGraph, GeometryTechnique", levels(1)),
+         over_ours("heights on a flat square", "Irrlicht, parallax material", {scene::Parallax{}}),
+         over_ours("hits by rays on the CPU", "Embree, quads", exact),
+         over_ours("a picture by rays on the CPU", "POV-Ray, height_field", exact)}};
+}
+
 std::vector<Chapter::Sentence> triangles_answer() {
     const Technique relief{scene::Relief{}};
     return {
@@ -129,7 +146,8 @@ std::vector<Chapter::Sentence> triangles_answer() {
         {"With an error bound of one pixel instead of levels, they take {} that time, and {} of "
          "their pixels are wrong.",
          {test_4("", Quantity::ms, bounded(), relief, at_most(1.0)),
-          plain("", Quantity::wrong, source_test("relief-4", bounded()), {})}}};
+          plain("", Quantity::wrong, source_test("relief-4", bounded()), {})}},
+        programs_beside_ours()};
 }
 
 std::vector<Figure> work_of_relief() {
@@ -258,6 +276,43 @@ Figure cost_over_landscape() {
                 source_test("parallax-3", {scene::Texture{}}), at_most(small_cost));
 }
 
+// What a technique shows over the landscape, which has no jumps, over what it shows over the city,
+// both as high as a part of their width.
+std::vector<Figure> without_jumps() {
+    std::vector<Figure> figures;
+    for (const char* const scale : {"0.04", "0.15"}) {
+        const RowName rough = seen(at_scale("natural", scale), {scene::Parallax{}});
+        const RowName jumps = seen(at_scale("urban", scale), {scene::Parallax{}});
+        figures.push_back(ratio(fmt::format("error, scale {}", scale), Quantity::error_px, rough,
+                                jumps, at_most(1.0)));
+        figures.push_back(ratio("wrong", Quantity::wrong, rough, jumps, at_most(1.0)));
+    }
+    return figures;
+}
+
+// Wrong pixels at the scale 0.15 over those at 0.04.
+Figure higher(const std::string& words, const std::string& terrain) {
+    const Technique parallax{scene::ParallaxIterated{}};
+    return ratio(words, Quantity::wrong, seen(at_scale(terrain, "0.15"), parallax),
+                 seen(at_scale(terrain, "0.04"), parallax), at_least(2.0));
+}
+
+std::vector<Conclusion> parallax_and_heights() {
+    return {{"M 3.5",
+             "Parallax, also repeated, works only up to some scale of the heights.",
+             "at the scale 0.15, at least twice the wrong pixels of 0.04 (M's scales, our reading)",
+             {higher("city", "urban"), higher("landscape", "natural")},
+             "scale: heights over width"},
+            {.source = "D",
+             .claim = "Parallax is best with height maps without jumps.",
+             .rule = "less error in pixels, and fewer wrong pixels, over a landscape than over a "
+                     "city as high",
+             .figures = without_jumps(),
+             .reason = "A jump shows places far off, so the error in pixels is larger over a city. "
+                       "But its roofs and streets are level, where the shift is right. Slopes are "
+                       "everywhere off, by a little more than a texel."}};
+}
+
 std::vector<Conclusion> quality_of_parallax() {
     const Technique parallax{scene::Parallax{}};
     return {
@@ -383,6 +438,7 @@ Chapter parallax_chapter() {
     Chapter chapter{"What does parallax cost, and what does it show?", parallax_answer(),
                     cost_of_parallax()};
     append(chapter.conclusions, quality_of_parallax());
+    append(chapter.conclusions, parallax_and_heights());
     return chapter;
 }
 

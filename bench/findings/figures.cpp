@@ -55,6 +55,10 @@ View bricks() {
     return {"pareto-quick.json", "tile brick", "oblique"};
 }
 
+View at_scale(const std::string& terrain, const std::string& scale) {
+    return {"scales.json", fmt::format("{}, s = {}", terrain, scale), "oblique"};
+}
+
 RowName city(const CityView& view, const std::string& form, const scene::Technique& technique) {
     return {view.file,
             {{"scene", view.scene},
@@ -77,6 +81,10 @@ RowName irrlicht(int levels) {
             {{"pose", "overview"},
              {"what", fmt::format("irrlicht:lods={}", levels)},
              {"camera", "still"}}};
+}
+
+RowName peer(const std::string& work, const std::string& what) {
+    return {"peers.json", {{"work", work}, {"pose", "overview"}, {"what", what}}};
 }
 
 Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range) {

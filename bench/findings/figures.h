@@ -23,6 +23,8 @@ struct View {
 };
 RowName seen(const View& view, const scene::Technique& technique);
 View bricks(); ///< a square with the gallery's bricks, oblique
+/// `terrain`, "urban" or "natural", as high as `scale` of its width, "0.04" or "0.15"; scales.json.
+View at_scale(const std::string& terrain, const std::string& scale);
 /// A city from a distance.
 struct CityView {
     std::string file; ///< "objects.json"
@@ -37,6 +39,8 @@ RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique);
 /// Irrlicht's terrain node, still, pose overview, peers.json.
 RowName irrlicht(int levels);
+/// What does a work, "Embree, quads", from the pose overview, peers.json.
+RowName peer(const std::string& work, const std::string& what);
 
 // Figures.
 Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range);

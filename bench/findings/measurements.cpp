@@ -13,6 +13,15 @@ std::string city_command(const std::string& city) {
                        city);
 }
 
+std::string bricks_command(const std::string& pose) {
+    return fmt::format("reljef-bench tables --context osmesa --pose {0} --terrain gallery "
+                       "--technique emboss --technique normal --technique bump --technique relief "
+                       "--technique relief:shadow=hard --technique exact "
+                       "--technique exact:shadow=hard --json bench/results/bricks-{0}.json "
+                       "--markdown bench/results/bricks-{0}.md",
+                       pose);
+}
+
 } // namespace
 
 // The commands of bench/results/README.md.
@@ -41,6 +50,15 @@ std::vector<ResultsSource> results_sources() {
          "--technique relief:n=25,k=8 --technique relief:n=11,k=8,steps=5..25 "
          "--json bench/results/steps.json --markdown bench/results/steps.md",
          false},
+        {"scales", "A city and a landscape as high as M's two scales make them.",
+         "reljef-bench tables --context osmesa --rounds 5 --pose oblique "
+         "--terrain bench/scenes/urban-s04.toml --terrain bench/scenes/urban-s15.toml "
+         "--terrain bench/scenes/natural-s04.toml --terrain bench/scenes/natural-s15.toml "
+         "--technique parallax --technique parallax-iterated --technique steep:n=5 "
+         "--technique relief:n=5,k=4 --json bench/results/scales.json "
+         "--markdown bench/results/scales.md"},
+        {"bricks-map", "Bricks from straight above.", bricks_command("map")},
+        {"bricks-grazing", "Bricks at a flat angle.", bricks_command("grazing")},
         {"distance", "Errors over the distance of the eye.",
          "reljef-bench tables --distances --context osmesa --json bench/results/distance.json "
          "--markdown bench/results/distance.md",
@@ -65,7 +83,9 @@ std::vector<ResultsSource> results_sources() {
          "--markdown bench/results/guesses.md",
          false},
         {"claims",
-         "A city of one repeated tile, relief over a city only, and four layers on bricks.",
+         "A city of one repeated tile, relief over a city only, four layers on bricks, and the "
+         "phases "
+         "of warping.",
          "reljef-bench tables --claims --context osmesa --size 512x384 --rounds 9 "
          "--json bench/results/claims.json --markdown bench/results/claims.md"},
     };

@@ -80,16 +80,39 @@ std::vector<Figure> relief_over_city() {
     return figures;
 }
 
+View bricks_from(const std::string& pose) {
+    return {fmt::format("bricks-{}.json", pose), "tile brick", pose};
+}
+
+// The difference of two techniques' pictures of bricks from the true one.
+Figure picture_error(const std::string& pose, const Technique& technique, const Technique& base,
+                     const Range& range) {
+    return ratio(pose == "map" ? "from straight above" : pose, Quantity::flip,
+                 seen(bricks_from(pose), technique), seen(bricks_from(pose), base), range);
+}
+
+// Both phases of warping over the first alone.
+Figure warping_over_moving() {
+    const std::string scene = "8 × 8 pieces of 128 cells, 4 × 4 with buildings";
+    const Technique prewarp{scene::Prewarp{}};
+    return ratio("moved and rebuilt, over moved only", Quantity::ms,
+                 claim(scene, "oblique", "moved and rebuilt", prewarp),
+                 claim(scene, "oblique", "moved points", prewarp), at_least(3.0));
+}
+
 Technique smooth_relief() {
     Technique technique{scene::Relief{}};
     technique.options.smooth_edges = scene::SmoothEdges{};
     return technique;
 }
 
-Technique shadowed_relief(double depth) {
-    Technique technique{scene::Relief{}};
+Technique shadowed(Technique technique, double depth) {
     technique.options.shadow = scene::Shadow{depth};
     return technique;
+}
+
+Technique shadowed_relief(double depth) {
+    return shadowed({scene::Relief{}}, depth);
 }
 
 Technique outlined_relief() {
@@ -121,6 +144,23 @@ Chapter light_chapter() {
          "Emboss bump mapping is fast.",
          "less time than normal maps",
          {brick_time("", {scene::Emboss{}}, {scene::Normal{}}, at_most(1.0))}},
+        {.source = "M 3.3",
+         .claim =
+             "At sharp edges, such as those of bricks, emboss bump mapping gives good results.",
+         .rule = "less difference (FLIP) from the true picture than a plain texture",
+         .figures = {picture_error("map", {scene::Emboss{}}, texture, at_most(1.0)),
+                     picture_error("grazing", {scene::Emboss{}}, texture, at_most(1.0))},
+         .reason = "The difference of two heights is added to the light. It draws the edges, but "
+                   "darkens and brightens them more than the true light does."},
+        {"M 3.4",
+         "Seen from straight above, normal maps show a surface almost perfectly.",
+         "at most 1.1 times the difference (FLIP) of exact rays (our reading)",
+         {picture_error("map", {scene::Normal{}}, {scene::Exact{}}, at_most(1.1))},
+         "both without shadows"},
+        {"M 3.4",
+         "At flat angles one sees that the surface is flat.",
+         "more than 1.1 times the difference (FLIP) of exact rays (our reading)",
+         {picture_error("grazing", {scene::Normal{}}, {scene::Exact{}}, at_least(1.1))}},
         {"M 3.4",
          "Normal maps need little computing.",
          "at most 25 % of the frame rate (J's range)",
@@ -161,6 +201,15 @@ Chapter options_chapter() {
          "Smooth edges make a better picture.",
          "less difference (FLIP) from the true picture than without",
          {ratio("", Quantity::flip, seen(bricks(), smooth), seen(bricks(), relief), at_most(1.0))}},
+        {.source = "J 2.4.8; M 3.6.5",
+         .claim = "A second ray towards the light finds the shadows of relief on itself.",
+         .rule = "at most 1.1 times the difference (FLIP) of exact rays with shadows (our reading)",
+         .figures = {picture_error("map", shadowed_relief(0.0), shadowed({scene::Exact{}}, 0.0),
+                                   at_most(1.1)),
+                     picture_error("grazing", shadowed_relief(0.0), shadowed({scene::Exact{}}, 0.0),
+                                   at_most(1.1))},
+         .reason = "At flat angles it is the place of the surface that is wrong, not its shadow: "
+                   "without shadows the difference is as large."},
         {"M 4",
          "Do without shadows where none fall.",
          "shadows take at least 1.25 times the time of relief (our reading)",
@@ -195,6 +244,12 @@ Chapter options_chapter() {
                       {scene::Relief{.linear_steps = 32, .bisection_steps = 6}}),
                 at_least(1.0))},
          "layers take 32 steps, relief 11 or 32"},
+        {.source = "J 2.4.5",
+         .claim = "Of warping, rebuilding the picture is far more work than moving the points.",
+         .rule = "both take at least 3 times the time of moving alone (our reading of \"far\")",
+         .figures = {warping_over_moving()},
+         .reason = "Moving a point divides. Rebuilding interpolates twice, once along the rows and "
+                   "once along the columns, but most of its points lie near one another."},
     };
     return chapter;
 }

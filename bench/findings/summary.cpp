@@ -101,6 +101,9 @@ std::string findings_limits() {
 - One graphics card was measured, made for data centres, with an earlier version. Rows without *GPU* say nothing about
   one: bump and normal maps, shadows, edges, layers and objects. Its clock changes within a run; the slowest twentieth of
   the frames takes about three times the median.
+- Relief on curved surfaces (J 2.4.6) is not measured.
+- J guesses heights by a filter of specular light; what the filter computes is not given. Our guess takes brightness as
+  height.
 - A time holds for its machine, a ratio within its run.
 )";
 }

@@ -1,9 +1,11 @@
 #include "frame/frame_block.glsl"
 #include "frame/air.glsl"
 
+#ifdef SKY_PICTURE
 layout(binding = sky_faces_unit) uniform sampler2D sky_faces; // of material::SkyPicture::Level
 uniform mat3 picture_from_world; // a rotation
-uniform float sky_side; // texels along a face without its border; 0: no picture
+uniform float sky_side; // texels along a face without its border
+#endif
 
 in vec3 ray;
 
@@ -19,8 +21,10 @@ vec3 plane_color(vec3 direction) {
 #endif
 }
 
+#ifdef SKY_PICTURE
 // As material::SkyPicture::color().
-vec3 picture_color(vec3 direction) {
+vec3 sky_color(vec3 world_direction) {
+    vec3 direction = picture_from_world * world_direction;
     vec3 size = abs(direction);
     bool along_x = size.x >= size.y;
     float level = along_x ? direction.x : direction.y;
@@ -32,11 +36,8 @@ vec3 picture_color(vec3 direction) {
     texel.y += face * (sky_side + 2.0);
     return textureLod(sky_faces, texel / vec2(textureSize(sky_faces, 0)), 0.0).rgb;
 }
-
+#else
 vec3 sky_color(vec3 direction) {
-    if (sky_side > 0.0) {
-        return picture_color(picture_from_world * direction);
-    }
     float height = max(direction.z, 0.0);
     float curve = sky_zenith.a;
     vec3 sky = mix(sky_horizon.rgb, sky_zenith.rgb, height * (1.0 + curve) / (height + curve));
@@ -46,6 +47,7 @@ vec3 sky_color(vec3 direction) {
 #endif
     return sky;
 }
+#endif
 
 // Spreads the error of 8 bits over neighbouring pixels (interleaved gradient noise, Jimenez 2014). 2.1 times
 // the root is nearly the derivative of linear light by its sRGB value.

@@ -8,7 +8,9 @@ Result<void> draw_sky(const FrameContext& frame) {
         return {};
     }
     DrawState& state = frame.state;
-    auto program = state.use({ShaderKind::sky, frame.features});
+    const SkyResidency& sky = frame.residency.sky();
+    const ShaderFeatures picture = sky.side() > 0 ? feature_sky_picture : 0U;
+    auto program = state.use({ShaderKind::sky, frame.features | picture});
     if (!program) {
         return program.error();
     }
@@ -16,10 +18,9 @@ Result<void> draw_sky(const FrameContext& frame) {
     state.set_wireframe(false);
     gl::set_depth_writing(false);
     gl::set_depth_test(gl::DepthTest::greater_or_equal);
-    const SkyResidency& sky = frame.residency.sky();
     sky.bind();
-    (*program)->set(uniforms.sky_side, static_cast<float>(sky.side()));
-    if (frame.list.sky_picture) {
+    if (picture != 0) {
+        (*program)->set(uniforms.sky_side, static_cast<float>(sky.side()));
         (*program)->set(uniforms.picture_from_world,
                         glm::mat3(frame.list.sky_picture->picture_from_world));
     }

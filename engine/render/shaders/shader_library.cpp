@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 12> file_names{
     "mesh/textured_mesh",       "mesh/relief_mesh",       "mesh/relief_hull", "mesh/sun_depth",
     "terrain/textured_terrain", "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeatures.
-constexpr std::array<std::string_view, 33> feature_names{
-    "LIT",         "FOG",          "HIT",         "EXACT",      "PARALLAX",     "BISECT",
-    "SECANT",      "LIMITED",      "ITERATED",    "VIEW_STEPS", "FADE",         "HARD_SHADOW",
-    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH", "WARPED",     "CONE",         "NORMAL_MAP",
-    "BUMP",        "EMBOSS",       "WRAP",        "BEAMS",      "LAYERS",       "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",       "SLIVER",     "CORNER_DEPTH", "OVERLAY",
-    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS"};
-static_assert(std::bit_width(feature_mesh_shadows) == feature_names.size());
+constexpr std::array<std::string_view, 34> feature_names{
+    "LIT",         "FOG",          "HIT",          "EXACT",      "PARALLAX",     "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",     "VIEW_STEPS", "FADE",         "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",  "WARPED",     "CONE",         "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",         "BEAMS",      "LAYERS",       "MULTISAMPLED",
+    "STREAMED",    "CURVED",       "COUNT",        "SLIVER",     "CORNER_DEPTH", "OVERLAY",
+    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS", "SKY_PICTURE"};
+static_assert(std::bit_width(feature_sky_picture) == feature_names.size());
 
 std::string header_of(ShaderFeatures features) {
     std::string header = "#version 450 core\n";
@@ -305,6 +305,8 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
                sliver_of(variant.features) | points | mesh_shadows_of(variant.features);
     case ShaderKind::mesh:
         return points | mesh_shadows_of(variant.features);
+    case ShaderKind::sky:
+        return variant.features & feature_sky_picture;
     default:
         return 0U;
     }

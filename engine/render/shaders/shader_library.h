@@ -89,6 +89,7 @@ inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
 /// Of meshes, and of terrains that cast shadows: meshes hide the sun (render::SunMap). It has a map
 /// of its own on triangles, and ground hides it from them and from meshes (render::GroundShadow).
 inline constexpr ShaderFeatures feature_mesh_shadows = 1ULL << 32U;
+inline constexpr ShaderFeatures feature_sky_picture = 1ULL << 33U; ///< the sky is a picture
 
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;

@@ -46,6 +46,8 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
     case ShaderKind::relief_terrain:
         return any | search | feature_hard_shadow | feature_soft_shadow | feature_multisampled |
                feature_sliver | feature_corner_depth | feature_point_lights | feature_mesh_shadows;
+    case ShaderKind::sky:
+        return any | feature_sky_picture;
     default:
         return any;
     }

@@ -30,8 +30,8 @@ using testing::HasSubstr;
 
 class ShaderLibraryGlTest : public test::GlTest {};
 
-constexpr std::size_t feature_count = 33;
-static_assert(1ULL << (feature_count - 1) == feature_mesh_shadows, "the last feature");
+constexpr std::size_t feature_count = 34;
+static_assert(1ULL << (feature_count - 1) == feature_sky_picture, "the last feature");
 
 // Which two features there are together, one without the other, and neither.
 using FeaturePairs = std::bitset<feature_count * feature_count * 4>;
