@@ -248,8 +248,8 @@ Chapter options_chapter() {
          .claim = "Of warping, rebuilding the picture is far more work than moving the points.",
          .rule = "both take at least 3 times the time of moving alone (our reading of \"far\")",
          .figures = {warping_over_moving()},
-         .reason = "Moving a point divides. Rebuilding interpolates twice, once along the rows and "
-                   "once along the columns, but most of its points lie near one another."},
+         .reason = "Moving a point divides. Rebuilding copies and interpolates, along the rows and "
+                   "then along the columns: more work, but not far more."},
     };
     return chapter;
 }

@@ -107,7 +107,10 @@ std::vector<Conclusion> linear_search() {
          by_scale([](const View& view, const std::string& words) {
              return ratio(words, Quantity::wrong, seen(view, five_and_halving()),
                           seen(view, {Steep{.linear_steps = 5}}), at_most(0.5));
-         })},
+         }),
+         "",
+         "Halvings repair where a step ends, not what it missed; over high heights most is "
+         "missed."},
         {"M 3.6.2", "Still, with 5 steps there are errors in quite many places.",
          "more than 10 % of the pixels wrong (our limit)",
          by_scale([](const View& view, const std::string& words) {

@@ -104,7 +104,8 @@ std::string findings_limits() {
 - Relief on curved surfaces (J 2.4.6) is not measured.
 - J guesses heights by a filter of specular light; what the filter computes is not given. Our guess takes brightness as
   height.
-- A time holds for its machine, a ratio within its run.
+- A time holds for its machine, a ratio within its run. Machines of type A are virtual, and not equally fast: a frame of
+  a plain texture took 9 ms on one and 29 ms on another. Relief over objects from 1 km was 0.29× on both.
 )";
 }
 

@@ -199,6 +199,22 @@ std::ptrdiff_t count_of(const std::vector<Change>& changes, Verdict verdict) {
                          [&](const Change& change) { return change.verdict == verdict; });
 }
 
+void add_setting(std::vector<std::string>& notes, const char* name, bool a, bool b) {
+    if (a != b) {
+        notes.push_back(
+            fmt::format("Other settings: {} {} in the first run, {} in the second.", name, a, b));
+    }
+}
+
+// Rounds differ without another result.
+void add_settings(std::vector<std::string>& notes, const Results& a, const Results& b) {
+    if (a.settings && b.settings) {
+        add_setting(notes, "quick", a.settings->quick, b.settings->quick);
+        add_setting(notes, "moving", a.settings->moving, b.settings->moving);
+        add_setting(notes, "cold", a.settings->cold, b.settings->cold);
+    }
+}
+
 struct VerdictWord {
     Verdict verdict;
     const char* word;
@@ -284,6 +300,7 @@ Comparison compare(const Results& a, const Results& b, double threshold) {
     }
     add_incompleteness(comparison.notes, a, "first");
     add_incompleteness(comparison.notes, b, "second");
+    add_settings(comparison.notes, a, b);
     for (const Row& row : a.rows) {
         const std::string name = row_name(row);
         const auto first = rows_a.find(name);

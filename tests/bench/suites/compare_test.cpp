@@ -151,6 +151,18 @@ TEST(Compare, few_frames_get_no_verdict_of_time_and_are_named) {
     }
 }
 
+TEST(Compare, a_moving_view_is_not_compared_with_a_still_one_in_silence) {
+    Results still = test::made_results();
+    still.settings = RunSettings{};
+    Results moving = still;
+    moving.settings->moving = true;
+    EXPECT_THAT(compare(still, moving).notes,
+                ElementsAre("Other settings: moving false in the first run, true in the second."));
+    moving.settings = still.settings;
+    moving.settings->rounds = 9;
+    EXPECT_THAT(compare(still, moving).notes, IsEmpty());
+}
+
 TEST(Compare, absent_ratio_gets_no_verdict_between_machines) {
     Results other = slower(5.0);
     other.rows[1].timing.ratio_to_texture.reset();
