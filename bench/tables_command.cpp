@@ -54,7 +54,7 @@ void add_tables_options(CLI::App& command, TablesChoice& choice) {
     command.add_flag(
         "--claims", choice.claims,
         "instead of the tables: time, memory and error of a city of one repeated tile, of relief "
-        "over a city only, and of four layers on bricks");
+        "over a city only, of four layers on bricks, and of the phases of warping");
     add_suite_options(command, choice.options.suite);
     add_drawing_options(command, choice.options.suite);
     add_output_options(command, choice.outputs);

@@ -12,7 +12,7 @@
 
 namespace reljef::bench {
 
-/// The frames of WarpPhases::measure, in their order.
+/// What measure_warp_phases() times, in its order.
 inline constexpr const char* warp_phase_names[] = {"moved points", "moved and rebuilt"};
 
 /// The two phases of forward warping (Oliveira, Bishop and McAllister 2000): moving each sample of

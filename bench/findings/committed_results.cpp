@@ -40,6 +40,8 @@ QuantityInfo info_of(Quantity quantity) {
         return {"/error/reprojection_px/rms"};
     case Quantity::flip:
         return {.pointer = "/error/flip", .high = 1.0};
+    case Quantity::ssim:
+        return {.pointer = "/error/ssim", .high = 1.0, .low = -1.0};
     case Quantity::triangles:
         return {"/triangles"};
     case Quantity::taps:
@@ -250,6 +252,20 @@ Result<std::optional<Number>> CommittedResults::number(const RowName& row,
                                  number.error().message)};
     }
     return number;
+}
+
+std::size_t CommittedResults::left_out(const std::string& file) const {
+    const auto found = files_.find(file);
+    const json* const parts = found == files_.end() ? nullptr : at(found->second, "/left_out");
+    std::size_t count = 0;
+    if (parts != nullptr && parts->is_array()) {
+        for (const json& part : *parts) {
+            const json* const settings = at(part, "/settings");
+            const bool is_count = settings != nullptr && settings->is_number_unsigned();
+            count += is_count ? settings->get<std::size_t>() : 0U;
+        }
+    }
+    return count;
 }
 
 std::optional<Machine> CommittedResults::machine(const std::string& file) const {

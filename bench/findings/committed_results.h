@@ -47,6 +47,9 @@ public:
     /// name, or if the number has another type or is out of range.
     [[nodiscard]] Result<std::optional<Number>> number(const RowName& row, Quantity quantity) const;
 
+    /// Settings that a run of pareto left out, for want of time.
+    [[nodiscard]] std::size_t left_out(const std::string& file) const;
+
     /// Empty if the file does not name its machine.
     [[nodiscard]] std::optional<Machine> machine(const std::string& file) const;
 

@@ -16,6 +16,7 @@ enum class Quantity {
     hidden,    ///< pixels that show a point which the terrain hides, percent
     error_px,  ///< root mean square of the reprojection error, pixels
     flip,      ///< mean FLIP of the picture
+    ssim,      ///< structural similarity of the picture; more is better
     triangles, ///< drawn
     taps,      ///< reads of maps, for each pixel
     percent,   ///< "value" of a stress

@@ -83,8 +83,8 @@ RowName irrlicht(int levels) {
              {"camera", "still"}}};
 }
 
-RowName peer(const std::string& work, const std::string& what) {
-    return {"peers.json", {{"work", work}, {"pose", "overview"}, {"what", what}}};
+RowName peer(const std::string& work, const std::string& pose, const std::string& what) {
+    return {"peers.json", {{"work", work}, {"pose", pose}, {"what", what}}};
 }
 
 Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range) {

@@ -39,8 +39,8 @@ RowName at_angle(const std::string& terrain, const std::string& angle,
                  const scene::Technique& technique);
 /// Irrlicht's terrain node, still, pose overview, peers.json.
 RowName irrlicht(int levels);
-/// What does a work, "Embree, quads", from the pose overview, peers.json.
-RowName peer(const std::string& work, const std::string& what);
+/// What does a work, "Embree, quads", from a pose, peers.json.
+RowName peer(const std::string& work, const std::string& pose, const std::string& what);
 
 // Figures.
 Figure plain(const std::string& words, Quantity quantity, const RowName& row, const Range& range);

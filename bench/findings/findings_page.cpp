@@ -258,6 +258,9 @@ std::string source_text(const ResultsSource& source, const PageContext& context)
         text += fmt::format(" Machine {}, commit {}.", context.letters.at(name_of(*machine)),
                             machine->commit);
     }
+    if (const std::size_t left_out = context.results.left_out(source.file()); left_out > 0) {
+        text += fmt::format(" {} settings were left out, for want of time.", left_out);
+    }
     text += source.quiet ? "" : " No time of it is used, because other work ran beside.";
     return text + fmt::format("\n\n```\nbuild/release/bin/{}\n```\n", source.command);
 }
@@ -287,6 +290,7 @@ std::string number_text(const Figure& figure, const Number& number) {
     case Quantity::error_px:
         return fmt::format("{:.{}f}\u00a0px", value, value >= 10.0 ? 1 : 2);
     case Quantity::flip:
+    case Quantity::ssim:
         return fmt::format("{:.3f}", value);
     case Quantity::triangles:
     case Quantity::taps:

@@ -118,7 +118,7 @@ std::vector<Conclusion> linear_search() {
          }),
          "scale: heights over width",
          "A step over low heights passes few samples, one over high heights many, and a ray may "
-         "cross what lies between."},
+         "pass through a wall between two steps."},
         {"J 2.4.7", "Eight halvings are enough.",
          "at most 1.05 times the wrong pixels and the error of 16 halvings (our reading)",
          joined(named("wrong",
@@ -377,7 +377,7 @@ std::vector<Conclusion> distances_of_relief() {
                      named_figure("16 halvings, 100 m", of_city("100 m", finer, at_least(1.0)))},
          .reason = "From near, a 256th of a step is more than a pixel. Eight more halvings end "
                    "that. The missed walls stay, as from anywhere."},
-        {"J 2.3", "Parallax knows no occlusion.",
+        {"J 2.3; D", "Parallax knows no occlusion.",
          "at least 10 % of its pixels show a point that nearer ground hides (our limit)",
          hidden_points({scene::Parallax{}}, at_least(10.0))},
         {"J 2.4.6", "Relief occludes itself correctly.",

@@ -99,13 +99,13 @@ std::string findings_limits() {
 - The tests of J have frames of 1024 × 768 pixels, on a CPU with two threads. More pixels cost techniques of rays more,
   and triangles little more.
 - One graphics card was measured, made for data centres, with an earlier version. Rows without *GPU* say nothing about
-  one: bump and normal maps, shadows, edges, layers and objects. Its clock changes within a run; the slowest twentieth of
-  the frames takes about three times the median.
-- Relief on curved surfaces (J 2.4.6) is not measured.
+  one: bump and normal maps, shadows, edges, layers and objects. Its clock changes within a run.
+- Not measured: relief on curved surfaces (J 2.4.6); displacement of few polygons (M 3.1); other curves of lower heights
+  and other numbers of steps for shadows (M 3.6.4, 3.6.5); lower heights at cut borders (M 3.6.11); the other way to
+  find edges (M 3.6.7); on which surfaces normal maps suffice (M 3.4); tangents along the texture (D).
 - J guesses heights by a filter of specular light; what the filter computes is not given. Our guess takes brightness as
   height.
-- A time holds for its machine, a ratio within its run. Machines of type A are virtual, and not equally fast: a frame of
-  a plain texture took 9 ms on one and 29 ms on another. Relief over objects from 1 km was 0.29× on both.
+- A time holds for its machine, a ratio within its run. Machines of one letter are virtual, and not equally fast.
 )";
 }
 
