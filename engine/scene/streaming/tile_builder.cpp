@@ -375,8 +375,8 @@ FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights) c
             coarse(col, row) = static_cast<float>(terrain::bilinear_height(overview, at));
         }
     }
-    // Half a sample of the overview, in vertices: it has no finer waves.
-    const double reach = std::max(1.0, 0.5 * reduction_.factor / step(tile));
+    // A sample of the overview, which has no finer waves, in vertices.
+    const double reach = std::max(1.0, reduction_.factor / step(tile));
     return fill_tile_voids(std::move(heights), coarse, reach);
 }
 
