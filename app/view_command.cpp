@@ -127,14 +127,17 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
     } else if (!panels->note().empty()) {
         log.note(panels->note());
     }
-    return run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
-                           {.frames = choice.frames_given ? choice.view.frames : 0,
-                            .samples = choice.view.samples,
-                            .open_video = open_video,
-                            .start = start_options(choice),
-                            .make_renderer = renderers.make,
-                            .panels = panels ? &*panels : nullptr,
-                            .finer = std::move(opened.finer)});
+    auto done = run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
+                                {.frames = choice.frames_given ? choice.view.frames : 0,
+                                 .samples = choice.view.samples,
+                                 .open_video = open_video,
+                                 .start = start_options(choice),
+                                 .make_renderer = renderers.make,
+                                 .panels = panels ? &*panels : nullptr,
+                                 .finer = std::move(opened.finer)});
+    std::fflush(stdout);
+    interrupt.request_stop(); // work in the background may not end at once
+    return done;
 }
 
 // Without a GPU, rays draw what they can; OpenGL draws all else in the same window.
@@ -197,7 +200,7 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     cli::ConsoleLog console(choice.terrain.quiet);
     MessageHistory log(console);
     auto opened =
-        opening.finish(**window, rays, renderer->max_texture_side(), log, interrupt.token());
+        opening.finish(**window, rays, renderer->max_texture_side(), log, interrupt.source());
     if (!opened) {
         return opened.error();
     }

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <optional>
 
 namespace reljef::cli {
 namespace {
@@ -29,22 +30,22 @@ void watch(const std::stop_token& end, std::stop_source& source,
            const std::atomic<std::chrono::milliseconds>& patience) {
     const sigset_t signals = stop_signals();
     const timespec pause{0, 50'000'000}; // longest delay at the program's end
-    std::chrono::steady_clock::time_point first;
-    int first_signal = 0;
+    std::optional<std::chrono::steady_clock::time_point> first;
+    int status = 0; // if nothing but the program itself requested the stop
     while (!end.stop_requested()) {
         const int signal = sigtimedwait(&signals, nullptr, &pause);
-        const auto since_first = std::chrono::steady_clock::now() - first;
-        if (signal > 0 && first_signal == 0) {
-            first = std::chrono::steady_clock::now();
-            first_signal = signal;
-            source.request_stop();
-        } else if (signal > 0 && since_first > one_signal) {
+        const auto now = std::chrono::steady_clock::now();
+        if (signal > 0 && first && now - *first > one_signal) {
             std::_Exit(128 + signal);
         }
+        if (!first && (signal > 0 || source.stop_requested())) {
+            first = now;
+            status = signal > 0 ? 128 + signal : 0;
+            source.request_stop();
+        }
         const std::chrono::milliseconds longest = patience;
-        if (first_signal > 0 && longest.count() > 0 &&
-            std::chrono::steady_clock::now() - first > longest) {
-            std::_Exit(128 + first_signal);
+        if (first && longest.count() > 0 && now - *first > longest) {
+            std::_Exit(status);
         }
     }
 }

@@ -19,7 +19,11 @@ public:
     [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
     [[nodiscard]] bool requested() const { return source_.stop_requested(); }
 
-    /// If the program still runs so long after the first signal, it ends as by a second one: for
+    /// Requests a stop as a signal does, with which the program succeeds.
+    void request_stop() const { source().request_stop(); }
+    [[nodiscard]] std::stop_source source() const { return source_; }
+
+    /// If the program still runs so long after the first signal or request, it ends at once: for
     /// loops that may wait for a driver, which nothing interrupts. `time` > 0.
     void end_after(std::chrono::milliseconds time) const { *patience_ = time; }
 

@@ -125,17 +125,17 @@ Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest
 
 Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, session::RayUse rays,
                                                    int largest_side, session::Log& log,
-                                                   const std::stop_token& stop) {
+                                                   std::stop_source stop) {
     session::SceneOptions view = view_;
     view.rays = rays;
     Background<OpenedScene> opening(
         [&](const std::stop_token& stopped) { return open(view, largest_side, stopped); });
     ProgressDisplay display(window, log);
-    bool is_closed = false;
     while (!opening.is_done()) {
-        is_closed =
-            asks_to_end(window.wait_events(opening_pause)) || window.should_close() || is_closed;
-        if (is_closed || stop.stop_requested()) {
+        if (asks_to_end(window.wait_events(opening_pause)) || window.should_close()) {
+            stop.request_stop();
+        }
+        if (stop.stop_requested()) {
             opening.request_stop();
         }
         relayed_.relay_to(log);
@@ -143,7 +143,7 @@ Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, ses
     }
     relayed_.relay_to(log);
     auto opened = opening.take();
-    if (is_closed || stop.stop_requested()) {
+    if (stop.stop_requested()) {
         return std::optional<OpenedScene>();
     }
     return opened ? Result<std::optional<OpenedScene>>(std::move(*opened)) : opened.error();

@@ -37,11 +37,12 @@ public:
             FirstSamples first = FirstSamples::few);
 
     /// Opens the scene in the background while the window shows the progress. Empty if the user
-    /// closes the window, or when stopped. Fails as session::open_scene. Does not make the maps of
-    /// the technique. `largest_side`: SceneRenderer::max_texture_side(). Call it once.
+    /// closes the window, which requests the stop, or when stopped. Fails as session::open_scene.
+    /// Does not make the maps of the technique. `largest_side`: SceneRenderer::max_texture_side().
+    /// Call it once.
     Result<std::optional<OpenedScene>> finish(platform::Window& window, session::RayUse rays,
                                               int largest_side, session::Log& log,
-                                              const std::stop_token& stop);
+                                              std::stop_source stop);
 
 private:
     Result<OpenedScene> open(const session::SceneOptions& view, int largest_side,

@@ -310,6 +310,7 @@ Result<void> Viewer::act(const SetTurbidity& set) {
 
 Result<void> Viewer::act(const SetGrain& set) {
     scene_.terrain->get<scene::TerrainNode>()->grain = static_cast<float>(set.strength);
+    scene_.usual_grain.reset();
     redraw_ = true;
     return {};
 }

@@ -27,7 +27,7 @@ draw natural natural --pose low
 draw map "$nature/srtm3/N45E006.hgt" --projection orthographic --eye 20000,10000,9000 --look 20000,10000,0 --ramp swiss --sun 315,30 --contours 100
 draw clay "$nature/srtm3/N45E006.hgt" --ramp clay --base solid --sun 300,18
 draw urban urban --eye=-180,-200,60 --look 0,0,0 --technique exact:shadow=hard --sun 250,35
-draw delft "$cities/delft/tud-dsm-5m.tif" --camera 51.9935,4.363,140,25,-10 --ramp clay --grain 0 --sun 245,18
+draw delft "$cities/delft/tud-dsm-5m.tif" --camera 51.9935,4.363,140,25,-10 --ramp clay --sun 245,18
 draw ann-arbor "$cities/annarbor/test_dsm.tif" --camera 42.2702,-83.7375,370,0,-18 --ramp stretched --sun 245,25
 "$reljef" render natural --pose low --technique relief --compare errors --size 640x400 --quiet \
     -o docs/pictures/terrains/errors.jpg

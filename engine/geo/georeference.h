@@ -182,6 +182,8 @@ private:
     std::array<glm::dvec3, 3> axes_{}; // geocentric east, north, up
 };
 
+inline constexpr double mean_radius_of_earth = 6371008.8; ///< metres (IUGG)
+
 /// Of WGS 84: the equatorial and the polar radius, metres.
 glm::dvec2 radii_of_earth();
 

@@ -125,7 +125,7 @@ struct SceneOptions {
     std::optional<bool> hides_sky;      ///< absent: the scene file's, else true
     std::optional<bool> contour_labels; ///< likewise
     std::optional<double> eye_dome;     ///< Scene::eye_dome(); absent: the scene file's, else 0
-    /// TerrainNode::grain; absent: the scene file's, else default_grain.
+    /// TerrainNode::grain; absent: the scene file's, else default_grain, or none on one colour.
     std::optional<double> grain;
     double default_grain = 0.0;
     std::optional<double> contours; ///< TerrainNode::contours; absent: the scene file's, else none

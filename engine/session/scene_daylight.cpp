@@ -10,9 +10,11 @@
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/geo/georeference.h"
 #include "engine/io/image/sky_file.h"
 #include "engine/scene/graph/terrain_base.h"
 #include "engine/session/objects/placed_lights.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/tint.h"
 
 namespace reljef::session {
@@ -95,8 +97,9 @@ glm::vec3 base_albedo(const TerrainScene& scene, bool is_sea) {
 
 constexpr glm::vec3 wall_albedo{0.42F, 0.375F, 0.32F}; // light rock, linear
 
-std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface) {
-    auto mesh = scene::terrain_base(surface);
+std::shared_ptr<const scene::MeshNode> walls_below(const scene::TerrainSurface& surface,
+                                                   double bottom) {
+    auto mesh = scene::terrain_base(surface, bottom);
     if (!mesh) {
         return nullptr;
     }
@@ -116,6 +119,26 @@ scene::Sky sky_over(const TerrainScene& scene, scene::Sky sky) {
     sky.air_height = std::max(in_heights * size.z, in_widths * width);
     sky.base = scene.bounds.low.z;
     return sky;
+}
+
+// The plane is the sea around an island, and bends like the Earth. The air over it is low and so
+// thick that the sea fades before its horizon, seen from near it; hills rise above most of the air.
+void lay_sea(const TerrainScene& scene, scene::Sky& sky) {
+    constexpr double usual_visibility = 80e3; // metres
+    constexpr double air_height = 400.0;      // metres
+    const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
+    const Grid<float>& heights = surface.heightfield().heights;
+    const terrain::Placement& placement = surface.placement();
+    const glm::dvec2 middle = 0.5 * glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    sky.is_plane_sea = true;
+    sky.base = placement.world_from_sample({middle, 0.0}).z;
+    if (placement.kind() == terrain::PlacementKind::ellipsoid) {
+        sky.radius = geo::mean_radius_of_earth;
+    }
+    sky.air_height = std::min(sky.air_height, air_height * placement.exaggeration());
+    if (!scene.surroundings.visibility) {
+        sky.visibility = std::min(sky.visibility, usual_visibility);
+    }
 }
 
 } // namespace
@@ -291,17 +314,32 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
         sky.horizon = picture->horizon();
         sky.glow = glm::vec3(0.0F);
     }
-    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const BaseKind base = scene.surroundings.base;
     if (base != BaseKind::none && has_plane_below(scene)) {
+        if (base == BaseKind::plane && is_island(scene)) {
+            lay_sea(scene, sky);
+        }
         const auto level = static_cast<float>(std::max(scene::to_light(sun).z, 0.0));
-        sky.is_plane_sea = base == BaseKind::plane && is_island(scene);
         sky.plane = base_albedo(scene, sky.is_plane_sea) * (level * sun.color + sun.ambient);
     }
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     if (base == BaseKind::solid && !scene.is_gallery) {
-        terrain.base = walls_below(*terrain.surface);
+        terrain.base = walls_below(*terrain.surface, scene::block_bottom(*terrain.surface));
+    } else {
+        // Else land that the border cuts would show the sea behind it.
+        terrain.base = sky.is_plane_sea ? walls_below(*terrain.surface, 0.0) : nullptr;
     }
     scene.scene.set_sky(sky);
+}
+
+void follow_ramp(TerrainScene& scene) {
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const bool has_images = !terrain.surface->terrain().color.empty() ||
+                            (scene.source != nullptr && scene.source->imagery != nullptr);
+    const bool is_plain = !has_images && terrain::has_one_color(terrain.surface->ramp());
+    if (scene.usual_grain) {
+        terrain.grain = is_plain ? 0.0F : static_cast<float>(*scene.usual_grain);
+    }
 }
 
 void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
@@ -311,8 +349,9 @@ void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
         return;
     }
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
-    terrain.grain =
-        static_cast<float>(view.grain.value_or(description.grain.value_or(view.default_grain)));
+    const std::optional<double> grain = view.grain ? view.grain : description.grain;
+    terrain.grain = static_cast<float>(grain.value_or(view.default_grain));
+    scene.usual_grain = grain ? std::nullopt : std::optional(view.default_grain);
     const double contours = view.contours.value_or(description.contours);
     terrain.contours = contours > 0.0 ? std::max(contours, scene::min_contours) : 0.0;
     terrain.labels_contours = view.contour_labels.value_or(description.contour_labels);

@@ -28,6 +28,10 @@ Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& descr
 /// terrain's edge. Precondition: `bounds` are those of the terrain as it is.
 void set_daylight(TerrainScene& scene, scene::Light sun);
 
+/// Gives the terrain its usual grain, unless the user named another: none with a ramp of one
+/// colour, which would look like gravel, and no images.
+void follow_ramp(TerrainScene& scene);
+
 /// Gives the terrain its grain and contours. The floor of the gallery has none.
 void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
                  const SceneOptions& view);

@@ -40,7 +40,8 @@ struct TerrainScene {
     Box bounds; ///< of the terrain, scene metres
     Surroundings surroundings;
     bool is_gallery = false;
-    std::size_t failed_files = 0; ///< left out when the terrain was opened
+    std::optional<double> usual_grain; ///< of several colours; absent: the user named one
+    std::size_t failed_files = 0;      ///< left out when the terrain was opened
     RayUse rays = RayUse::none;
     bool mesh_levels = true; ///< SceneOptions::mesh_levels
     /// Of a streamed terrain, without its overview; else null.

@@ -53,8 +53,11 @@ bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
 glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& sun, const Ray& ray,
                     const scene::SeenSky* picture) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
-    if (sky.plane && direction.z < 0.0 && ray.origin.z > sky.base) {
-        const double air = scene::plane_air(sky, ray.origin.z - sky.base) / -direction.z;
+    const auto [above, up] = scene::air_place(sky, ray.origin);
+    const double fall = -glm::dot(direction, up);
+    if (sky.plane && fall > 0.0 && above > 0.0) {
+        const double air =
+            scene::plane_air(sky, above) / scene::steepness_to_plane(sky, above, fall);
         return behind_air(sky, sun, *sky.plane, direction, air);
     }
     if (picture != nullptr) {
@@ -78,9 +81,9 @@ glm::vec3 seen_through_air(const scene::Sky& sky, const std::optional<scene::Lig
         return color;
     }
     const glm::dvec3 direction = glm::normalize(ray.direction);
-    const double eye = ray.origin.z - sky.base;
-    return behind_air(sky, sun, color, direction,
-                      distance * mean_density(sky, eye, eye + direction.z * distance));
+    const double eye = scene::air_place(sky, ray.origin).above;
+    const double end = scene::air_place(sky, ray.origin + distance * direction).above;
+    return behind_air(sky, sun, color, direction, distance * mean_density(sky, eye, end));
 }
 
 SunShadow sun_shadow_of(const scene::Scene& scene) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/geo/georeference.h"
 #include "engine/material/grain_map.h"
 #include "engine/scene/streaming/tile_stream.h"
 
@@ -19,8 +20,6 @@ constexpr double samples_a_width = 10.0;
 // The shortest waves of a pattern are 1/47 of it, and the longest of the next one half as long.
 constexpr double widths_a_width = 17.0;
 constexpr double narrowest = 0.5; // metres
-
-constexpr double mean_earth_radius = 6371008.8; // metres (IUGG)
 
 // Metres. Wider ones are hills, which coarse data would show.
 constexpr double widest = 1500.0;
@@ -82,7 +81,7 @@ GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
     view.up = glm::vec3(turned(glm::normalize(directions * placement.up(local_eye))));
     if (const auto place = placement.geodetic_from_world(local_eye);
         place && placement.kind() == terrain::PlacementKind::ellipsoid) {
-        view.radius = mean_earth_radius + place->height;
+        view.radius = geo::mean_radius_of_earth + place->height;
     }
     view.metres_per_sample =
         directions * metres_per_sample(placement, sample_near(terrain, local_eye));

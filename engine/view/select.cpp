@@ -14,6 +14,7 @@
 #include "engine/core/check.h"
 #include "engine/core/nearest_first.h"
 #include "engine/core/stopwatch.h"
+#include "engine/scene/graph/terrain_base.h"
 #include "engine/terrain/mesh/patch_mesh.h"
 #include "engine/view/error_view.h"
 #include "engine/view/grid_mesh.h"
@@ -172,7 +173,8 @@ private:
 
     void add_terrain(const scene::TerrainNode& terrain, const glm::dmat4& world_from_local) {
         if (terrain.base != nullptr && scene::shows_heights(terrain.material.technique) &&
-            !terrain.material.wireframe) {
+            !terrain.material.wireframe && !terrain.hides_overlay &&
+            scene::may_show_base(*terrain.surface, world_from_local, list_.camera)) {
             list_.bases.push_back({terrain.base.get(), world_from_local, false, {}});
         }
         if (scene::searches_surface(terrain.material.technique.id())) {

@@ -16,7 +16,7 @@ vec3 haze_color(vec3 direction) {
 // A colour behind air whose density falls exponentially with height (Koschmieder 1924). `direction`: unit.
 vec3 through_air(vec3 color, vec3 direction, float metres) {
     float eye_density = sky_glow.a;
-    float above = max(sky_plane.a + direction.z * metres, 0.0);
+    float above = max(sky_plane.a + (dot(direction, air_up.xyz) + air_up.w * metres) * metres, 0.0);
     float density = exp(-above * air.a);
     float rise = (above - sky_plane.a) * air.a;
     float mean = abs(rise) < 0.1 ? 0.5 * (eye_density + density) : (eye_density - density) / rise;

@@ -11,10 +11,13 @@ in vec3 ray;
 
 layout(location = 0) out vec4 color;
 
-// Of the plane at the base, below the horizon, behind scene::plane_air().
-vec3 plane_color(vec3 direction) {
+// Of the plane at the base, below the horizon, behind scene::plane_air(). `fall`: > 0, see
+// scene::steepness_to_plane().
+vec3 plane_color(vec3 direction, float fall) {
 #ifdef FOG
-    vec3 left = exp(-air.rgb * (sky_horizon.a / -direction.z));
+    float horizon = 4.0 * air_up.w * sky_plane.a;
+    float steepness = 0.5 * (fall + sqrt(max(fall * fall - horizon, 0.0)));
+    vec3 left = exp(-air.rgb * (sky_horizon.a / steepness));
     return mix(haze_color(direction), sky_plane.rgb, left);
 #else
     return sky_plane.rgb;
@@ -59,6 +62,7 @@ vec3 dithered(vec3 linear) {
 
 void main() {
     vec3 direction = normalize(ray);
-    bool is_plane = sky_horizon.a > 0.0 && direction.z < 0.0;
-    color = vec4(dithered(is_plane ? plane_color(direction) : sky_color(direction)), 1.0);
+    float fall = -dot(direction, air_up.xyz);
+    bool is_plane = sky_horizon.a > 0.0 && fall > 0.0;
+    color = vec4(dithered(is_plane ? plane_color(direction, fall) : sky_color(direction)), 1.0);
 }

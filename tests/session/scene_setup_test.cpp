@@ -215,6 +215,75 @@ TEST_F(GeodeticCamera, SeesAnIslandWithoutAllOfItsSea) {
     EXPECT_LT(distance(0), 0.2 * distance(100));
 }
 
+TEST_F(GeodeticCamera, GrainFollowsTheRampUnlessNamed) {
+    session::SourceOptions choice = level_ground_in_utm({661720.751, 6654956.720}, 1000.0);
+    const auto grain_of = [&](const char* ramp, std::optional<double> named) {
+        choice.ramp = ramp;
+        session::SceneOptions view;
+        view.default_grain = 1.0;
+        view.grain = named;
+        const auto scene = test::make_scene(*test::open_terrain(choice), choice, view).value();
+        return scene.terrain->get<scene::TerrainNode>()->grain;
+    };
+    EXPECT_EQ(grain_of("relief", {}), 1.0F);
+    EXPECT_EQ(grain_of("clay", {}), 0.0F);
+    EXPECT_EQ(grain_of("clay", 1.5), 1.5F);
+    EXPECT_EQ(grain_of("relief", 0.0), 0.0F);
+}
+
+// 9x9 samples in the sea, 10 km apart; `shore` is in the middle of the southern border.
+session::TerrainScene island(const test::TemporaryFolder& folder, terrain::PlacementKind placement,
+                             int shore, const session::SceneOptions& view) {
+    std::string text = "ncols 9\nnrows 9\nxllcenter 460000\nyllcenter 6600000\ncellsize 10000\n";
+    for (int i = 0; i < 81; ++i) {
+        text += i == 76 ? fmt::format("{} ", shore) : i == 40 ? "500 " : i == 22 ? "-20 " : "0 ";
+    }
+    folder.write("island.prj", utm_32_prj);
+    session::SourceOptions choice;
+    choice.terrain = folder.write("island.asc", text).string();
+    choice.placement = placement;
+    return test::make_scene(*test::open_terrain(choice), choice, view).value();
+}
+
+// Else one sees the sea through the land.
+TEST_F(GeodeticCamera, AnIslandThatItsBorderCutsEndsInAWallOnTheSea) {
+    for (const auto kind : {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        const auto base_of = [&](int shore, session::BaseKind base) {
+            session::SceneOptions view;
+            view.base = base;
+            return island(folder_, kind, shore, view).terrain->get<scene::TerrainNode>()->base;
+        };
+        EXPECT_EQ(base_of(0, session::BaseKind::plane), nullptr);
+        EXPECT_EQ(base_of(300, session::BaseKind::none), nullptr);
+        const auto wall = base_of(300, session::BaseKind::plane);
+        ASSERT_NE(wall, nullptr);
+        EXPECT_EQ(wall->mesh->indices.size(), 12U) << "beside the highest sample";
+        EXPECT_GT(base_of(300, session::BaseKind::solid)->mesh->indices.size(), 12U);
+    }
+}
+
+TEST_F(GeodeticCamera, TheSeaAroundAnIslandFadesWithinAHundredKilometres) {
+    for (const auto kind : {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        const auto sky_of = [&](std::optional<double> visibility, session::BaseKind base) {
+            session::SceneOptions view;
+            view.visibility = visibility;
+            view.base = base;
+            return *island(folder_, kind, 0, view).scene.sky();
+        };
+        const scene::Sky sky = sky_of({}, session::BaseKind::plane);
+        const bool is_curved = kind == terrain::PlacementKind::ellipsoid;
+        EXPECT_EQ(sky.radius, is_curved ? geo::mean_radius_of_earth : 0.0);
+        EXPECT_NEAR(sky.base, 0.0, 1e-6) << "the sea, not the lowest land";
+        EXPECT_GE(sky.visibility, 20e3);
+        EXPECT_LE(sky.visibility, 100e3);
+        EXPECT_LE(sky.air_height, 500.0);
+        EXPECT_EQ(sky_of(9e5, session::BaseKind::plane).visibility, 9e5);
+        const scene::Sky of_block = sky_of({}, session::BaseKind::solid);
+        EXPECT_GT(of_block.visibility, 500e3);
+        EXPECT_EQ(of_block.radius, 0.0);
+    }
+}
+
 TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const std::string file =
         folder_

@@ -265,6 +265,43 @@ TEST(Sky, HasASeaInTheSameAirAsTheTerrain) {
     }
 }
 
+// On the Earth that bends away: rays meet the sea up to its horizon, beyond which it fades.
+TEST(Sky, HasASeaThatBendsAndFadesWithoutALineAtItsHorizon) {
+    scene::Sky sky{.zenith = glm::vec3(0.5F), .horizon = glm::vec3(0.5F), .visibility = 5e4};
+    sky.air_height = 400.0;
+    sky.base = 7.0;
+    sky.radius = 6.4e6;
+    sky.plane = glm::vec3(0.1F);
+    sky.is_plane_sea = true;
+    for (const glm::dvec3 eye : {glm::dvec3(0.0, 0.0, 107.0), glm::dvec3(6e4, -3e4, -300.0)}) {
+        const scene::AirPlace place = scene::air_place(sky, eye);
+        const double above = place.above;
+        EXPECT_NEAR(above, eye.x == 0.0 ? 100.0 : 44.6, 0.1);
+        const glm::dvec3 along = glm::normalize(glm::cross(place.up, glm::dvec3(0.3, 1.0, 0.0)));
+        const auto falling = [&](double fall) {
+            return Ray{eye, std::sqrt(1.0 - fall * fall) * along - fall * place.up};
+        };
+        const double horizon = std::sqrt(2.0 * above / sky.radius);
+        for (const double fall : {1.0, 0.3, 0.02, 1.1 * horizon}) {
+            const double half = (sky.radius + above) * fall;
+            const double distance =
+                half - std::sqrt(half * half - 2.0 * sky.radius * above - above * above);
+            const Ray ray = falling(fall);
+            EXPECT_NEAR(scene::air_place(sky, eye + distance * ray.direction).above, 0.0, 1e-3);
+            expect_near(sky_color(sky, {}, ray),
+                        seen_through_air(sky, {}, *sky.plane, ray, distance), 2e-4F);
+        }
+        float darkness = 1.0F; // of the sea, against the horizon
+        for (int i = 300; i >= 0; --i) {
+            const float left = 0.5F - sky_color(sky, {}, falling(0.01 * i * horizon)).g;
+            EXPECT_LE(left, darkness);
+            EXPECT_LT(std::abs(left - darkness), i == 300 ? 1.0F : 0.03F) << i << "% of the way";
+            darkness = left;
+        }
+        EXPECT_NEAR(darkness, 0.0F, 1e-6F) << "at level rays";
+    }
+}
+
 TEST(Sky, HasTheSunWhereItIs) {
     const scene::Sky sky;
     const glm::dvec3 to_sun = scene::to_light(white_sun);

@@ -120,6 +120,7 @@ bool SurfaceSwitch::show() {
     }
     auto& node = *scene_.terrain->get<scene::TerrainNode>();
     node.surface = made->surface;
+    session::follow_ramp(scene_);
     node.bisection = nullptr;
     node.cones = preparing_.finer != nullptr ? nullptr : node.cones;
     session::apply_maps(scene_, made->maps);

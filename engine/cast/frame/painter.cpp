@@ -45,6 +45,8 @@ BlockPaint backdrop_of(const view::DrawList& list) {
         paint.eye_above = air.eye_above;
         paint.eye_density = air.eye_density;
         paint.per_height = air.per_height;
+        paint.up = air.up;
+        paint.bend = air.bend;
     }
     if (list.sun) {
         paint.has_sun = true;

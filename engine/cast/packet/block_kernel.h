@@ -242,6 +242,8 @@ struct BlockPaint {
     float eye_above = 0.0F;     ///< as scene::AirSeen
     float eye_density = 1.0F;
     float per_height = 0.0F;
+    glm::vec3 up{0.0F, 0.0F, 1.0F};
+    float bend = 0.0F;
     bool is_perspective = true;
     bool needs_nearness = false;
     bool needs_t = false;

@@ -75,18 +75,22 @@ HWY_INLINE ViewRays view_rays(const BlockPaint& paint, const PixelOffsets& pixel
     return view;
 }
 
-// Unit vectors of the view rays: their rise, and the cosine of the angle to the sun.
+// Unit vectors of the view rays: their rise, that away from the base of the air, and the cosine of
+// the angle to the sun.
 struct ViewAngles {
     Floats rise;
+    Floats climb;
     Floats to_sun;
 };
 
 HWY_INLINE ViewAngles angles_of(const BlockPaint& paint, const ViewRays& view) {
     const Floats per_length = hn::Div(all(1.0F), view.length);
-    const Floats along =
-        hn::MulAdd(view.x, all(paint.to_sun.x),
-                   hn::MulAdd(view.y, all(paint.to_sun.y), hn::Mul(view.z, all(paint.to_sun.z))));
-    return {hn::Mul(view.z, per_length), hn::Mul(along, per_length)};
+    const auto along = [&](glm::vec3 axis) HWY_ATTR {
+        return hn::Mul(hn::MulAdd(view.x, all(axis.x),
+                                  hn::MulAdd(view.y, all(axis.y), hn::Mul(view.z, all(axis.z)))),
+                       per_length);
+    };
+    return {hn::Mul(view.z, per_length), along(paint.up), along(paint.to_sun)};
 }
 
 HWY_INLINE Color with_added(const Color& color, glm::vec3 added, Floats share) {
@@ -123,7 +127,8 @@ HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, 
     constexpr float log2_e = 1.4426950F;
     const Floats eye_above = all(paint.eye_above);
     const Floats eye_density = all(paint.eye_density);
-    const Floats above = hn::Max(hn::MulAdd(angles.rise, metres, eye_above), hn::Zero(floats));
+    const Floats climb = hn::MulAdd(all(paint.bend), metres, angles.climb);
+    const Floats above = hn::Max(hn::MulAdd(climb, metres, eye_above), hn::Zero(floats));
     const Floats density = exp2_of(hn::Mul(above, all(-log2_e * paint.per_height)));
     const Floats rise = hn::Mul(hn::Sub(above, eye_above), all(paint.per_height));
     const Floats even = hn::Mul(all(0.5F), hn::Add(eye_density, density));
@@ -154,9 +159,12 @@ HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) 
     if (!paint.has_air) {
         return all(paint.plane);
     }
-    const Floats lowest = all(-1e-9F); // the rise of lanes above the horizon, which show no plane
-    const Floats air = hn::Div(all(-paint.plane_air), hn::Min(angles.rise, lowest));
-    return behind_air(paint, angles, all(paint.plane), air);
+    const Floats lowest = all(1e-9F); // the fall of lanes above the horizon, which show no plane
+    const Floats fall = hn::Max(hn::Neg(angles.climb), lowest);
+    const Floats beyond = hn::MulSub(fall, fall, all(4.0F * paint.bend * paint.eye_above));
+    const Floats steepness =
+        hn::Mul(all(0.5F), hn::Add(fall, hn::Sqrt(hn::Max(beyond, hn::Zero(floats)))));
+    return behind_air(paint, angles, all(paint.plane), hn::Div(all(paint.plane_air), steepness));
 }
 
 HWY_INLINE Floats fraction_of(Floats x) {
@@ -187,7 +195,7 @@ HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
         return all(glm::vec3(0.0F));
     }
     const ViewAngles angles = angles_of(paint, view);
-    const Lanes below = hn::Lt(angles.rise, hn::Zero(floats));
+    const Lanes below = hn::Lt(angles.climb, hn::Zero(floats));
     if (paint.plane_air <= 0.0F || hn::AllFalse(floats, below)) {
         return dithered(paint, pixels, above_horizon(paint, view, angles));
     }

@@ -50,6 +50,7 @@ FrameBlock frame_block(const view::DrawList& list) {
         block.sky_glow = glm::vec4(sky.glow, air.eye_density);
         block.air = glm::vec4(air.extinction, air.per_height);
         block.sky_plane = glm::vec4(sky.plane.value_or(glm::vec3(0.0F)), air.eye_above);
+        block.air_up = glm::vec4(air.up, air.bend);
     }
     return block;
 }

@@ -26,7 +26,8 @@ static_assert(offsetof(FrameBlock, vertex_grid) == 64 + 7 * 16);
 static_assert(offsetof(FrameBlock, projection) == 64 + 8 * 16);
 static_assert(offsetof(FrameBlock, ray_up) == 64 + 11 * 16);
 static_assert(offsetof(FrameBlock, sky_plane) == 64 + 14 * 16);
-static_assert(sizeof(FrameBlock) == 64 + 16 * 16);
+static_assert(offsetof(FrameBlock, air_up) == 64 + 15 * 16);
+static_assert(sizeof(FrameBlock) == 64 + 17 * 16);
 inline constexpr BlockLayout FrameBlock::layout{"FrameBlock", bindings::frame_block_binding,
                                                 sizeof(FrameBlock)};
 

@@ -125,9 +125,20 @@ std::optional<SeenSky> seen_sky(const Sky& sky, const Camera& camera, glm::ivec2
                    sky.picture->level_for(angle_of_pixels(camera, size))};
 }
 
+AirPlace air_place(const Sky& sky, glm::dvec3 place) {
+    if (sky.radius <= 0.0) {
+        return {place.z - sky.base, {0.0, 0.0, 1.0}};
+    }
+    const glm::dvec3 from_middle = place - glm::dvec3(0.0, 0.0, sky.base - sky.radius);
+    const double distance = std::max(glm::length(from_middle), 1.0);
+    return {distance - sky.radius, from_middle / distance};
+}
+
 AirSeen air_seen(const Sky& sky, const Camera& camera) {
     AirSeen seen;
-    const double above = camera.eye.z - sky.base;
+    const auto [above, up] = air_place(sky, camera.eye);
+    seen.up = glm::vec3(up);
+    seen.bend = sky.radius > 0.0 ? static_cast<float>(0.5 / sky.radius) : 0.0F;
     seen.extinction = static_cast<float>(extinction(sky)) * sky.fading;
     seen.eye_above = static_cast<float>(std::max(above, 0.0));
     if (sky.air_height > 0.0) {
@@ -147,6 +158,11 @@ double plane_air(const Sky& sky, double above) {
         return mist * above;
     }
     return sky.air_height > 0.0 ? -sky.air_height * std::expm1(-above / sky.air_height) : above;
+}
+
+double steepness_to_plane(const Sky& sky, double above, double fall) {
+    const double horizon = sky.radius > 0.0 ? 2.0 * above / sky.radius : 0.0; // squared sine
+    return 0.5 * (fall + std::sqrt(std::max(fall * fall - horizon, 0.0)));
 }
 
 Node::Node(std::string name, Content content)

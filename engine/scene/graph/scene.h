@@ -36,6 +36,8 @@ struct Sky {
     glm::vec3 fading{1.0F};  ///< extinction of the three colours, relative to the mean one
     double air_height = 0.0; ///< metres to 1/e of the air's density; 0: the same everywhere
     double base = 0.0;       ///< z of the full density and of the plane, world metres
+    /// Metres: plane and air bend down from `base` at the origin like the Earth; 0: they are level.
+    double radius = 0.0;
     /// Reflected light of an endless plane at `base`; absent: the horizon's haze.
     std::optional<glm::vec3> plane = {};
     /// The plane goes on with the terrain's own sea, in the same air. Else it lies in mist.
@@ -48,20 +50,35 @@ struct Sky {
 /// Extinction coefficient of the air at its base, 1/metre; 0 without fog.
 double extinction(const Sky& sky);
 
+/// A place over the base of the air.
+struct AirPlace {
+    double above = 0.0;           ///< metres above the base
+    glm::dvec3 up{0.0, 0.0, 1.0}; ///< away from the base, unit vector of the world
+};
+AirPlace air_place(const Sky& sky, glm::dvec3 place);
+
 /// The air as seen from an eye, for shaders and kernels.
 struct AirSeen {
-    glm::vec3 extinction{0.0F}; ///< 1/metre
-    float eye_above = 0.0F;     ///< metres above the base, >= 0
-    float eye_density = 1.0F;   ///< relative to that at the base
-    float per_height = 0.0F;    ///< 1/metre; 0: the same density everywhere
-    float plane_air = 0.0F;     ///< plane_air(); 0: there is no plane below the eye
+    glm::vec3 extinction{0.0F};     ///< 1/metre
+    float eye_above = 0.0F;         ///< metres above the base, >= 0
+    float eye_density = 1.0F;       ///< relative to that at the base
+    float per_height = 0.0F;        ///< 1/metre; 0: the same density everywhere
+    float plane_air = 0.0F;         ///< plane_air(); 0: there is no plane below the eye
+    glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< of the eye, as AirPlace
+    /// 1/metre: heights along a straight ray grow by `bend` times its squared length more than it
+    /// rises at the eye.
+    float bend = 0.0F;
 };
 AirSeen air_seen(const Sky& sky, const Camera& camera);
 
 /// Air between an eye and the plane straight below, in metres of air as dense as at the base; along
-/// a ray it is divided by the sine of the ray's fall. `above`: metres of the eye above the base, >
-/// 0.
+/// a ray it is divided by steepness_to_plane(). `above`: metres of the eye above the base, > 0.
 double plane_air(const Sky& sky, double above);
+
+/// The height over the length of a ray that falls to the plane. On a level plane it is the sine of
+/// the fall at the eye, `fall`, > 0. Where the Earth bends away below the ray, it shrinks from half
+/// the sine to 0 at level rays: no line shows at the horizon. `above`: as plane_air().
+double steepness_to_plane(const Sky& sky, double above, double fall);
 
 /// The picture of a sky as a camera sees it.
 struct SeenSky {

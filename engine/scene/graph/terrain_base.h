@@ -2,14 +2,25 @@
 
 #include <optional>
 
+#include <glm/mat4x4.hpp>
+
+#include "engine/scene/graph/camera.h"
 #include "engine/scene/graph/mesh.h"
 #include "engine/scene/graph/terrain_node.h"
 
 namespace reljef::scene {
 
-/// Walls from the border of a terrain down to below its lowest height: it looks like a piece that
-/// was cut out of the Earth. Seen from outside; without a bottom. Empty if the terrain goes around
-/// the Earth. A wall has a vertex at every sample of the border.
-std::optional<Mesh> terrain_base(const TerrainSurface& surface);
+/// Where the walls of a block end, true metres: 4 % of the shorter side below the lowest height.
+double block_bottom(const TerrainSurface& surface);
+
+/// Walls from the border of a terrain down to `bottom`, true metres: it looks like a piece that was
+/// cut out of the Earth. Seen from outside; without a bottom. Empty if the border is nowhere higher
+/// or the terrain goes around the Earth. A wall has a vertex at every sample of the border.
+std::optional<Mesh> terrain_base(const TerrainSurface& surface, double bottom);
+
+/// Whether such walls may face an eye, world metres: not over the terrain, from where they lead
+/// away.
+bool may_show_base(const TerrainSurface& surface, const glm::dmat4& world_from_local,
+                   const Camera& camera);
 
 } // namespace reljef::scene

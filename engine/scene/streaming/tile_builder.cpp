@@ -375,7 +375,9 @@ FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights) c
             coarse(col, row) = static_cast<float>(terrain::bilinear_height(overview, at));
         }
     }
-    return fill_tile_voids(std::move(heights), coarse);
+    // A sample of the overview, which has no finer waves, in vertices.
+    const double reach = std::max(1.0, reduction_.factor / step(tile));
+    return fill_tile_voids(std::move(heights), coarse, reach);
 }
 
 Image TileBuilder::vertex_colors(const TerrainTile& tile, glm::ivec2 first,

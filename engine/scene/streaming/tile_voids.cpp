@@ -29,8 +29,8 @@ std::vector<glm::ivec2> side_of(glm::ivec2 from, glm::ivec2 to) {
 
 class VoidFill {
 public:
-    VoidFill(FilledHeights& filled, const Grid<float>& coarse)
-        : heights_(filled.heights), was_void_(filled.was_void), coarse_(coarse),
+    VoidFill(FilledHeights& filled, const Grid<float>& coarse, double reach)
+        : heights_(filled.heights), was_void_(filled.was_void), coarse_(coarse), reach_(reach),
           last_(heights_.cols() - 2, heights_.rows() - 2) {}
 
     void run() {
@@ -83,14 +83,19 @@ private:
             }
         }
     }
-    // Linear between the corrections at two vertices of a side.
+    // Between the corrections at two vertices of a side: nearly linear if they are near each other.
+    // Linear ones would stand as ridges in wide voids, whose inside the heights around smooth.
     void fill_between(const std::vector<glm::ivec2>& side, std::size_t first, std::size_t last,
                       const Range& range) {
-        const float from = correction(side[first]);
-        const float to = correction(side[last]);
+        const double from = static_cast<double>(correction(side[first]));
+        const double to = static_cast<double>(correction(side[last]));
+        const auto share = [this](std::size_t steps) {
+            return std::sinh(static_cast<double>(steps) / reach_);
+        };
         for (std::size_t i = first + 1; i < last; ++i) {
-            const float part = static_cast<float>(i - first) / static_cast<float>(last - first);
-            set(side[i], std::lerp(from, to, part), range);
+            const double correction =
+                (from * share(last - i) + to * share(i - first)) / share(last - first);
+            set(side[i], static_cast<float>(correction), range);
         }
     }
 
@@ -141,12 +146,14 @@ private:
     Grid<float>& heights_;
     const Grid<std::uint8_t>& was_void_;
     const Grid<float>& coarse_;
+    double reach_;
     glm::ivec2 last_; // vertex, in the grid
 };
 
 } // namespace
 
-FilledHeights fill_tile_voids(Grid<float> heights, const Grid<float>& coarse) {
+FilledHeights fill_tile_voids(Grid<float> heights, const Grid<float>& coarse, double reach) {
+    check(reach > 0.0, "a reach above 0 was expected");
     check(heights.cols() >= 4 && heights.rows() >= 4 && heights.cols() == coarse.cols() &&
               heights.rows() == coarse.rows(),
           "heights of equal sizes with one step around were expected");
@@ -155,7 +162,7 @@ FilledHeights fill_tile_voids(Grid<float> heights, const Grid<float>& coarse) {
     for (std::size_t i = 0; i < filled.heights.size(); ++i) {
         filled.was_void.samples()[i] = std::isfinite(filled.heights.samples()[i]) ? 0 : 1;
     }
-    VoidFill(filled, coarse).run();
+    VoidFill(filled, coarse, reach).run();
     return filled;
 }
 

@@ -240,6 +240,13 @@ float smooth(double from, double to, double value) {
 
 } // namespace
 
+bool has_one_color(const ColorRamp& ramp) {
+    return !ramp.has_cover &&
+           std::all_of(ramp.stops.begin(), ramp.stops.end(), [&](const RampStop& stop) {
+               return stop.color == ramp.stops.front().color;
+           });
+}
+
 std::optional<ColorRamp> named_ramp(std::string_view name) {
     const auto* const found = std::find_if(ramps.begin(), ramps.end(),
                                            [&](const auto& ramp) { return ramp.first == name; });

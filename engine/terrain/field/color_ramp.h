@@ -36,6 +36,9 @@ struct ColorRamp {
     friend bool operator==(const ColorRamp&, const ColorRamp&) = default;
 };
 
+/// Whether all ground has the same colour.
+bool has_one_color(const ColorRamp& ramp);
+
 inline constexpr std::string_view default_ramp = "relief";
 inline constexpr std::string_view map_ramp = "atlas"; ///< the default of maps
 

@@ -86,6 +86,22 @@ TEST(CtrlC, EndsAViewerThatWaitsForADriver) {
     EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
 }
 
+// Esc, or a closed window, while work in the background runs that nothing interrupts.
+TEST(CtrlC, EndsAViewerThatWasClosedWithSuccess) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const cli::Interrupt interrupt;
+        interrupt.end_after(std::chrono::milliseconds(100));
+        interrupt.request_stop();
+        std::this_thread::sleep_for(std::chrono::minutes(1));
+        ::_exit(interrupt.requested() ? 1 : 2);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
 // A server that is fast enough for every deadline, but takes minutes.
 TEST(CtrlC, EndsAReadFromASlowServer) {
     RELJEF_NEED_NGINX();

@@ -43,7 +43,7 @@ TEST(Opening, SetsNoTitleAgain) {
     terrain.terrain = "natural";
     Opening opening(terrain, session::SceneOptions{});
     const auto opened =
-        opening.finish(window, session::RayUse::none, 4096, silent, std::stop_token());
+        opening.finish(window, session::RayUse::none, 4096, silent, std::stop_source());
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->has_value());
     ASSERT_FALSE(window.titles.empty());
@@ -68,7 +68,7 @@ TEST(Opening, BeginsWithFewerSamplesOfALargeFile) {
         TitledWindow window;
         Opening opening(terrain, view);
         const auto opened =
-            opening.finish(window, session::RayUse::none, 4096, silent, std::stop_token());
+            opening.finish(window, session::RayUse::none, 4096, silent, std::stop_source());
         ASSERT_TRUE(opened && opened->has_value());
         const auto& shown = *(*opened)->scene.terrain->get<scene::TerrainNode>()->surface;
         EXPECT_EQ((*opened)->finer != nullptr, !view.geodetic);
@@ -88,8 +88,7 @@ TEST(Opening, IsEmptyIfItIsStopped) {
     std::stop_source stop;
     stop.request_stop();
     session::Log silent;
-    const auto opened =
-        opening.finish(window, session::RayUse::none, 4096, silent, stop.get_token());
+    const auto opened = opening.finish(window, session::RayUse::none, 4096, silent, stop);
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_FALSE(*opened);
 }

@@ -172,6 +172,24 @@ TEST_F(ExaggerationTest, GrainAndContoursChangeInFlight) {
     EXPECT_EQ(terrain.grain, 0.75F) << "of the new surface, too";
 }
 
+// Grain on one colour looks like gravel; what the user names stays.
+TEST_F(ExaggerationTest, OneColourHasNoGrainUnlessTheUserSetsIt) {
+    session::SceneOptions view = above_the_hill();
+    view.default_grain = 1.0;
+    session::TerrainScene usual = hill_scene(view);
+    Viewer of_usual{usual, scene::orbit_path(usual.bounds, 10.0), {400, 300}};
+    const auto grain_with = [&](const char* ramp) {
+        EXPECT_TRUE(of_usual.act(SetRamp{ramp}));
+        wait_for_maps(of_usual);
+        return usual.terrain->get<scene::TerrainNode>()->grain;
+    };
+    EXPECT_EQ(grain_with("swiss"), 1.0F);
+    EXPECT_EQ(grain_with("clay"), 0.0F);
+    EXPECT_EQ(grain_with("relief"), 1.0F);
+    ASSERT_TRUE(of_usual.act(SetGrain{0.5}));
+    EXPECT_EQ(grain_with("clay"), 0.5F);
+}
+
 // The truth has neither grain nor contours.
 TEST_F(ExaggerationTest, ComparisonsHideGrainAndContours) {
     const auto& terrain = *scene.terrain->get<scene::TerrainNode>();

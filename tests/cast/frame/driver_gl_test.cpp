@@ -101,6 +101,7 @@ TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
         sky.base = stage.surface().bounds().low.z;
         sky.plane = glm::vec3(0.4F, 0.5F, 0.6F);
         sky.is_plane_sea = altitude > 10.0;
+        sky.radius = altitude > 10.0 ? 0.0 : 2e4; // metres: the picture shows its horizon
         stage.scene.set_sky(sky);
         for (const scene::Pose pose :
              {scene::Pose::overview, scene::Pose::low, scene::Pose::grazing, scene::Pose::map}) {
@@ -124,7 +125,8 @@ TEST_F(CastDriverGlTest, DrawsTheSameDaylightAsTheShaders) {
 
 std::shared_ptr<const scene::MeshNode> base_below(const scene::TerrainSurface& surface) {
     scene::MeshNode node;
-    node.mesh = std::make_shared<const scene::Mesh>(scene::terrain_base(surface).value());
+    node.mesh = std::make_shared<const scene::Mesh>(
+        scene::terrain_base(surface, scene::block_bottom(surface)).value());
     node.material.color = glm::vec3(0.5F, 0.1F, 0.05F);
     return std::make_shared<const scene::MeshNode>(node);
 }

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ TEST(TerrainBase, JoinsEverySampleOfTheBorderAndReachesBelowTheLowest) {
     const auto surface = surface_over(
         test::plane_heightfield(test::random_heights(7, 5, -20.0F, 90.0F, 1), {10.0, 20.0}),
         {.placement = terrain::PlacementKind::plane, .exaggeration = 2.0});
-    const auto mesh = terrain_base(surface);
+    const auto mesh = terrain_base(surface, block_bottom(surface));
     ASSERT_TRUE(mesh);
     const terrain::Heightfield& heightfield = surface.heightfield();
     ASSERT_EQ(mesh->positions.size(), 2U * (7 + 5 + 7 + 5));
@@ -43,7 +44,8 @@ TEST(TerrainBase, JoinsEverySampleOfTheBorderAndReachesBelowTheLowest) {
 }
 
 TEST(TerrainBase, FacesOutwards) {
-    const auto mesh = terrain_base(surface_over(test::plane_heightfield(Grid<float>(4, 6, 5.0F))));
+    const auto surface = surface_over(test::plane_heightfield(Grid<float>(4, 6, 5.0F)));
+    const auto mesh = terrain_base(surface, block_bottom(surface));
     ASSERT_TRUE(mesh);
     ASSERT_EQ(mesh->indices.size(), 2U * 3U * 2U * (3 + 5));
     for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
@@ -61,13 +63,54 @@ TEST(TerrainBase, StandsUprightOnTheEllipsoid) {
     const auto curved =
         surface_over(test::geographic_heightfield(Grid<float>(9, 9, 100.0F), 60.0, 7.0, 0.5));
     ASSERT_EQ(curved.placement().kind(), terrain::PlacementKind::ellipsoid);
-    const auto mesh = terrain_base(curved);
+    const auto mesh = terrain_base(curved, block_bottom(curved));
     ASSERT_TRUE(mesh);
     for (std::size_t i = 0; i < mesh->positions.size(); i += 2) {
         const glm::dvec3 top(mesh->positions[i]);
         const glm::dvec3 down = glm::normalize(glm::dvec3(mesh->positions[i + 1]) - top);
         EXPECT_NEAR(glm::dot(down, curved.placement().up(top)), -1.0, 1e-6);
         EXPECT_NEAR(glm::dot(glm::vec3(down), mesh->normals[i]), 0.0, 1e-3);
+    }
+}
+
+// Of an island that its border cuts.
+TEST(TerrainBase, StandsOnlyWhereTheBorderIsHigherThanItsBottom) {
+    const auto walls_over = [](float shore) {
+        Grid<float> heights(6, 5, 0.0F);
+        heights(1, 2) = 700.0F; // within
+        heights(0, 4) = heights(5, 0) = -3.0F;
+        heights(3, 4) = shore;
+        return terrain_base(surface_over(test::plane_heightfield(heights, {10.0, 10.0})), 0.0);
+    };
+    EXPECT_FALSE(walls_over(0.0F));
+    const auto mesh = walls_over(40.0F);
+    ASSERT_TRUE(mesh);
+    ASSERT_EQ(mesh->indices.size(), 2U * 6U) << "from the sea to the sea";
+    for (const std::uint32_t index : mesh->indices) {
+        const glm::vec3 place = mesh->positions[index];
+        EXPECT_EQ(place.y, -20.0F) << "the southern border";
+        EXPECT_TRUE(place.z == 0.0F || (place.z == 40.0F && place.x == 5.0F));
+    }
+}
+
+TEST(TerrainBase, IsHiddenFromEyesOverTheTerrain) {
+    for (const auto kind : {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        const auto surface =
+            surface_over(test::geographic_heightfield(Grid<float>(9, 9, 100.0F), 60.0, 7.0, 0.5),
+                         {.placement = kind});
+        const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), glm::dvec3(7e5, 0.0, 0.0));
+        const auto shows = [&](glm::dvec2 sample, ProjectionKind projection) {
+            Camera camera;
+            camera.projection = projection;
+            camera.eye =
+                glm::dvec3(moved[3]) + surface.placement().world_from_sample({sample, 5000.0});
+            return may_show_base(surface, moved, camera);
+        };
+        EXPECT_FALSE(shows({4.0, 4.0}, ProjectionKind::perspective));
+        EXPECT_FALSE(shows({0.1, 7.9}, ProjectionKind::perspective));
+        EXPECT_TRUE(shows({-0.1, 4.0}, ProjectionKind::perspective));
+        EXPECT_TRUE(shows({3.0, 8.1}, ProjectionKind::perspective));
+        EXPECT_TRUE(shows({4.0, 4.0}, ProjectionKind::orthographic));
     }
 }
 

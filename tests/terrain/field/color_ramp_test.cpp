@@ -30,6 +30,15 @@ TEST(ColorRamp, EveryNameIsARampWithStops) {
     EXPECT_FALSE(named_ramp("rainbow"));
 }
 
+TEST(ColorRamp, OnlyClayHasOneColor) {
+    for (const std::string_view name : ramp_names()) {
+        EXPECT_EQ(has_one_color(*named_ramp(name)), name == "clay") << name;
+    }
+    const RampStop grey{0.0, glm::vec3(90.0F), false, false};
+    EXPECT_TRUE(has_one_color({"file", {grey, grey}, false, false, {}}));
+    EXPECT_FALSE(has_one_color({"rock and snow", {grey}, true, false, {}}));
+}
+
 TEST(ColorRamp, IsLinearBetweenStopsAndConstantBeyond) {
     const ColorRamp ramp{
         "two", {{100.0, glm::vec3(10.0F)}, {300.0, glm::vec3(50.0F)}}, false, false, {}};
