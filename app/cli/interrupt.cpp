@@ -1,10 +1,14 @@
 #include "app/cli/interrupt.h"
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <ctime>
+#include <mutex>
+#include <utility>
+
+#include "app/cli/message.h"
+#include "engine/core/atomic_file.h"
 
 namespace reljef::cli {
 namespace {
@@ -25,8 +29,25 @@ sigset_t stop_signals() {
 // Signals within this time count as one: `timeout` and some shells deliver a signal twice.
 constexpr std::chrono::milliseconds one_signal{500};
 
-void watch(const std::stop_token& end, std::stop_source& source,
-           const std::atomic<std::chrono::milliseconds>& patience) {
+} // namespace
+
+struct Interrupt::Patience {
+    std::mutex mutex; // of both
+    std::chrono::milliseconds time{0};
+    std::string message;
+
+    void end_if_over(std::chrono::steady_clock::duration since_first, int signal) {
+        const std::lock_guard lock(mutex);
+        if (time.count() == 0 || since_first <= time) {
+            return;
+        }
+        remove_own_temporaries();
+        write_stderr(message);
+        std::_Exit(message.empty() ? 128 + signal : 1);
+    }
+};
+
+void Interrupt::watch(const std::stop_token& end, std::stop_source& source, Patience& patience) {
     const sigset_t signals = stop_signals();
     const timespec pause{0, 50'000'000}; // longest delay at the program's end
     std::chrono::steady_clock::time_point first;
@@ -41,19 +62,19 @@ void watch(const std::stop_token& end, std::stop_source& source,
         } else if (signal > 0 && since_first > one_signal) {
             std::_Exit(128 + signal);
         }
-        const std::chrono::milliseconds longest = patience;
-        if (first_signal > 0 && longest.count() > 0 &&
-            std::chrono::steady_clock::now() - first > longest) {
-            std::_Exit(128 + first_signal);
+        if (first_signal > 0) {
+            patience.end_if_over(std::chrono::steady_clock::now() - first, first_signal);
         }
     }
 }
 
-} // namespace
+void Interrupt::end_after(std::chrono::milliseconds time, std::string message) const {
+    const std::lock_guard lock(patience_->mutex);
+    patience_->time = time;
+    patience_->message = std::move(message);
+}
 
-Interrupt::Interrupt()
-    : patience_(
-          std::make_shared<std::atomic<std::chrono::milliseconds>>(std::chrono::milliseconds(0))) {
+Interrupt::Interrupt() : patience_(std::make_shared<Patience>()) {
     const sigset_t signals = stop_signals();
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     // A file that is too large and a closed pipe become errors of writing.

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <stop_token>
+#include <string>
 #include <thread>
 
 namespace reljef::cli {
@@ -14,18 +14,25 @@ namespace reljef::cli {
 /// other threads start.
 class Interrupt {
 public:
+    /// For end_after(): a frame in a driver. That of a slow shader takes as long as it likes.
+    static constexpr std::chrono::milliseconds longest_frame{1000};
+
     Interrupt();
 
     [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
     [[nodiscard]] bool requested() const { return source_.stop_requested(); }
 
-    /// If the program still runs so long after the first signal, it ends as by a second one: for
-    /// loops that may wait for a driver, which nothing interrupts. `time` > 0.
-    void end_after(std::chrono::milliseconds time) const { *patience_ = time; }
+    /// If the program still runs so long after the first signal, it removes its temporary files and
+    /// ends: for work that may wait for a driver, which nothing interrupts. `time` 0: it goes on.
+    /// With a message, written to stderr, the exit status is 1; without, that of a second signal.
+    void end_after(std::chrono::milliseconds time, std::string message = {}) const;
 
 private:
+    struct Patience;
+    static void watch(const std::stop_token& end, std::stop_source& source, Patience& patience);
+
     std::stop_source source_;
-    std::shared_ptr<std::atomic<std::chrono::milliseconds>> patience_; // 0: for ever
+    std::shared_ptr<Patience> patience_;
     std::jthread watcher_;
 };
 
