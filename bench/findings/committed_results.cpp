@@ -252,6 +252,20 @@ Result<std::optional<Number>> CommittedResults::number(const RowName& row,
     return number;
 }
 
+std::string CommittedResults::suite(const std::string& file) const {
+    const auto found = files_.find(file);
+    if (found == files_.end()) {
+        return {};
+    }
+    for (const char* const pointer : {"/suite", "/rows/0/suite"}) { // the second of older files
+        const json* const value = at(found->second, pointer);
+        if (value != nullptr && value->is_string()) {
+            return value->get<std::string>();
+        }
+    }
+    return {};
+}
+
 std::optional<Machine> CommittedResults::machine(const std::string& file) const {
     const auto found = files_.find(file);
     if (found == files_.end()) {

@@ -47,6 +47,9 @@ public:
     /// name, or if the number has another type or is out of range.
     [[nodiscard]] Result<std::optional<Number>> number(const RowName& row, Quantity quantity) const;
 
+    /// That the file's results are of: "tables", "lod-growth"; empty if it does not name one.
+    [[nodiscard]] std::string suite(const std::string& file) const;
+
     /// Empty if the file does not name its machine.
     [[nodiscard]] std::optional<Machine> machine(const std::string& file) const;
 
