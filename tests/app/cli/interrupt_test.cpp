@@ -138,7 +138,7 @@ TEST(CtrlC, EndsAPictureOfASlowShaderAndLeavesNoRubbish) {
                    "vec3 bent(vec3 v) { return sin(v * 3.7) + cos(v.yzx * 5.3) + exp(-v * v); }\n"
                    "vec3 surface_color(Surface surface) {\n    vec3 light = surface.light;\n"
                    "    for (int i = 0; i < 60000; ++i) {\n"
-                   "        light = bent(bent(bent(bent(bent(bent(bent(bent(light))))))));\n"
+                   "        light = bent(bent(bent(bent(light))));\n"
                    "    }\n    return light;\n}\n")
             .string();
     const std::string terrain = test::small_terrain(scenes, "natural");

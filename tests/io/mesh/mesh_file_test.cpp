@@ -308,7 +308,7 @@ TEST_F(MeshFileTest, LimitsMaterialsOfLibraries) {
                 HasSubstr("20002 materials found, at most 20000 were expected"));
     EXPECT_THAT(
         refusal(folder_.write("itself.obj", "mtllib itself.obj\n" + test::square_obj + library)),
-        HasSubstr("20001 materials found"));
+        HasSubstr("materials found, at most 20000 were expected"));
 }
 
 // Each line would cost a reading of the library.
