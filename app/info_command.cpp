@@ -14,6 +14,7 @@
 #include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "engine/io/raster/raster.h"
+#include "engine/session/scene_daylight.h"
 #include "engine/session/terrain_source.h"
 #include "terrains/gallery/gallery.h"
 
@@ -206,6 +207,10 @@ Json describe(const session::TerrainSource& source, const cli::TerrainChoice& ch
     info["voids"] = heightfield.void_count;
     info["memory_bytes"] = heightfield.heights.size() * io::bytes_per_sample;
     info["notes"] = source.terrain.notes;
+    for (const std::string& note : session::shape_notes(
+             source.terrain, choice.exaggeration.value_or(source.description.exaggeration))) {
+        info["notes"].push_back(note);
+    }
     info["faults"] = source.terrain.errors;
     if (const Json models = models_of(source, choice); !models.empty()) {
         info["models"] = models;

@@ -70,6 +70,7 @@ void set_usual_look(session::SceneOptions& view, const RenderChoice& choice, boo
 }
 
 Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
+    interrupt.end_after(cli::Interrupt::longest_frame, "reljef: interrupted\n");
     if (auto good = check_targets(choice); !good) {
         return good;
     }

@@ -174,12 +174,9 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
     return session::SceneRenderer::create(options);
 }
 
-// A frame in a driver is not interrupted: that of a slow shader takes as long as it likes.
-constexpr std::chrono::milliseconds longest_end{1000};
-
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     session::limit_software_threads(choice.terrain.threads);
-    interrupt.end_after(longest_end);
+    interrupt.end_after(cli::Interrupt::longest_frame);
     // A path may follow the ground.
     const FirstSamples first = choice.view.path.empty() ? FirstSamples::few : FirstSamples::all;
     Opening opening(choice.terrain, choice.view, first);

@@ -12,6 +12,7 @@
 #include "bench/commands.h"
 #include "bench/findings/distance_plot.h"
 #include "bench/findings/findings_page.h"
+#include "bench/options/output_options.h"
 #include "engine/core/atomic_file.h"
 
 namespace reljef::bench {
@@ -50,6 +51,7 @@ Result<void> write_findings(const FindingsChoice& choice, const std::string& pag
 Result<void> run_findings(const FindingsChoice& choice) {
     std::vector<cli::NamedFile> outputs{{"--markdown", choice.markdown}, {"--plot", choice.plot}};
     std::erase_if(outputs, [](const cli::NamedFile& output) { return output.path.empty(); });
+    check_are_files(outputs);
     cli::check_distinct(outputs, results_in(choice.results));
     if (auto writable = cli::check_writable(outputs); !writable) {
         return writable;

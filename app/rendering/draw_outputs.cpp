@@ -194,6 +194,7 @@ Result<void> draw_outputs(const Rendering& run, bool has_camera_of_file) {
         }
         lifted = *drawn;
     }
+    run.interrupt.end_after({}); // all files or none
     if (auto committed = commit_all(outputs); !committed) {
         return committed;
     }

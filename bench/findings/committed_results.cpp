@@ -268,6 +268,20 @@ std::size_t CommittedResults::left_out(const std::string& file) const {
     return count;
 }
 
+std::string CommittedResults::suite(const std::string& file) const {
+    const auto found = files_.find(file);
+    if (found == files_.end()) {
+        return {};
+    }
+    for (const char* const pointer : {"/suite", "/rows/0/suite"}) { // the second of older files
+        const json* const value = at(found->second, pointer);
+        if (value != nullptr && value->is_string()) {
+            return value->get<std::string>();
+        }
+    }
+    return {};
+}
+
 std::optional<Machine> CommittedResults::machine(const std::string& file) const {
     const auto found = files_.find(file);
     if (found == files_.end()) {

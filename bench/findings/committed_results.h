@@ -50,6 +50,9 @@ public:
     /// Settings that a run of pareto left out, for want of time.
     [[nodiscard]] std::size_t left_out(const std::string& file) const;
 
+    /// That the file's results are of: "tables", "lod-growth"; empty if it does not name one.
+    [[nodiscard]] std::string suite(const std::string& file) const;
+
     /// Empty if the file does not name its machine.
     [[nodiscard]] std::optional<Machine> machine(const std::string& file) const;
 

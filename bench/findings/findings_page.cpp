@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/cli/message.h"
 #include "bench/findings/conclusions.h"
 #include "bench/findings/distance_plot.h"
 #include "bench/findings/judgement.h"
@@ -331,7 +332,16 @@ Result<CommittedResults> read_all_results(const std::filesystem::path& folder) {
     std::vector<std::string> files;
     std::transform(sources.begin(), sources.end(), std::back_inserter(files),
                    [](const ResultsSource& source) { return source.file(); });
-    return CommittedResults::read(folder, files);
+    auto results = CommittedResults::read(folder, files);
+    for (std::size_t i = 0; i < sources.size() && results; ++i) {
+        const std::string suite = results->suite(sources[i].file());
+        if (!suite.empty() && suite != sources[i].suite()) {
+            return Error{fmt::format("{}: results of {} found, those of {} were expected",
+                                     (folder / sources[i].file()).string(), cli::printable(suite),
+                                     sources[i].suite())};
+        }
+    }
+    return results;
 }
 
 Result<std::string> findings_page(const CommittedResults& results) {

@@ -22,7 +22,8 @@ Result<std::string> findings_page(const Findings& findings, std::span<const Resu
 /// The page of all_findings(). Fails as CommittedResults::number.
 Result<std::string> findings_page(const CommittedResults& results);
 
-/// Those of results_sources() in a folder. Fails as CommittedResults::read.
+/// Those of results_sources() in a folder. Fails as CommittedResults::read, and if a file has
+/// results of another suite.
 Result<CommittedResults> read_all_results(const std::filesystem::path& folder);
 
 } // namespace reljef::bench

@@ -1,5 +1,7 @@
 #include "bench/findings/measurements.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 namespace reljef::bench {
@@ -23,6 +25,18 @@ std::string bricks_command(const std::string& pose) {
 }
 
 } // namespace
+
+std::string ResultsSource::suite() const {
+    constexpr std::string_view program = "reljef-bench ";
+    const std::string verb =
+        command.substr(program.size(), command.find(' ', program.size()) - program.size());
+    for (const std::string variant : {"claims", "distances", "guesses"}) {
+        if (command.find(" --" + variant + " ") != std::string::npos) {
+            return verb + "-" + variant;
+        }
+    }
+    return verb;
+}
 
 // The commands of bench/results/README.md.
 std::vector<ResultsSource> results_sources() {

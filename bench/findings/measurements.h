@@ -13,6 +13,8 @@ struct ResultsSource {
     bool quiet = true; ///< nothing else ran beside it, so that its times hold
 
     [[nodiscard]] std::string file() const { return name + ".json"; }
+    /// That the command runs: "objects", "tables-claims".
+    [[nodiscard]] std::string suite() const;
 };
 
 std::vector<ResultsSource> results_sources();

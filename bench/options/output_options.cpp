@@ -55,6 +55,16 @@ void add_output_options(CLI::App& command, OutputChoice& choice) {
         ->type_name("FILE");
 }
 
+void check_are_files(std::span<const cli::NamedFile> outputs) {
+    for (const cli::NamedFile& output : outputs) {
+        if (output.path == "-") {
+            cli::fail_usage(fmt::format("{}: '-' found, a file was expected; standard output has "
+                                        "what the command prints",
+                                        output.option));
+        }
+    }
+}
+
 Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs) {
     const std::vector<cli::NamedFile> outputs = output_files(choice);
     auto all = outputs;
@@ -62,6 +72,7 @@ Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::Name
         all.push_back({"--html", page_file(choice.html).parent_path()});
         all.push_back({"--html", page_file(choice.html)});
     }
+    check_are_files(all);
     cli::check_distinct(all, inputs);
     if (auto writable = cli::check_writable(outputs); !writable || choice.html.empty()) {
         return writable;

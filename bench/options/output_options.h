@@ -27,8 +27,11 @@ struct OutputChoice {
 /// Adds --json, --csv, --markdown and --html.
 void add_output_options(CLI::App& command, OutputChoice& choice);
 
+/// A usage error (CLI::ParseError) if an output is "-": standard output has the table.
+void check_are_files(std::span<const cli::NamedFile> outputs);
+
 /// Checks the outputs without a trace. Fails if a file cannot be written. A usage error
-/// (CLI::ParseError) if an output is an input or another output, or if --html names a file.
+/// (CLI::ParseError) if an output is "-", an input or another output, or if --html names a file.
 Result<void> check_outputs(const OutputChoice& choice, std::span<const cli::NamedFile> inputs);
 
 /// A report in its forms. Those of requested outputs are made; the others may be empty.

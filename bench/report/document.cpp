@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -36,18 +37,19 @@ bool is_key(const std::string& key) {
     return true;
 }
 
-// No two columns have the same place, and none lies in another one.
-bool have_places(const std::vector<FigureColumn>& columns) {
+// The first column whose place another one has, or lies in or around; empty: there is none.
+std::optional<std::size_t> misplaced_column(const std::vector<FigureColumn>& columns) {
     std::set<std::string> keys;
-    for (const FigureColumn& column : columns) {
-        if (!is_key(column.key) || !keys.insert(column.key + "/").second) {
-            return false;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto [place, is_new] = keys.insert(columns[i].key + "/");
+        const auto after = std::next(place);
+        const bool is_alone = (place == keys.begin() || !place->starts_with(*std::prev(place))) &&
+                              (after == keys.end() || !after->starts_with(*place));
+        if (!is_key(columns[i].key) || !is_new || !is_alone) {
+            return i;
         }
     }
-    const auto inside = std::adjacent_find(
-        keys.begin(), keys.end(),
-        [](const std::string& a, const std::string& b) { return b.starts_with(a); });
-    return !columns.empty() && inside == keys.end();
+    return std::nullopt;
 }
 
 bool is_number_or_absent(const json& value) {
@@ -86,15 +88,16 @@ static void describe(JsonReader& fields, FigureColumn& column) {
 
 namespace {
 
-// The values of a row at the columns. Sets the document's error if one cannot be compared.
-FigureJson values_of(JsonReader& document, const json& row,
+// The values of a row at the columns; `place` is its own. Sets the document's error if one cannot
+// be compared.
+FigureJson values_of(JsonReader& document, const json& row, const std::string& place,
                      const std::vector<FigureColumn>& columns) {
     FigureJson values = FigureJson::array();
     for (const FigureColumn& column : columns) {
         const json::json_pointer pointer(column.key);
         const json value = row.contains(pointer) ? row.at(pointer) : json();
         if (column.better != FigureColumn::Better::none && !is_number_or_absent(value)) {
-            document.fail("rows", fmt::format("numbers at \"{}\"", column.key));
+            document.fail_at(place + column.key, value, "a number");
         }
         values.push_back(FigureJson(value));
     }
@@ -140,18 +143,27 @@ FigureTable read_figures(JsonReader& document) {
     if (!table.settings.is_object()) {
         document.fail("settings", "an object");
     }
-    if (!have_places(table.columns)) {
-        document.fail("columns", "different places in a row");
+    if (table.columns.empty()) {
+        document.fail("columns", "some columns");
+        return table;
+    }
+    if (const auto wrong = misplaced_column(table.columns)) {
+        document.fail_at(fmt::format("columns[{}].key", *wrong), table.columns[*wrong].key,
+                         "a place in a row besides those of other columns");
         return table;
     }
     const json& rows = document.value("rows");
-    if (!rows.is_array() ||
-        !std::all_of(rows.begin(), rows.end(), [](const json& row) { return row.is_object(); })) {
+    if (!rows.is_array()) {
         document.fail("rows", "an array of objects");
         return table;
     }
-    for (const json& row : rows) {
-        table.rows.push_back(values_of(document, row, table.columns));
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const std::string place = fmt::format("rows[{}]", i);
+        if (!rows[i].is_object()) {
+            document.fail_at(place, rows[i], "an object");
+            return table;
+        }
+        table.rows.push_back(values_of(document, rows[i], place, table.columns));
     }
     return table;
 }

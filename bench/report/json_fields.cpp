@@ -99,10 +99,17 @@ std::string JsonReader::place_of(const char* key) const {
 }
 
 void JsonReader::fail(const char* key, const std::string& expected) {
+    set_error(place_of(key), json_->contains(key) ? found_text(at(key)) : "nothing", expected);
+}
+
+void JsonReader::fail_at(const std::string& place, const json& found, const std::string& expected) {
+    set_error(place, found_text(found), expected);
+}
+
+void JsonReader::set_error(const std::string& place, const std::string& found,
+                           const std::string& expected) {
     if (!*error_) {
-        *error_ =
-            Error{fmt::format("{}: {} found, {} was expected", place_of(key),
-                              json_->contains(key) ? found_text(at(key)) : "nothing", expected)};
+        *error_ = Error{fmt::format("{}: {} found, {} was expected", place, found, expected)};
     }
 }
 

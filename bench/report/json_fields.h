@@ -127,11 +127,15 @@ public:
     [[nodiscard]] const nlohmann::json& value(const char* key) const { return at(key); }
     /// Sets the error, if there is none yet: the value of `key` is not `expected`.
     void fail(const char* key, const std::string& expected);
+    /// The same for a value anywhere in the document: "rows[3]/ms/median".
+    void fail_at(const std::string& place, const nlohmann::json& found,
+                 const std::string& expected);
 
 private:
     [[nodiscard]] const nlohmann::json& at(const char* key) const; // null if absent
     [[nodiscard]] const nlohmann::json& array_at(const char* key); // empty after an error
     [[nodiscard]] std::string place_of(const char* key) const;
+    void set_error(const std::string& place, const std::string& found, const std::string& expected);
     double number(const char* key, const JsonRange& range);
     double whole(const char* key, double min, double max);
 

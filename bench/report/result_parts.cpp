@@ -79,6 +79,16 @@ std::vector<fs::path> part_files(const fs::path& name) {
     return files;
 }
 
+Result<void> check_whole(const fs::path& name, const Shard& first) {
+    std::error_code ignored;
+    const fs::path second = part_file(name, {1, 2});
+    return first.is_whole() && fs::exists(second, ignored)
+               ? Error{fmt::format("{}: a whole run found beside {}, a part that names its shard "
+                                   "was expected",
+                                   part_file(name, {0, 2}).string(), second.string())}
+               : Result<void>();
+}
+
 Result<void> check_origins(const std::vector<PartOrigin>& parts) {
     if (parts.empty()) {
         return Error{"no parts found, some were expected"};

@@ -37,7 +37,11 @@ template <class Part> Result<std::vector<Part>> whole_run(std::vector<Part> part
     return good ? Result<std::vector<Part>>(std::move(parts)) : good.error();
 }
 
-/// Reads the files of all parts; the first one names their number. Fails as `read`.
+/// Fails if the first part says that it is a whole run, and there is another one.
+Result<void> check_whole(const std::filesystem::path& name, const Shard& first);
+
+/// Reads the files of all parts; the first one names their number. Fails as `read`, and as
+/// check_whole().
 template <class Part>
 Result<std::vector<Part>> read_parts(const std::filesystem::path& name,
                                      Result<Part> (*read)(const std::filesystem::path& file)) {
@@ -48,7 +52,13 @@ Result<std::vector<Part>> read_parts(const std::filesystem::path& name,
         if (!part) {
             return part.error();
         }
-        count = index == 0 ? origin_of(*part).shard.count : count;
+        if (index == 0) {
+            const Shard first = origin_of(*part).shard;
+            if (auto good = check_whole(name, first); !good) {
+                return good.error();
+            }
+            count = first.count;
+        }
         parts.push_back(std::move(*part));
     }
     return parts;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <system_error>
 
@@ -79,6 +80,35 @@ void remove_if_stale(const fs::path& folder, int folder_descriptor, const char* 
         fs::remove_all(folder / name, ignored);
     }
 }
+
+// The temporary files and folders of this process.
+class OwnTemporaries {
+public:
+    // Never destroyed: a thread may need it while the program ends.
+    static OwnTemporaries& all() {
+        static auto* const own = new OwnTemporaries;
+        return *own;
+    }
+    void add(const fs::path& path) {
+        const std::lock_guard lock(mutex_);
+        paths_.insert(path);
+    }
+    void forget(const fs::path& path) {
+        const std::lock_guard lock(mutex_);
+        paths_.erase(path);
+    }
+    void remove() {
+        const std::lock_guard lock(mutex_);
+        for (const fs::path& path : paths_) {
+            std::error_code ignored;
+            fs::remove_all(path, ignored);
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::set<fs::path> paths_;
+};
 
 struct Temporary {
     fs::path path;
@@ -193,6 +223,10 @@ void remove_leftovers(const fs::path& folder) {
     }
 }
 
+void remove_own_temporaries() {
+    OwnTemporaries::all().remove();
+}
+
 Result<AtomicFile> AtomicFile::create(fs::path target) {
     AtomicFile file;
     file.target_ = std::move(target);
@@ -213,6 +247,7 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
     if (!made.descriptor) {
         return file.error(std::strerror(errno));
     }
+    OwnTemporaries::all().add(made.path);
     file.temporary_ = std::move(made.path);
     file.file_ = std::move(made.descriptor);
     return file;
@@ -239,6 +274,7 @@ AtomicFile::~AtomicFile() {
     for (const fs::path* const leftover : {&temporary_, &replaced_}) {
         if (!leftover->empty()) {
             fs::remove(*leftover, ignored);
+            OwnTemporaries::all().forget(*leftover);
         }
     }
 }
@@ -270,6 +306,7 @@ Result<void> AtomicFile::rename() {
     if (::rename(temporary_.c_str(), place_.c_str()) != 0) {
         return error(std::strerror(errno));
     }
+    OwnTemporaries::all().forget(temporary_);
     temporary_.clear();
     return {};
 }
@@ -417,6 +454,7 @@ Result<ScratchFolder> ScratchFolder::create(fs::path parent) {
                                  std::strerror(errno))};
     }
     ScratchFolder folder;
+    OwnTemporaries::all().add(made.path);
     folder.path_ = std::move(made.path);
     folder.folder_ = std::move(made.descriptor);
     return folder;
@@ -427,6 +465,7 @@ ScratchFolder::~ScratchFolder() {
     std::error_code ignored;
     if (folder_) {
         fs::remove_all(path_, ignored);
+        OwnTemporaries::all().forget(path_);
     }
     errno = reason;
 }

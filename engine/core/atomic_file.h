@@ -35,6 +35,10 @@ private:
 /// empty path is the current one. Reads the whole folder: call it once for many files.
 void remove_leftovers(const std::filesystem::path& folder);
 
+/// Removes the temporary files and folders of this process. For a program that ends without
+/// destructors, while other threads may write.
+void remove_own_temporaries();
+
 /// An output file that appears whole or not at all: write to `temporary()`, then `commit()`. The
 /// destructor removes a file that is not committed. If the process is killed, the next
 /// remove_leftovers() removes it: a file lock shows which processes live.

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "engine/geo/georeference.h"
@@ -250,7 +251,51 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
     return sun;
 }
 
+// Of a spire, the heights around the median; else all.
+Box without_spires(const TerrainScene& scene, Box shown) {
+    const glm::dvec2 size(scene.bounds.size());
+    const double width = glm::length(size);
+    if (scene.is_gallery || scene.bounds.size().z <= max_spire * width) {
+        return shown;
+    }
+    constexpr int steps = 32;
+    std::vector<double> heights;
+    for (int i = 0; i <= steps; ++i) {
+        for (int j = 0; j <= steps; ++j) {
+            const glm::dvec2 place =
+                glm::dvec2(scene.bounds.low) + size * glm::dvec2(i, j) / double{steps};
+            heights.push_back(scene.ground(place.x, place.y));
+        }
+    }
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    shown.low.z = std::max(shown.low.z, *middle - 0.5 * width);
+    shown.high.z = std::max(shown.low.z, std::min(shown.high.z, *middle + 0.5 * width));
+    return shown;
+}
+
 } // namespace
+
+std::vector<std::string> shape_notes(const terrain::Terrain& terrain, double exaggeration) {
+    const terrain::Heightfield& field = terrain.heightfield;
+    const glm::dvec2 samples(field.heights.cols(), field.heights.rows());
+    const double width = glm::length(samples * field.spacing);
+    const double height = exaggeration * (field.range.high - field.range.low);
+    std::vector<std::string> notes;
+    if (height > max_spire * width) {
+        notes.push_back(fmt::format("{}: heights over {:.0f} m found on {:.0f} m of ground: a "
+                                    "picture of all of it is a line, so pictures without a camera "
+                                    "show the heights around the median",
+                                    terrain.name, height, width));
+    }
+    const std::size_t valid = field.heights.size() - field.void_count;
+    constexpr std::size_t few = 4; // of a square
+    if (valid < few && field.heights.size() >= few) {
+        notes.push_back(fmt::format("{}: {} valid sample{} found: no ground lies between so few",
+                                    terrain.name, valid, valid == 1 ? "" : "s"));
+    }
+    return notes;
+}
 
 Box whole_bounds(const TerrainScene& scene) {
     const auto& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
@@ -258,7 +303,7 @@ Box whole_bounds(const TerrainScene& scene) {
     const bool shows_edges = scene.surroundings.base != BaseKind::plane;
     const Box land = !shows_edges && is_island(scene) ? land_samples(heights) : Box();
     if (land.empty()) {
-        return scene.shown_bounds();
+        return without_spires(scene, scene.shown_bounds());
     }
     // On the ellipsoid, its sides and the middle bulge.
     const Box samples = with_coast(land, heights);
@@ -273,7 +318,7 @@ Box whole_bounds(const TerrainScene& scene) {
             }
         }
     }
-    return shown;
+    return without_spires(scene, shown);
 }
 
 Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& description,
@@ -298,6 +343,12 @@ Result<void> add_daylight(TerrainScene& scene, const io::SceneDescription& descr
     if (!scene.is_gallery && !scene.scene.point_lights().empty() &&
         node.material.technique.id() == scene::TechniqueId::prewarp) {
         log.note("the technique prewarp shows no light on terrain but that of the sun and the sky");
+    }
+    if (!scene.is_gallery) {
+        for (const std::string& note :
+             shape_notes(node.surface->terrain(), node.surface->placement().exaggeration())) {
+            log.note(note);
+        }
     }
     return {};
 }

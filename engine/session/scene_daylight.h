@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/io/formats/scene_file.h"
@@ -15,8 +17,14 @@ namespace reljef::session {
 std::optional<double> true_north(const TerrainScene& scene);
 
 /// What a picture of the whole terrain is filled with, scene metres: of an island the land with
-/// some sea around it, else all of the terrain.
+/// some sea around it, else all of the terrain. Of one that is over max_spire times as high as
+/// wide, by spikes or a large exaggeration, the heights around the median: all of it is a line.
 Box whole_bounds(const TerrainScene& scene);
+
+/// Notes on heights that a picture of the whole terrain cannot show: a spire, or so few samples
+/// that no ground lies between them.
+std::vector<std::string> shape_notes(const terrain::Terrain& terrain, double exaggeration);
+inline constexpr double max_spire = 10.0;
 
 /// Adds the sun, the sky, the air, and lights besides the sun, as the options name them, else the
 /// scene file. Reads a picture of the sky. Notes a base that the terrain cannot have. Usage errors

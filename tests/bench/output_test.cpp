@@ -56,6 +56,21 @@ TEST(BenchOutputs, are_all_checked_before_anything_is_measured) {
     EXPECT_EQ(test::read_bytes(dem), test::small_dem);
 }
 
+TEST(BenchOutputs, none_is_standard_output) {
+    const test::TemporaryFolder folder;
+    const auto dem = folder.write("dem.asc", test::small_dem).string();
+    for (const char* const option : {"--json", "--csv", "--markdown"}) {
+        expect_output_refusal("tables", dem, {option, "-"}, 2);
+    }
+    for (const char* const option : {"--markdown", "--plot"}) {
+        const auto result = test::reljef_bench({"findings", option, "-"});
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_THAT(result.err,
+                    HasSubstr(std::string(option) + ": '-' found, a file was expected"));
+    }
+    EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST(BenchOutputs, one_that_fails_keeps_the_others_from_appearing) {
     const test::TemporaryFolder folder;
     const auto json = folder.write("t.json", "earlier");

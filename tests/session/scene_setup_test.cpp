@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "engine/geo/place.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/frame_maker.h"
+#include "engine/session/scene_daylight.h"
 #include "tests/session/made_session.h"
 #include "tests/support/temporary_folder.h"
 
@@ -302,6 +305,52 @@ TEST_F(GeodeticCamera, AlongAPathHasTheHeadingsOfItsKeysAndStandsUpright) {
     const scene::ViewAxes axes = scene::view_axes(camera);
     EXPECT_LT(glm::distance(axes.forward, glm::normalize(target - camera.eye)), right_angle);
     EXPECT_LT(std::abs(glm::dot(axes.right, placement_of(scene).up(camera.eye))), right_angle);
+}
+
+// Spikes, and exaggeration, of a million: a view of all of it shows a line.
+TEST(SpireCamera, IsNearTheGroundAndANoteSaysWhy) {
+    const test::TemporaryFolder folder;
+    std::string rows;
+    for (int i = 0; i < 40 * 40; ++i) {
+        rows += i % 97 == 5 ? "1000000 " : std::to_string(i % 40) + " ";
+    }
+    const std::string head = "ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10\n";
+    std::string hill;
+    for (int i = 0; i < 40 * 40; ++i) {
+        hill += std::to_string(i % 40) + " ";
+    }
+    for (const auto& [text, exaggeration] : {std::pair(rows, 1.0), {hill, 1e6}}) {
+        session::SourceOptions choice;
+        choice.terrain = folder.write("spire.asc", head + text + "\n").string();
+        choice.exaggeration = exaggeration;
+        auto source = test::open_terrain(choice);
+        ASSERT_TRUE(source) << source.error().message;
+        const auto notes = session::shape_notes(source->terrain, exaggeration);
+        ASSERT_EQ(notes.size(), 1U);
+        EXPECT_NE(notes[0].find("m found on 566 m of ground"), std::string::npos) << notes[0];
+        EXPECT_TRUE(session::shape_notes(source->terrain, 1e-6).empty());
+        const auto scene = test::make_scene(std::move(*source), choice, session::SceneOptions());
+        ASSERT_TRUE(scene) << scene.error().message;
+        const auto& camera = *scene->camera->get<scene::Camera>();
+        EXPECT_LT(glm::distance(camera.eye, camera.target), 5'000.0);
+        EXPECT_LT(glm::distance(camera.target, glm::dvec3(0.0, 0.0, scene->ground(1.0, 1.0))),
+                  exaggeration * 2.0 + 1'000.0);
+    }
+}
+
+TEST(SpireCamera, FewSamplesAreNoted) {
+    const test::TemporaryFolder folder;
+    session::SourceOptions choice;
+    choice.terrain = folder
+                         .write("one.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\n"
+                                           "cellsize 10\nNODATA_value -9\n"
+                                           "-9 -9 -9\n-9 7 -9\n-9 -9 -9\n")
+                         .string();
+    const auto source = test::open_terrain(choice);
+    ASSERT_TRUE(source) << source.error().message;
+    const auto notes = session::shape_notes(source->terrain, 1.0);
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("1 valid sample found"), std::string::npos) << notes[0];
 }
 
 class Flight : public GeodeticCamera {

@@ -3,56 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include "engine/io/mesh/mesh_message.h"
+#include "engine/io/mesh/gltf_json.h"
 
 namespace reljef::io {
 namespace {
 
-using Json = nlohmann::json;
-
-std::string bytes_of(std::ifstream& stream, std::uint64_t size) {
-    constexpr std::uint64_t step = 1U << 20U; // a file may state more than it has
-    std::string bytes;
-    while (stream && bytes.size() < size) {
-        const std::size_t begin = bytes.size();
-        const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(step, size - begin));
-        bytes.resize(begin + more);
-        stream.read(bytes.data() + begin, static_cast<std::streamsize>(more));
-        bytes.resize(begin + static_cast<std::size_t>(stream.gcount()));
-    }
-    return bytes;
-}
-
-// The JSON of a file: all of it, or the first chunk of a GLB.
-std::string json_text(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    constexpr std::size_t header_size = 20; // magic, version, length; size and kind of the chunk
-    std::string header = bytes_of(stream, header_size);
-    if (header.starts_with("glTF")) {
-        std::uint32_t size = 0;
-        if (header.size() == header_size) {
-            std::memcpy(&size, header.data() + 12, sizeof size);
-        }
-        return bytes_of(stream, size);
-    }
-    return header + bytes_of(stream, std::numeric_limits<std::uint64_t>::max());
-}
-
 // The deepest nesting of braces and brackets outside strings.
-int depth_of(std::string_view json) {
-    int depth = 0;
-    int deepest = 0;
+std::size_t depth_of(std::string_view json) {
+    std::size_t depth = 0;
+    std::size_t deepest = 0;
     bool in_string = false;
     for (std::size_t i = 0; i < json.size(); ++i) {
         const char c = json[i];
@@ -62,39 +29,32 @@ int depth_of(std::string_view json) {
             in_string = !in_string;
         } else if (!in_string && (c == '{' || c == '[')) {
             deepest = std::max(deepest, ++depth);
-        } else if (!in_string && (c == '}' || c == ']')) {
+        } else if (!in_string && (c == '}' || c == ']') && depth > 0) {
             --depth;
         }
     }
     return deepest;
 }
 
-// Null where there is none.
-const Json& at(const Json& json, const char* key) {
-    static const Json none;
-    const auto found = json.is_object() ? json.find(key) : json.end();
-    return found != json.end() ? *found : none;
-}
-
-const Json& at(const Json& list, const Json& index) {
-    static const Json none;
-    const bool is_index =
-        list.is_array() && index.is_number_unsigned() && index.get<std::uint64_t>() < list.size();
-    return is_index ? list[index.get<std::size_t>()] : none;
-}
-
 double number_of(const Json& json) {
     return json.is_number() ? std::max(0.0, json.get<double>()) : 0.0;
 }
 
-std::size_t size_of(const Json& json) {
-    return json.is_array() ? json.size() : 0;
-}
+struct SceneSize {
+    double triangles = 0.0;
+    double nodes = 0.0; // a node with several parents counts for each of them
 
-// Triangles of the meshes and of the scene, as the accessors state them.
-class GltfTriangles {
+    SceneSize& operator+=(const SceneSize& more) {
+        triangles += more.triangles;
+        nodes += more.nodes;
+        return *this;
+    }
+};
+
+// Sizes of the meshes and of the scene, as the accessors state them.
+class GltfSize {
 public:
-    explicit GltfTriangles(const Json& file) : file_(file) {
+    explicit GltfSize(const Json& file) : file_(file) {
         for (const Json& mesh : list("meshes")) {
             double triangles = 0.0;
             for (const Json& primitive : at(mesh, "primitives")) {
@@ -105,14 +65,14 @@ public:
         of_nodes_.resize(size_of(list("nodes")));
     }
 
-    // Of all meshes, or of all places that show them if these are more. Empty if the nodes are
-    // nested deeper than max_gltf_depth.
-    std::optional<double> count() {
+    // The triangles of all meshes, or of all places that show them if these are more. Empty if the
+    // nodes are nested deeper than max_gltf_depth.
+    std::optional<SceneSize> count() {
         double of_file = 0.0;
         for (const double triangles : of_meshes_) {
             of_file += triangles;
         }
-        double of_scene = 0.0;
+        SceneSize of_scene;
         const Json& chosen = at(file_, "scene");
         for (const Json& node :
              at(at(list("scenes"), chosen.is_null() ? Json(0U) : chosen), "nodes")) {
@@ -122,7 +82,8 @@ public:
             }
             of_scene += *more;
         }
-        return std::max(of_file, of_scene);
+        of_scene.triangles = std::max(of_file, of_scene.triangles);
+        return of_scene;
     }
 
 private:
@@ -143,10 +104,10 @@ private:
         return kind == 4.0 ? corners / 3.0 : 0.0;
     }
 
-    std::optional<double> of_node(const Json& index, int depth) {
+    std::optional<SceneSize> of_node(const Json& index, std::size_t depth) {
         const Json& node = at(list("nodes"), index);
         if (node.is_null()) {
-            return 0.0;
+            return SceneSize();
         }
         const auto place = index.get<std::size_t>();
         if (depth > max_gltf_depth) {
@@ -158,21 +119,21 @@ private:
         const Json& mesh = at(node, "mesh");
         const bool has_mesh =
             mesh.is_number_unsigned() && mesh.get<std::uint64_t>() < of_meshes_.size();
-        double triangles = has_mesh ? of_meshes_[mesh.get<std::size_t>()] : 0.0;
+        SceneSize size{has_mesh ? of_meshes_[mesh.get<std::size_t>()] : 0.0, 1.0};
         for (const Json& child : at(node, "children")) {
             const auto more = of_node(child, depth + 1);
             if (!more) {
                 return std::nullopt;
             }
-            triangles += *more;
+            size += *more;
         }
-        of_nodes_[place] = triangles;
-        return triangles;
+        of_nodes_[place] = size;
+        return size;
     }
 
     const Json& file_;
     std::vector<double> of_meshes_;
-    std::vector<std::optional<double>> of_nodes_; // with their children; absent: not yet known
+    std::vector<std::optional<SceneSize>> of_nodes_; // with their children; absent: not yet known
 };
 
 // Those of appearance change no triangle.
@@ -201,27 +162,60 @@ Error too_deep() {
                         max_gltf_depth)};
 }
 
+// Of all primitives: those of one accessor are copied for each primitive that names it.
+double vertices_of(const Json& file) {
+    double vertices = 0.0;
+    for (const Json& mesh : at(file, "meshes")) {
+        for (const Json& primitive : at(mesh, "primitives")) {
+            const Json& position = at(at(primitive, "attributes"), "POSITION");
+            vertices += number_of(at(at(at(file, "accessors"), position), "count"));
+        }
+    }
+    return vertices;
+}
+
+std::size_t materials_in_use(const Json& file) {
+    std::set<std::uint64_t> used;
+    for (const Json& mesh : at(file, "meshes")) {
+        for (const Json& primitive : at(mesh, "primitives")) {
+            if (const Json& material = at(primitive, "material"); material.is_number_unsigned()) {
+                used.insert(material.get<std::uint64_t>());
+            }
+        }
+    }
+    return used.size();
+}
+
+Error too_many(double found, std::string_view what, std::size_t max) {
+    return {fmt::format("{:.0f} {} found, at most {} were expected", found, what, max)};
+}
+
 } // namespace
 
-Result<void> check_gltf(const std::filesystem::path& file) {
-    const std::string text = json_text(file);
-    if (depth_of(text) > max_gltf_depth) {
-        return too_deep();
-    }
-    const Json json = Json::parse(text, nullptr, false);
-    if (json.is_discarded()) {
-        return {};
-    }
-    if (auto good = check_extensions(json); !good) {
+Result<void> check_gltf_depth(std::string_view json) {
+    return depth_of(json) > max_gltf_depth ? Result<void>(too_deep()) : Result<void>();
+}
+
+Result<void> check_gltf(const Json& file) {
+    if (auto good = check_extensions(file); !good) {
         return good;
     }
-    const auto triangles = GltfTriangles(json).count();
-    if (!triangles) {
+    const auto size = GltfSize(file).count();
+    if (!size) {
         return too_deep();
     }
-    if (*triangles > static_cast<double>(max_mesh_triangles)) {
-        return Error{fmt::format("{:.0f} triangles found, at most {} were expected", *triangles,
-                                 max_mesh_triangles)};
+    if (size->triangles > static_cast<double>(max_mesh_triangles)) {
+        return too_many(size->triangles, "triangles", max_mesh_triangles);
+    }
+    if (size->nodes > static_cast<double>(max_gltf_nodes)) {
+        return too_many(size->nodes, "nodes", max_gltf_nodes);
+    }
+    if (const double vertices = vertices_of(file);
+        vertices > static_cast<double>(max_gltf_vertices)) {
+        return too_many(vertices, "vertices of primitives", max_gltf_vertices);
+    }
+    if (const std::size_t materials = materials_in_use(file); materials > max_mesh_parts) {
+        return too_many(static_cast<double>(materials), "materials in use", max_mesh_parts);
     }
     return {};
 }

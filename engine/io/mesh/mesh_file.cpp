@@ -143,6 +143,11 @@ Result<std::vector<std::string>> check_obj(const fs::path& file) {
         return Error{fmt::format("{}: {} triangles found, at most {} were expected", file.string(),
                                  contents->triangles, max_mesh_triangles)};
     }
+    if (contents->face_work > max_face_work) {
+        return Error{fmt::format("{}: faces of up to {} corners found, which take too long to "
+                                 "divide; smaller ones were expected",
+                                 file.string(), contents->max_corners)};
+    }
     if (contents->material_changes > max_material_changes) {
         return Error{fmt::format("{}: {} changes of the material found, at most {} were expected",
                                  file.string(), contents->material_changes, max_material_changes)};

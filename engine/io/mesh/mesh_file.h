@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <stop_token>
@@ -30,6 +32,7 @@ struct MeshFile {
 
 inline constexpr std::size_t max_material_changes =
     20'000; ///< of an OBJ file: its importer is slow
+inline constexpr std::uint64_t max_face_work = 2'000'000'000; ///< ObjContents::face_work: ~20 s
 inline constexpr std::size_t max_mesh_texels = std::size_t{1} << 26U; ///< of a file's pictures
 
 /// Reads an OBJ or glTF 2.0 file as import_mesh(), in a process of its own with limits. Pictures

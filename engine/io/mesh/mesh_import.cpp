@@ -2,101 +2,34 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
 #include <exception>
-#include <memory>
+#include <map>
 #include <new>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/GltfMaterial.h>
-#include <assimp/IOStream.hpp>
 #include <assimp/Importer.hpp>
-#include <assimp/config.h>
 #include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
-#include "engine/io/mesh/gltf_check.h"
+#include "engine/io/mesh/corner_mesh.h"
+#include "engine/io/mesh/gltf_file.h"
+#include "engine/io/mesh/import_files.h"
 #include "engine/io/mesh/near_file.h"
 
 namespace reljef::io {
 namespace {
 
 constexpr std::array<std::string_view, 3> extensions{".obj", ".gltf", ".glb"};
-
-// Makes comments of an OBJ file's lines with groups and objects: Assimp takes over 20 s for 50,000
-// of them, and reljef needs materials only.
-class WithoutGroups : public Assimp::IOStream {
-public:
-    explicit WithoutGroups(std::unique_ptr<Assimp::IOStream> file) : file_(std::move(file)) {}
-
-    std::size_t Read(void* buffer, std::size_t size, std::size_t count) override {
-        const std::size_t items = file_->Read(buffer, size, count);
-        auto* const bytes = static_cast<char*>(buffer);
-        for (std::size_t i = 0; i < items * size; ++i) {
-            char& c = bytes[i];
-            const bool is_continued = before_ == '\\';
-            if (before_ == '\n' && (c == 'g' || c == 'o')) {
-                c = '#';
-            }
-            before_ = is_continued && c == '\n' ? ' ' : is_continued && c == '\r' ? '\\' : c;
-        }
-        return items;
-    }
-    std::size_t Write(const void*, std::size_t, std::size_t) override { return 0; }
-    aiReturn Seek(std::size_t offset, aiOrigin origin) override {
-        const std::size_t place = file_->Tell();
-        const aiReturn done = file_->Seek(offset, origin);
-        if (file_->Tell() != place) {
-            before_ = file_->Tell() == 0 ? '\n' : ' ';
-        }
-        return done;
-    }
-    [[nodiscard]] std::size_t Tell() const override { return file_->Tell(); }
-    [[nodiscard]] std::size_t FileSize() const override { return file_->FileSize(); }
-    void Flush() override {}
-
-private:
-    std::unique_ptr<Assimp::IOStream> file_;
-    char before_ = '\n'; // what the next character follows
-};
-
-// Opens files of one folder, and of limited size together.
-class FolderFiles : public Assimp::DefaultIOSystem {
-public:
-    explicit FolderFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
-
-    bool Exists(const char* name) const override {
-        return is_file_below(folder_, name) && DefaultIOSystem::Exists(name);
-    }
-    Assimp::IOStream* Open(const char* name, const char* mode) override {
-        std::error_code code;
-        if (!is_file_below(folder_, name) || std::strchr(mode, 'w') != nullptr) {
-            return nullptr;
-        }
-        const bool is_new = opened_.insert(name).second; // importers open a file again
-        const std::uintmax_t size = is_new ? std::filesystem::file_size(name, code) : 0;
-        if (code || size > left_) {
-            return nullptr;
-        }
-        left_ -= size;
-        std::unique_ptr<Assimp::IOStream> file(DefaultIOSystem::Open(name, mode));
-        return file != nullptr && extension_of(name) == ".obj"
-                   ? new WithoutGroups(std::move(file)) // the importer's
-                   : file.release();
-    }
-
-private:
-    std::filesystem::path folder_;
-    std::set<std::string> opened_;
-    std::uintmax_t left_ = max_mesh_bytes;
-};
 
 // glTF 1 has the same extensions as glTF 2.
 void keep_one_importer(Assimp::Importer& importer, const std::string& extension) {
@@ -109,40 +42,113 @@ void keep_one_importer(Assimp::Importer& importer, const std::string& extension)
     }
 }
 
-void set_up(Assimp::Importer& importer, const std::filesystem::path& file) {
-    constexpr float hard_edge = 45.0F; // degrees
-    constexpr int left_out = aiComponent_ANIMATIONS | aiComponent_BONEWEIGHTS |
-                             aiComponent_CAMERAS | aiComponent_LIGHTS | aiComponent_COLORS |
-                             aiComponent_TANGENTS_AND_BITANGENTS;
-    importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, hard_edge);
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
-                                aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, left_out);
-    importer.SetIOHandler(new FolderFiles(file.parent_path())); // the importer's
-    keep_one_importer(importer, extension_of(file));
+// Where a node lies, metres of the file.
+struct Placement {
+    glm::dmat3 linear{1.0};
+    glm::dvec3 offset{0.0};
+};
+
+Placement placed(const Placement& parent, const aiMatrix4x4& node) {
+    const glm::dmat3 linear(glm::dvec3(node.a1, node.b1, node.c1), // columns
+                            glm::dvec3(node.a2, node.b2, node.c2),
+                            glm::dvec3(node.a3, node.b3, node.c3));
+    return {parent.linear * linear,
+            parent.linear * glm::dvec3(node.a4, node.b4, node.c4) + parent.offset};
 }
 
-glm::vec3 z_up(const aiVector3D& v) {
-    return {v.x, -v.z, v.y};
+// Adding 0 makes −0 a 0: the bits of equal vertices are compared.
+glm::vec3 z_up(glm::dvec3 v) {
+    return glm::vec3(v.x, -v.z, v.y) + 0.0F;
 }
 
-scene::Mesh mesh_of(const aiMesh& found) {
-    scene::Mesh mesh;
-    for (unsigned i = 0; i < found.mNumVertices; ++i) {
-        mesh.positions.push_back(z_up(found.mVertices[i]));
-        mesh.normals.push_back(found.HasNormals() ? z_up(found.mNormals[i]) : glm::vec3(0.0F));
-        const aiVector3D at =
-            found.HasTextureCoords(0) ? found.mTextureCoords[0][i] : aiVector3D(0.0F);
-        mesh.texture_coordinates.emplace_back(at.x, at.y);
+glm::dvec3 vector_of(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::dvec3 normal_at(const aiMesh& mesh, unsigned vertex) {
+    return mesh.HasNormals() ? vector_of(mesh.mNormals[vertex]) : glm::dvec3(0.0);
+}
+
+glm::vec2 texture_coordinate_at(const aiMesh& mesh, unsigned vertex) {
+    const aiVector3D at =
+        mesh.HasTextureCoords(0) ? mesh.mTextureCoords[0][vertex] : aiVector3D(0.0F);
+    return glm::vec2(at.x, at.y) + 0.0F;
+}
+
+// 0 where there is none.
+glm::vec3 normal_of(glm::dvec3 v) {
+    const double length = glm::length(v);
+    return length > 0.0 && std::isfinite(length) ? z_up(v / length) : glm::vec3(0.0F);
+}
+
+bool has_good_corners(const aiMesh& mesh) {
+    const bool has_all = mesh.mNumFaces == 0 || mesh.mVertices != nullptr;
+    return has_all &&
+           std::all_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces, [&](const aiFace& face) {
+               return std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
+                                  [&](unsigned corner) { return corner < mesh.mNumVertices; });
+           });
+}
+
+// The triangles of a scene by material, with corners that no triangles share.
+class Parts {
+public:
+    explicit Parts(const aiScene& scene) : scene_(scene) {}
+
+    // A node and those below it.
+    Result<void> add(const aiNode& node, const Placement& parent) {
+        const Placement place = placed(parent, node.mTransformation);
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            if (node.mMeshes[i] < scene_.mNumMeshes) {
+                add(*scene_.mMeshes[node.mMeshes[i]], place);
+            }
+            if (triangles_ > max_mesh_triangles) {
+                return Error{fmt::format("{} triangles found, at most {} were expected", triangles_,
+                                         max_mesh_triangles)};
+            }
+        }
+        for (unsigned i = 0; i < node.mNumChildren; ++i) {
+            if (auto good = add(*node.mChildren[i], place); !good) {
+                return good;
+            }
+        }
+        return {};
     }
-    for (unsigned i = 0; i < found.mNumFaces; ++i) {
-        const aiFace& face = found.mFaces[i];
-        if (face.mNumIndices == 3) {
-            mesh.indices.insert(mesh.indices.end(), face.mIndices, face.mIndices + 3);
+
+    [[nodiscard]] std::size_t triangles() const { return triangles_; }
+    [[nodiscard]] std::map<unsigned, scene::Mesh>& by_material() { return meshes_; }
+
+private:
+    void add(const aiMesh& found, const Placement& place) {
+        scene::Mesh& mesh = meshes_[found.mMaterialIndex];
+        const glm::dmat3& linear = place.linear;
+        const bool is_mirrored = glm::determinant(linear) < 0.0;
+        // The inverse transpose but for its size, also of what has no inverse.
+        const glm::dmat3 turn =
+            glm::dmat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                       glm::cross(linear[0], linear[1])) *
+            (is_mirrored ? -1.0 : 1.0);
+        const std::array<unsigned, 3> order{0, is_mirrored ? 2U : 1U, is_mirrored ? 1U : 2U};
+        for (unsigned i = 0; i < found.mNumFaces; ++i) {
+            const aiFace& face = found.mFaces[i];
+            if (face.mNumIndices != 3) {
+                continue;
+            }
+            ++triangles_;
+            for (const unsigned corner : order) {
+                const unsigned vertex = face.mIndices[corner];
+                mesh.positions.push_back(
+                    z_up(linear * vector_of(found.mVertices[vertex]) + place.offset));
+                mesh.normals.push_back(normal_of(turn * normal_at(found, vertex)));
+                mesh.texture_coordinates.push_back(texture_coordinate_at(found, vertex));
+            }
         }
     }
-    return mesh;
-}
+
+    const aiScene& scene_;
+    std::map<unsigned, scene::Mesh> meshes_;
+    std::size_t triangles_ = 0;
+};
 
 void take_texture(const aiScene& scene, const aiMaterial& material, MeshPart& part) {
     aiString name;
@@ -162,13 +168,13 @@ void take_texture(const aiScene& scene, const aiMaterial& material, MeshPart& pa
     part.picture.assign(bytes, bytes + embedded->mWidth);
 }
 
-MeshPart part_of(const aiScene& scene, const aiMesh& found) {
+MeshPart part_of(const aiScene& scene, unsigned number, const scene::Mesh& corners) {
     MeshPart part;
-    part.mesh = mesh_of(found);
-    if (found.mMaterialIndex >= scene.mNumMaterials) {
+    part.mesh = joined_corners(corners);
+    if (number >= scene.mNumMaterials) {
         return part;
     }
-    const aiMaterial& material = *scene.mMaterials[found.mMaterialIndex];
+    const aiMaterial& material = *scene.mMaterials[number];
     aiColor4D color(0.8F, 0.8F, 0.8F, 1.0F);
     if (material.Get(AI_MATKEY_BASE_COLOR, color) != aiReturn_SUCCESS) {
         material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
@@ -192,58 +198,79 @@ Error too_large() {
 }
 
 Result<std::vector<MeshPart>> parts_of(const aiScene& scene) {
-    std::size_t triangles = 0;
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-        triangles += scene.mMeshes[i]->mNumFaces;
+    constexpr float hard_edge = 45.0F; // degrees
+    Parts found(scene);
+    if (scene.mRootNode != nullptr) {
+        if (auto good = found.add(*scene.mRootNode, {}); !good) {
+            return good.error();
+        }
     }
-    if (triangles == 0 || triangles > max_mesh_triangles || scene.mNumMeshes > max_mesh_parts) {
-        return Error{fmt::format("{} triangles in {} parts found, 1 to {} in at most {} were "
+    auto& meshes = found.by_material();
+    if (found.triangles() == 0 || meshes.size() > max_mesh_parts) {
+        return Error{fmt::format("{} triangles of {} materials found, 1 to {} of at most {} were "
                                  "expected",
-                                 triangles, scene.mNumMeshes, max_mesh_triangles, max_mesh_parts)};
+                                 found.triangles(), meshes.size(), max_mesh_triangles,
+                                 max_mesh_parts)};
     }
     std::vector<MeshPart> parts;
-    for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-        parts.push_back(part_of(scene, *scene.mMeshes[i]));
+    for (auto& [material, mesh] : meshes) {
+        add_missing_normals(mesh, hard_edge);
+        parts.push_back(part_of(scene, material, mesh));
+        mesh = {};
     }
     return parts;
+}
+
+Error unreadable(std::string_view problem) {
+    return {fmt::format("cannot be read ({}), an OBJ or glTF 2.0 file was expected",
+                        plain_text(problem))};
+}
+
+// `file`: absolute. `contents`: see ImportFiles.
+Result<std::vector<MeshPart>> imported(const std::filesystem::path& file, std::string contents) {
+    Assimp::Importer importer;
+    auto* const files = new ImportFiles(file, std::move(contents));
+    importer.SetIOHandler(files); // owns it
+    keep_one_importer(importer, extension_of(file));
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
+    if (!files->problem().empty()) {
+        return Error{files->problem()};
+    }
+    // Assimp's own steps for normals, equal vertices, nodes and checks take a time that grows with
+    // the square of the file's size, and more.
+    if (scene != nullptr) {
+        if (!std::all_of(scene->mMeshes, scene->mMeshes + scene->mNumMeshes,
+                         [](const aiMesh* mesh) { return has_good_corners(*mesh); })) {
+            return unreadable("corners without vertices");
+        }
+        scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_FlipUVs);
+    }
+    const std::string problem = importer.GetErrorString();
+    if (problem.find("bad_alloc") != std::string::npos) { // Assimp catches it
+        return too_large();
+    }
+    return scene != nullptr ? parts_of(*scene) : unreadable(problem);
 }
 
 } // namespace
 
 Result<std::vector<MeshPart>> import_mesh(const std::filesystem::path& file) {
-    constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType |
-                               aiProcess_RemoveComponent | aiProcess_GenSmoothNormals |
-                               aiProcess_FlipUVs | aiProcess_PreTransformVertices |
-                               aiProcess_JoinIdenticalVertices | aiProcess_ValidateDataStructure;
     const std::string extension = extension_of(file);
     if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
         return Error{fmt::format("extension '{}' found, .obj, .gltf or .glb was expected",
                                  plain_text(extension))};
     }
     try {
+        Result<std::string> contents = std::string();
         if (extension != ".obj") {
-            if (auto good = check_gltf(file); !good) {
-                return good.error();
-            }
+            contents = reduced_gltf(file);
         }
-        Assimp::Importer importer;
-        set_up(importer, std::filesystem::absolute(file));
-        const aiScene* const scene =
-            importer.ReadFile(std::filesystem::absolute(file).string(), steps);
-        const std::string problem = importer.GetErrorString();
-        if (problem.find("bad_alloc") != std::string::npos) { // Assimp catches it
-            return too_large();
-        }
-        if (scene == nullptr) {
-            return Error{fmt::format("cannot be read ({}), an OBJ or glTF 2.0 file was expected",
-                                     plain_text(problem))};
-        }
-        return parts_of(*scene);
+        return contents ? imported(std::filesystem::absolute(file), std::move(*contents))
+                        : Result<std::vector<MeshPart>>(contents.error());
     } catch (const std::bad_alloc&) {
         return too_large();
     } catch (const std::exception& problem) {
-        return Error{fmt::format("cannot be read ({}), an OBJ or glTF 2.0 file was expected",
-                                 plain_text(problem.what()))};
+        return unreadable(problem.what());
     }
 }
 

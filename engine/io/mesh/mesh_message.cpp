@@ -9,6 +9,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "engine/io/mesh/corner_mesh.h"
+
 namespace reljef::io {
 namespace {
 
@@ -87,11 +89,6 @@ bool is_finite(glm::vec3 v) {
 bool is_in_reach(glm::vec3 v) {
     return is_finite(v) && std::abs(v.x) <= max_mesh_coordinate &&
            std::abs(v.y) <= max_mesh_coordinate && std::abs(v.z) <= max_mesh_coordinate;
-}
-
-bool is_normal(glm::vec3 v) {
-    const float length = glm::length(v);
-    return std::isfinite(length) && length > 0.5F && length < 2.0F;
 }
 
 // Sums of the normals of the triangles around each vertex, weighted by area.

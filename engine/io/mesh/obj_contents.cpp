@@ -1,5 +1,6 @@
 #include "engine/io/mesh/obj_contents.h"
 
+#include <algorithm>
 #include <fstream>
 #include <string_view>
 
@@ -60,7 +61,10 @@ private:
             name_.pop_back();
         }
         if (key_ == "f" && words_ > 3) {
-            contents_.triangles += words_ - 3; // a word for the key, and two fewer than corners
+            const std::uint64_t corners = words_ - 1; // a word for the key
+            contents_.triangles += corners - 2;
+            contents_.max_corners = std::max(contents_.max_corners, corners);
+            contents_.face_work += corners > 4 ? corners * corners : 0;
         } else if (key_ == "usemtl" && name_ != material_) {
             material_ = name_;
             ++contents_.material_changes;

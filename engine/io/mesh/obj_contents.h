@@ -13,6 +13,8 @@ namespace reljef::io {
 /// What the lines of an OBJ file say.
 struct ObjContents {
     std::uint64_t triangles = 0;        ///< of all faces; a face of n corners has n - 2
+    std::uint64_t max_corners = 0;      ///< of one face
+    std::uint64_t face_work = 0;        ///< squares of the corners of faces with over four
     std::uint64_t material_changes = 0; ///< lines that name another material than the one before
     std::vector<std::string>
         libraries; ///< the first max_obj_libraries files of materials, as named

@@ -17,6 +17,11 @@ constexpr std::array<std::string_view, 6> pose_names{"overview", "oblique", "low
 
 using Ground = std::function<double(double x, double y)>;
 
+// Above the ground, by a share of the relief. On level ground the eye would else lie in it.
+double eye_height(const Box& bounds, double share) {
+    return std::max(share * bounds.size().z, 1e-4 * bounds.size().x);
+}
+
 Camera valley_camera(const Box& bounds, const Ground& ground) {
     constexpr int steps = 32; // of a lattice over the middle
     const double side = 0.5 * bounds.size().x;
@@ -32,7 +37,7 @@ Camera valley_camera(const Box& bounds, const Ground& ground) {
         }
     }
     Camera camera;
-    camera.eye = lowest + glm::dvec3(0.0, 0.0, 0.01 * bounds.size().z);
+    camera.eye = lowest + glm::dvec3(0.0, 0.0, eye_height(bounds, 0.01));
     camera.target = lowest.z < highest.z ? highest : camera.eye + glm::dvec3(0.0, side, 0.0);
     return camera;
 }
@@ -121,7 +126,7 @@ Camera pose_camera(Pose pose, const Box& bounds, const Ground& ground) {
         return camera;
     case Pose::low:
         camera.eye = middle + glm::dvec3(0.0, -0.3 * w, 0.0);
-        camera.eye.z = ground(camera.eye.x, camera.eye.y) + 0.15 * (h1 - h0);
+        camera.eye.z = ground(camera.eye.x, camera.eye.y) + eye_height(bounds, 0.15);
         camera.target = middle + glm::dvec3(0.05 * w, 0.4 * w, h0);
         return camera;
     case Pose::grazing:

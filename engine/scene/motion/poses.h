@@ -11,6 +11,7 @@ namespace reljef::scene {
 
 /// The standard viewpoints of the benchmarks. w: width (x) of the bounds, centred at the origin;
 /// h0, h1: their lowest and highest z; vertical field of view 57.3°. The middle is within 0.25w.
+/// The eye is at least 0.0001w above the ground.
 enum class Pose {
     overview, ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h0)
     oblique,  ///< eye (0, −0.65w, h1 + 0.35w), target (0, −0.05w, h1): for reliefs below z = 0

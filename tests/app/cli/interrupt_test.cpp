@@ -2,12 +2,14 @@
 #include <csignal>
 #include <filesystem>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "app/cli/interrupt.h"
+#include "engine/core/atomic_file.h"
 #include "tests/app/command_line.h"
 #include "tests/support/nginx.h"
 #include "tests/support/process_state.h"
@@ -100,6 +102,82 @@ TEST(CtrlC, EndsAViewerThatWasClosedWithSuccess) {
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(CtrlC, EndsWithoutTemporaryFilesOfWorkThatGoesOn) {
+    const test::TemporaryFolder folder;
+    const pid_t child = ::fork();
+    if (child == 0) {
+        auto first = AtomicFile::create(folder.path() / "file");
+        const AtomicFile moved = std::move(*first);
+        const auto scratch = ScratchFolder::create(folder.path());
+        auto done = write_text_file(folder.path() / "done", "all of it");
+        if (!scratch || !done || folder.names().size() != 3) {
+            ::_exit(2);
+        }
+        const cli::Interrupt interrupt;
+        interrupt.end_after(std::chrono::milliseconds(100), "ended\n");
+        ::kill(::getpid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::minutes(1));
+        ::_exit(3);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"done"});
+}
+
+TEST(CtrlC, WaitsForWorkThatEndsByItself) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const cli::Interrupt interrupt;
+        interrupt.end_after(std::chrono::milliseconds(100), "ended\n");
+        interrupt.end_after({});
+        ::kill(::getpid(), SIGTERM);
+        std::this_thread::sleep_for(std::chrono::milliseconds(600));
+        ::_exit(interrupt.requested() ? 3 : 2);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 3);
+}
+
+// The frame would take hours.
+TEST(CtrlC, EndsAPictureOfASlowShaderAndLeavesNoRubbish) {
+    const test::TemporaryFolder folder;
+    const test::TemporaryFolder scenes;
+    const std::string shader =
+        scenes
+            .write("slow.glsl",
+                   "vec3 bent(vec3 v) { return sin(v * 3.7) + cos(v.yzx * 5.3) + exp(-v * v); }\n"
+                   "vec3 surface_color(Surface surface) {\n    vec3 light = surface.light;\n"
+                   "    for (int i = 0; i < 60000; ++i) {\n"
+                   "        light = bent(bent(bent(bent(light))));\n"
+                   "    }\n    return light;\n}\n")
+            .string();
+    const std::string terrain = test::small_terrain(scenes, "natural");
+    const std::string picture = (folder.path() / "slow.png").string();
+    const std::string frames = (folder.path() / "slow-%04d.png").string();
+    const std::string hits = (folder.path() / "hit.exr").string();
+    for (const std::vector<std::string>& outputs :
+         {std::vector<std::string>{"-o", picture, "--hit", hits},
+          {"-o", frames, "--path", "orbit", "--frames", "2"}}) {
+        test::ProgramOptions options;
+        options.interruption = {SIGTERM, [](int process) {
+                                    return test::processor_seconds(process, "llvmpipe") > 0.5;
+                                }};
+        std::vector<std::string> arguments{"render",    terrain,  "--surface-shader",
+                                           shader,      "--size", "1024x1024",
+                                           "--context", "osmesa", "--quiet"};
+        arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+        const auto result = test::run_program(RELJEF_BINARY, arguments, options);
+        EXPECT_FALSE(result.timed_out);
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_EQ(result.err, "reljef: interrupted\n");
+        EXPECT_TRUE(folder.names().empty());
+    }
 }
 
 // A server that is fast enough for every deadline, but takes minutes.

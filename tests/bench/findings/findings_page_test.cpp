@@ -2,8 +2,10 @@
 
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -162,6 +164,23 @@ TEST(Findings, WithoutResultsNothingIsMeasuredAndNothingIsClaimed) {
     EXPECT_EQ(occurrences(*page, "| **confirmed** |"), 1U);
     EXPECT_EQ(occurrences(*page, "| **depends** |"), 0U);
     EXPECT_THAT(*page, Not(HasSubstr("In return")));
+}
+
+TEST(Findings, ReadNoResultsOfAnotherSuite) {
+    for (const auto& [file, text, expected] :
+         {std::tuple("objects.json", R"("rows": [{"suite": "tables"}])",
+                     "tables found, those of "
+                     "objects were"),
+          {"distance.json", R"("suite": "tables-claims", "rows": [])",
+           "tables-claims found, those of tables-distances were"}}) {
+        const test::TemporaryFolder folder;
+        const auto path =
+            folder.write(file, fmt::format(R"({{"schema": "reljef-bench/1", {}}})", text));
+        const auto results = read_all_results(folder.path());
+        ASSERT_FALSE(results) << file;
+        EXPECT_EQ(results.error().message,
+                  fmt::format("{}: results of {} expected", path.string(), expected));
+    }
 }
 
 TEST(Findings, ASentenceThatDoesNotHoldIsLeftOut) {

@@ -66,18 +66,18 @@ TEST_F(Documents, OfOtherSchemasNameBoth) {
 TEST_F(Documents, DamageIsNamedWithItsPlace) {
     const std::vector<std::tuple<std::string, json, std::string>> damages{
         {"/columns", json::array(), "columns: "},
-        {"/columns/1/key", "/scene", "different places in a row"},
-        {"/columns/1/key", "/ms", "different places in a row"},
-        {"/columns/1/key", "what", "different places in a row"},
-        {"/columns/1/key", "/wh~t", "different places in a row"},
-        {"/columns/1/key", "/0", "different places in a row"},
-        {"/columns/1/key", "/what/", "different places in a row"},
+        {"/columns/1/key", "/scene", "columns[1].key: \"/scene\" found, a place in a row"},
+        {"/columns/1/key", "/ms", "columns[2].key: \"/ms/median\" found, a place in a row"},
+        {"/columns/1/key", "what", "columns[1].key: \"what\" found, a place in a row"},
+        {"/columns/1/key", "/wh~t", "columns[1].key: \"/wh~t\" found, a place in a row"},
+        {"/columns/1/key", "/0", "columns[1].key: \"/0\" found, a place in a row"},
+        {"/columns/1/key", "/what/", "columns[1].key: \"/what/\" found, a place in a row"},
         {"/columns/1/role", "title", "columns[1].role: \"title\" found, group, name or measured"},
         {"/columns/2/better", "most", "columns[2].better: \"most\" found, less or more"},
         {"/columns/2/unit", 3, "columns[2].unit"},
         {"/rows", 5, "rows: 5 found"},
-        {"/rows/1", 5, "an array of objects"},
-        {"/rows/1/ms/median", "fast", "numbers at \"/ms/median\""},
+        {"/rows/1", 5, "rows[1]: 5 found, an object was expected"},
+        {"/rows/1/ms/median", "fast", "rows[1]/ms/median: \"fast\" found, a number was expected"},
         {"/settings", nullptr, "settings: "},
         {"/environment", nullptr, "environment: "}};
     for (const auto& [pointer, value, part] : damages) {
@@ -105,6 +105,21 @@ TEST_F(Documents, PartsAreReadAsOneRun) {
     const auto refused = read_document_parts(name);
     ASSERT_FALSE(refused);
     EXPECT_THAT(refused.error().message, HasSubstr("parts with different columns found"));
+}
+
+TEST_F(Documents, PartsWithoutAShardAreNotOneOfThem) {
+    for (const std::string& text :
+         {figure_json(test::made_figures()), json_report(test::made_results())}) {
+        const auto first = folder_.write("part-0.json", text);
+        EXPECT_TRUE(read_document_parts(folder_.path() / "part-%d.json"));
+        folder_.write("part-1.json", text);
+        const auto refused = read_document_parts(folder_.path() / "part-%d.json");
+        ASSERT_FALSE(refused);
+        EXPECT_THAT(refused.error().message,
+                    testing::AllOf(testing::StartsWith(first.string() + ": a whole run found"),
+                                   HasSubstr("names its shard was expected")));
+        std::filesystem::remove(folder_.path() / "part-1.json");
+    }
 }
 
 } // namespace

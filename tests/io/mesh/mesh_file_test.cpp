@@ -1,6 +1,8 @@
 #include "engine/io/mesh/mesh_file.h"
 
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <stop_token>
 #include <string>
 
@@ -175,14 +177,19 @@ TEST_F(MeshFileTest, RefusesWhatIsNoMesh) {
 
 TEST_F(MeshFileTest, RefusesTooManyTrianglesBeforeItImportsThem) {
     const ImportLimits never = importer("exit 7");
-    std::string face = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
-    for (std::size_t i = 0; i < max_mesh_triangles + 3; ++i) {
+    std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (std::size_t i = 0; i < max_mesh_triangles / 2; ++i) {
+        faces += "f 1 2 3 1\n";
+    }
+    EXPECT_THAT(refusal(folder_.write("limit.obj", faces), never), HasSubstr("fail (status 7)"));
+    EXPECT_THAT(refusal(folder_.write("large.obj", faces + "f 1 2 3\n"), never),
+                HasSubstr("2000001 triangles found, at most 2000000 were expected"));
+    std::string face = "v 0 0 0\nf";
+    for (int i = 0; i < 50'000; ++i) {
         face += " 1";
     }
-    EXPECT_THAT(refusal(folder_.write("large.obj", face), never),
-                HasSubstr("2000001 triangles found, at most 2000000 were expected"));
-    EXPECT_THAT(refusal(folder_.write("limit.obj", face.substr(0, face.size() - 2)), never),
-                HasSubstr("fail (status 7)"));
+    EXPECT_THAT(refusal(folder_.write("face.obj", face), never),
+                HasSubstr("faces of up to 50000 corners found"));
     const std::string large =
         replaced(test::triangle_gltf(test::triangle_data), R"("count":3,"type":"SCALAR")",
                  R"("count":30000000,"type":"SCALAR")");
@@ -265,6 +272,57 @@ TEST_F(MeshFileTest, LimitsChangesOfTheMaterial) {
     }
     EXPECT_THAT(refusal(folder_.write("changes.obj", text), importer("exit 7")),
                 HasSubstr("20001 changes of the material found"));
+}
+
+// Steps of Assimp compare all corners at a place with each other: over a minute for each file.
+TEST_F(MeshFileTest, ManyCornersAtOnePlaceCostLittle) {
+    constexpr int triangles = 200'000;
+    std::string same = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    std::string around = "v 0 0 0\n";
+    for (int i = 0; i < triangles; ++i) {
+        same += "usemtl one\nf 1 2 3\n";
+        const double turn = 2.0 * std::numbers::pi * i / triangles;
+        around += fmt::format("v {:.6f} {:.6f} {:.6f}\n", std::cos(turn),
+                              0.5 * std::sin(9.0 * turn), std::sin(turn));
+    }
+    for (int i = 0; i < triangles; ++i) {
+        around += fmt::format("f 1 {} {}\n", i + 2, (i + 1) % triangles + 2);
+    }
+    ImportLimits limits;
+    limits.seconds = 15; // of the processor
+    for (const std::string& text : {same, around}) {
+        const auto file = read_mesh_file(folder_.write("corners.obj", text), limits);
+        ASSERT_TRUE(file) << file.error().message;
+        ASSERT_EQ(file->parts.size(), 1U);
+        EXPECT_EQ(file->parts[0].mesh->indices.size(), 3U * triangles);
+    }
+}
+
+TEST_F(MeshFileTest, LimitsMaterialsOfLibraries) {
+    std::string library;
+    for (int i = 0; i <= 20'000; ++i) {
+        library += fmt::format("  NewMtl unused{}\n", i);
+    }
+    folder_.write("square.mtl", library + test::square_mtl);
+    EXPECT_THAT(refusal(folder_.write("square.obj", test::square_obj)),
+                HasSubstr("20002 materials found, at most 20000 were expected"));
+    EXPECT_THAT(
+        refusal(folder_.write("itself.obj", "mtllib itself.obj\n" + test::square_obj + library)),
+        HasSubstr("materials found, at most 20000 were expected"));
+}
+
+// Each line would cost a reading of the library.
+TEST_F(MeshFileTest, ReadsALibraryOnce) {
+    folder_.write("square.mtl", test::square_mtl + std::string(1'000'000, '#') + "\n");
+    std::string text;
+    for (int i = 0; i < 100'000; ++i) {
+        text += i % 2 == 0 ? "mtllib square.mtl\n" : "mtllib ./square.mtl\n";
+    }
+    ImportLimits limits;
+    limits.seconds = 15; // of the processor
+    const auto file = read_mesh_file(folder_.write("square.obj", text + test::square_obj), limits);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_EQ(file->parts[0].color, glm::vec3(0.5F, 0.25F, 1.0F));
 }
 
 TEST_F(MeshFileTest, OutlivesImportersThatCrashHangOrRave) {

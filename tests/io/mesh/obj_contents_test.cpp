@@ -22,6 +22,12 @@ TEST(ObjContents, CountsTrianglesOfFaces) {
     EXPECT_EQ(contents_of("# f 1 2 3\nv 1 2 3 4 5\nf 1 2\nl 1 2 3\nfoo 1 2 3\n").triangles, 0U);
 }
 
+TEST(ObjContents, CountsCornersOfLargeFaces) {
+    const ObjContents found = contents_of("f 1 2 3 4\nf 1 2 3 4 5\nf 1 2 3 4 5 6\nf 1 2 3\n");
+    EXPECT_EQ(found.max_corners, 6U);
+    EXPECT_EQ(found.face_work, 25U + 36U);
+}
+
 TEST(ObjContents, CountsChangesOfTheMaterial) {
     EXPECT_EQ(contents_of("usemtl a\nusemtl a\nusemtl b\nusemtl a \nusemtl a\n").material_changes,
               3U);

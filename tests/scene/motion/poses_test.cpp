@@ -55,6 +55,16 @@ TEST(Poses, TheValleyIsTheLowestGroundOfTheMiddle) {
     EXPECT_GT(glm::distance(flat.target, flat.eye), 1.0);
 }
 
+TEST(Poses, SeeLevelGroundFromAboveIt) {
+    const Box level{{-0.5 * w, -150.0, 20.0}, {0.5 * w, 150.0, 20.0}};
+    for (const Pose pose :
+         {Pose::overview, Pose::oblique, Pose::low, Pose::grazing, Pose::valley}) {
+        const Camera camera = pose_camera(pose, level, [](double, double) { return 20.0; });
+        EXPECT_GT(camera.eye.z, 20.0) << to_string(pose);
+        EXPECT_GT(glm::distance(camera.target, camera.eye), 1.0) << to_string(pose);
+    }
+}
+
 TEST(Poses, TheMapHoldsAllOfItNorthUp) {
     const glm::ivec2 size{1024, 768};
     for (const Box& box : {bounds, Box{{-10.0, -500.0, 0.0}, {10.0, 500.0, 5.0}},

@@ -5,7 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <numbers>
 #include <random>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -40,6 +44,63 @@ std::vector<building::PaintedFaces> house(double x) {
         building::box_faces({{x + 9, 9}, {x + 10, 9}, {x + 10, 10}, {x + 9, 10}}, 12.0, 13.2);
     chimney.color = {0.1F, 0.1F, 0.5F};
     return {walls, chimney};
+}
+
+using Chance = std::mt19937;
+
+double between(Chance& chance, double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(chance);
+}
+
+// A convex outline with short edges among long ones, a flat or hipped roof, and a box on it.
+std::vector<building::PaintedFaces> random_house(Chance& chance) {
+    const glm::dvec2 middle(between(chance, 0.0, 200.0), between(chance, 0.0, 200.0));
+    const glm::dvec2 radius(between(chance, 2.0, 20.0), between(chance, 2.0, 20.0));
+    building::Footprint footprint;
+    footprint.rings.emplace_back();
+    const double step = between(chance, 0.02, 1.2);
+    for (double turn = between(chance, 0.0, 1.0); turn < 2.0 * std::numbers::pi;
+         turn += step * between(chance, 0.1, 1.0)) {
+        footprint.rings[0].push_back(middle + radius * glm::dvec2(std::cos(turn), std::sin(turn)));
+    }
+    for (std::uint32_t i = 1; i + 1 < footprint.rings[0].size(); ++i) {
+        footprint.triangles.emplace_back(0U, i, i + 1);
+    }
+    const double height = between(chance, 3.0, 40.0);
+    const auto roof = chance() % 2 == 0 ? building::RoofKind::flat : building::RoofKind::hipped;
+    building::PaintedFaces walls;
+    walls.faces = building::building_of(footprint, roof, between(chance, -3.0, 0.0), height);
+    walls.color = glm::vec3(between(chance, 0.0, 1.0), 0.2F, 0.2F);
+    building::PaintedFaces box;
+    const double side = between(chance, 0.1, 2.0);
+    box.faces = building::box_faces(
+        {middle, middle + glm::dvec2(side, 0.0), middle + side, middle + glm::dvec2(0.0, side)},
+        height - 2.0, height + between(chance, 0.1, 6.0));
+    box.color = glm::vec3(0.1F, 0.1F, between(chance, 0.0, 1.0));
+    return {walls, box};
+}
+
+glm::dvec3 random_place(const scene::Mesh& mesh, Chance& chance) {
+    const auto corners = scene::triangle_corners(mesh, chance() % (mesh.indices.size() / 3) * 3);
+    double p = between(chance, 0.0, 1.0);
+    double q = between(chance, 0.0, 1.0);
+    if (p + q > 1.0) {
+        p = 1.0 - p;
+        q = 1.0 - q;
+    }
+    return corners[0] + p * (corners[1] - corners[0]) + q * (corners[2] - corners[0]);
+}
+
+// By all triangles.
+double distance_to(std::initializer_list<const scene::Mesh*> meshes, glm::dvec3 place) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const scene::Mesh* const mesh : meshes) {
+        for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
+            const auto corners = scene::triangle_corners(*mesh, i);
+            nearest = std::min(nearest, glm::distance(place, scene::nearest_point(corners, place)));
+        }
+    }
+    return nearest;
 }
 
 class LevelsOfBuildings : public testing::Test {
@@ -87,6 +148,46 @@ TEST_F(LevelsOfBuildings, StateHowFarTheyAreAway) {
         before = level.indices.size();
     }
     EXPECT_LE(3 * before, whole.indices.size()) << "the steps and chimneys are gone";
+}
+
+// The proof's trees and bounds are left out: points are compared with all triangles.
+TEST(LevelsOfRandomBuildings, AreNoFartherAwayThanTheySay) {
+    constexpr int places = 150;
+    constexpr double rounding = 1e-4; // metres: vertices are floats
+    std::size_t levels = 0;
+    for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+        Chance chance(seed);
+        BuildingMeshes meshes;
+        for (int i = 0; i < 12; ++i) {
+            for (const building::PaintedFaces& part : random_house(chance)) {
+                meshes.add(part, glm::dmat4(1.0));
+            }
+        }
+        scene::Scene scene;
+        ASSERT_TRUE(meshes.add_to(scene.root(), true));
+        const scene::Node& square = *scene.root().children().front();
+        const auto* const walls = square.children().front()->get<scene::MeshNode>();
+        const auto* const others = square.children().back()->get<scene::MeshNode>();
+        ASSERT_TRUE(walls->levels && others->levels) << seed;
+        ASSERT_EQ(walls->levels->size(), others->levels->size());
+        for (std::size_t i = 0; i < walls->levels->size(); ++i, ++levels) {
+            const scene::MeshLevel& wall = (*walls->levels)[i];
+            const scene::MeshLevel& other = (*others->levels)[i];
+            for (int place = 0; place < places; ++place) {
+                const auto& [coarse, whole] = place % 2 == 0
+                                                  ? std::pair(wall.mesh.get(), walls->mesh.get())
+                                                  : std::pair(other.mesh.get(), others->mesh.get());
+                EXPECT_LE(distance_to({whole}, random_place(*coarse, chance)),
+                          wall.error + rounding)
+                    << "of the same kind; seed " << seed << ", level " << i;
+                EXPECT_LE(
+                    distance_to({wall.mesh.get(), other.mesh.get()}, random_place(*whole, chance)),
+                    wall.error + rounding)
+                    << "of either; seed " << seed << ", level " << i;
+            }
+        }
+    }
+    EXPECT_GT(levels, 8U);
 }
 
 TEST_F(LevelsOfBuildings, KeepTheSizeOfWindowsAndTheColoursOfRoofs) {
