@@ -129,6 +129,20 @@ std::vector<Direction> directions_of(KeyedVertices keyed, const std::vector<glm:
     return directions;
 }
 
+// `own`: one of the directions.
+glm::vec3 smoothed(const Direction& own, const std::vector<Direction>& directions,
+                   float min_cosine) {
+    glm::vec3 sum(0.0F);
+    for (const Direction& other : directions) {
+        const bool is_own = &own == &other; // its cosine may be less than 1
+        if (is_own || glm::dot(own.normal, other.normal) >= min_cosine) {
+            sum += other.sum;
+        }
+    }
+    const float length = glm::length(sum);
+    return length > 0.0F ? sum / length : own.normal;
+}
+
 // The vertices lie at one position.
 void smooth(scene::Mesh& corners, const std::vector<glm::vec3>& normals,
             std::span<const std::uint32_t> vertices, float min_cosine) {
@@ -148,15 +162,9 @@ void smooth(scene::Mesh& corners, const std::vector<glm::vec3>& normals,
         directions = directions_of(std::move(keyed), normals);
     }
     for (const Direction& own : directions) {
-        glm::vec3 sum(0.0F);
-        for (const Direction& other : directions) {
-            const bool is_own = &own == &other; // its cosine may be less than 1
-            sum += is_own || glm::dot(own.normal, other.normal) >= min_cosine ? other.sum
-                                                                              : glm::vec3(0.0F);
-        }
-        const float length = glm::length(sum);
+        const glm::vec3 normal = smoothed(own, directions, min_cosine);
         for (const std::uint32_t vertex : own.vertices) {
-            corners.normals[vertex] = length > 0.0F ? sum / length : own.normal;
+            corners.normals[vertex] = normal;
         }
     }
 }

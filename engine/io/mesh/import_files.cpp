@@ -61,26 +61,37 @@ Assimp::IOStream* stream_of(std::string_view text) {
                                       text.size());
 }
 
-// Lines that Assimp takes for the begin of a material: "ne" in any case after blanks. Zeros are
-// left out: a library may have 16 bits for each character.
+// Counts the lines that Assimp takes for the begin of a material: "ne" in any case after blanks.
+// Zeros are left out: a library may have 16 bits for each character.
+class MaterialLines {
+public:
+    void take(char c) {
+        if (c == '\0' || (before_ == '\n' && (c == ' ' || c == '\t'))) {
+            return;
+        }
+        count_ += static_cast<std::size_t>(before_ == 'n' && c == 'e');
+        const bool is_first = before_ == '\n' && (c == 'n' || c == 'N');
+        before_ = c == '\n' || c == '\r' ? '\n' : is_first ? 'n' : ' ';
+    }
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+private:
+    std::size_t count_ = 0;
+    char before_ = '\n'; // a line's begin, its first letter, or a blank for the rest of it
+};
+
 std::size_t materials_in(const std::filesystem::path& library) {
     std::ifstream stream(library, std::ios::binary);
     std::vector<char> block(std::size_t{1} << 16U);
-    std::size_t materials = 0;
-    char before = '\n'; // the line's begin, its first letter, or a blank for the rest of it
+    MaterialLines lines;
     while (stream) {
         stream.read(block.data(), static_cast<std::streamsize>(block.size()));
         for (const char c :
              std::string_view(block.data(), static_cast<std::size_t>(stream.gcount()))) {
-            if (c == '\0' || (before == '\n' && (c == ' ' || c == '\t'))) {
-                continue;
-            }
-            materials += static_cast<std::size_t>(before == 'n' && c == 'e');
-            const bool is_first = before == '\n' && (c == 'n' || c == 'N');
-            before = c == '\n' || c == '\r' ? '\n' : is_first ? 'n' : ' ';
+            lines.take(c);
         }
     }
-    return materials;
+    return lines.count();
 }
 
 } // namespace
