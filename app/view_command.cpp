@@ -87,6 +87,9 @@ Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
         }};
 }
 
+// A frame in a driver is not interrupted: that of a slow shader takes as long as it likes.
+constexpr std::chrono::milliseconds longest_end{1000};
+
 struct Renderers {
     session::SceneRenderer& shown;
     ComparedFrames::MakeRenderer make; ///< another one
@@ -136,7 +139,8 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                                  .panels = panels ? &*panels : nullptr,
                                  .finer = std::move(opened.finer)});
     std::fflush(stdout);
-    interrupt.request_stop(); // work in the background may not end at once
+    interrupt.end_after(longest_end / 2); // of work in the background
+    interrupt.request_stop();
     return done;
 }
 

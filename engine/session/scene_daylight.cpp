@@ -14,6 +14,7 @@
 #include "engine/geo/georeference.h"
 #include "engine/io/image/sky_file.h"
 #include "engine/scene/graph/terrain_base.h"
+#include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/objects/placed_lights.h"
 #include "engine/terrain/field/color_ramp.h"
 #include "engine/terrain/field/tint.h"
@@ -386,7 +387,7 @@ void set_daylight(TerrainScene& scene, scene::Light sun) {
 void follow_ramp(TerrainScene& scene) {
     auto& terrain = *scene.terrain->get<scene::TerrainNode>();
     const bool has_images = !terrain.surface->terrain().color.empty() ||
-                            (scene.source != nullptr && scene.source->imagery != nullptr);
+                            (terrain.stream != nullptr && terrain.stream->maker().has_images());
     const bool is_plain = !has_images && terrain::has_one_color(terrain.surface->ramp());
     if (scene.usual_grain) {
         terrain.grain = is_plain ? 0.0F : static_cast<float>(*scene.usual_grain);
@@ -403,6 +404,7 @@ void set_overlay(TerrainScene& scene, const io::SceneDescription& description,
     const std::optional<double> grain = view.grain ? view.grain : description.grain;
     terrain.grain = static_cast<float>(grain.value_or(view.default_grain));
     scene.usual_grain = grain ? std::nullopt : std::optional(view.default_grain);
+    follow_ramp(scene);
     const double contours = view.contours.value_or(description.contours);
     terrain.contours = contours > 0.0 ? std::max(contours, scene::min_contours) : 0.0;
     terrain.labels_contours = view.contour_labels.value_or(description.contour_labels);

@@ -421,7 +421,6 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         source.terrain = {};
         result.source = std::make_shared<const TerrainSource>(std::move(source));
     }
-    follow_ramp(result);
     return result;
 }
 

@@ -302,6 +302,24 @@ TEST(Sky, HasASeaThatBendsAndFadesWithoutALineAtItsHorizon) {
     }
 }
 
+// So little air lies before a far horizon that a sea which bends down would end in an edge.
+TEST(Sky, HasASeaWithoutAnEdgeSeenFromAHeight) {
+    scene::Sky sky{.zenith = glm::vec3(0.5F), .horizon = glm::vec3(0.5F), .visibility = 5e4};
+    sky.air_height = 400.0;
+    sky.radius = 6.4e6;
+    sky.plane = glm::vec3(0.1F);
+    sky.is_plane_sea = true;
+    const double horizon = std::sqrt(2.0 * 9000.0 / sky.radius);
+    const auto color_at = [&](double fall) {
+        return sky_color(sky, {}, {{0.0, 0.0, 9000.0}, {std::sqrt(1.0 - fall * fall), 0.0, -fall}})
+            .g;
+    };
+    for (int i = 150; i > 50; --i) {
+        EXPECT_NEAR(color_at(0.01 * i * horizon), color_at(0.01 * (i - 1) * horizon), 0.004F)
+            << i << "% of the way";
+    }
+}
+
 TEST(Sky, HasTheSunWhereItIs) {
     const scene::Sky sky;
     const glm::dvec3 to_sun = scene::to_light(white_sun);

@@ -75,11 +75,10 @@ HWY_INLINE ViewRays view_rays(const BlockPaint& paint, const PixelOffsets& pixel
     return view;
 }
 
-// Unit vectors of the view rays: their rise, that away from the base of the air, and the cosine of
-// the angle to the sun.
+// Unit vectors of the view rays: their rise, and the cosine of the angle to the sun.
 struct ViewAngles {
     Floats rise;
-    Floats climb;
+    Floats climb; // away from the base of the air
     Floats to_sun;
 };
 
@@ -159,12 +158,10 @@ HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) 
     if (!paint.has_air) {
         return all(paint.plane);
     }
-    const Floats lowest = all(1e-9F); // the fall of lanes above the horizon, which show no plane
-    const Floats fall = hn::Max(hn::Neg(angles.climb), lowest);
+    const Floats fall = hn::Max(hn::Neg(angles.climb), all(1e-9F)); // lanes above show no plane
     const Floats beyond = hn::MulSub(fall, fall, all(4.0F * paint.bend * paint.eye_above));
-    const Floats steepness =
-        hn::Mul(all(0.5F), hn::Add(fall, hn::Sqrt(hn::Max(beyond, hn::Zero(floats)))));
-    return behind_air(paint, angles, all(paint.plane), hn::Div(all(paint.plane_air), steepness));
+    const Floats twice = hn::Add(fall, hn::Sqrt(hn::Max(beyond, hn::Zero(floats))));
+    return behind_air(paint, angles, all(paint.plane), hn::Div(all(2.0F * paint.plane_air), twice));
 }
 
 HWY_INLINE Floats fraction_of(Floats x) {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
@@ -134,11 +135,25 @@ AirPlace air_place(const Sky& sky, glm::dvec3 place) {
     return {distance - sky.radius, from_middle / distance};
 }
 
+namespace {
+
+// AirSeen::bend. From a height, the sea at the Earth's horizon would stand out from that which
+// fades above it, because little air lies before it; there the sea is level.
+double bend_of(const Sky& sky, double above) {
+    constexpr double bent_below = 500.0;   // metres
+    constexpr double level_above = 3000.0; // metres
+    return sky.radius > 0.0
+               ? 0.5 / sky.radius * (1.0 - glm::smoothstep(bent_below, level_above, above))
+               : 0.0;
+}
+
+} // namespace
+
 AirSeen air_seen(const Sky& sky, const Camera& camera) {
     AirSeen seen;
     const auto [above, up] = air_place(sky, camera.eye);
     seen.up = glm::vec3(up);
-    seen.bend = sky.radius > 0.0 ? static_cast<float>(0.5 / sky.radius) : 0.0F;
+    seen.bend = static_cast<float>(bend_of(sky, above));
     seen.extinction = static_cast<float>(extinction(sky)) * sky.fading;
     seen.eye_above = static_cast<float>(std::max(above, 0.0));
     if (sky.air_height > 0.0) {
@@ -161,7 +176,7 @@ double plane_air(const Sky& sky, double above) {
 }
 
 double steepness_to_plane(const Sky& sky, double above, double fall) {
-    const double horizon = sky.radius > 0.0 ? 2.0 * above / sky.radius : 0.0; // squared sine
+    const double horizon = 4.0 * above * bend_of(sky, above); // squared sine
     return 0.5 * (fall + std::sqrt(std::max(fall * fall - horizon, 0.0)));
 }
 

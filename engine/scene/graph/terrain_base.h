@@ -18,8 +18,7 @@ double block_bottom(const TerrainSurface& surface);
 /// or the terrain goes around the Earth. A wall has a vertex at every sample of the border.
 std::optional<Mesh> terrain_base(const TerrainSurface& surface, double bottom);
 
-/// Whether such walls may face an eye, world metres: not over the terrain, from where they lead
-/// away.
+/// Whether a camera may see such walls: not from over the terrain, where all of them face away.
 bool may_show_base(const TerrainSurface& surface, const glm::dmat4& world_from_local,
                    const Camera& camera);
 

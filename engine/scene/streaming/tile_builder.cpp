@@ -1,6 +1,7 @@
 #include "engine/scene/streaming/tile_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -100,6 +101,35 @@ bool is_sea(const Grid<float>& heights, int col, int row) {
 glm::vec2 gradient_at(const Grid<float>& heights, glm::ivec2 at, glm::vec2 spacing) {
     return {(heights(at.x + 1, at.y) - heights(at.x - 1, at.y)) / (2.0F * spacing.x),
             (heights(at.x, at.y - 1) - heights(at.x, at.y + 1)) / (2.0F * spacing.y)};
+}
+
+// Of four samples around a place, `part` of the way from the second to the third (De Boor 1978).
+std::array<double, 4> spline_weights(double part) {
+    const double rest = 1.0 - part;
+    const auto inner = [](double t) { return (4.0 - 3.0 * t * t * (2.0 - t)) / 6.0; };
+    return {rest * rest * rest / 6.0, inner(part), inner(rest), part * part * part / 6.0};
+}
+
+// Cubic B-spline: bends nowhere, as bilinear heights do at samples. `turn`: columns after which
+// they repeat, or 0.
+float smooth_height(GridView<const float> heights, glm::dvec2 sample, int turn) {
+    const glm::dvec2 last(heights.cols() - 1, heights.rows() - 1);
+    const glm::dvec2 place = glm::clamp(sample, glm::dvec2(0.0), last);
+    const glm::ivec2 first(glm::floor(place));
+    const auto of_cols = spline_weights(place.x - first.x);
+    const auto of_rows = spline_weights(place.y - first.y);
+    double height = 0.0;
+    for (int row = 0; row < 4; ++row) {
+        const int at = std::clamp(first.y + row - 1, 0, heights.rows() - 1);
+        for (int col = 0; col < 4; ++col) {
+            const int beside = first.x + col - 1;
+            const int around = turn > 0 ? (beside + turn) % turn : beside;
+            height += of_rows[static_cast<std::size_t>(row)] *
+                      of_cols[static_cast<std::size_t>(col)] *
+                      heights(std::clamp(around, 0, heights.cols() - 1), at);
+        }
+    }
+    return static_cast<float>(height);
 }
 
 bool is_void_at(const terrain::Heightfield& heightfield, glm::dvec2 sample) {
@@ -368,11 +398,12 @@ FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights) c
         return {std::move(heights), {}};
     }
     const auto overview = overview_->heightfield().heights.view();
+    const int turn = reduction_.overview_rows.wrap().east ? overview.cols() - 1 : 0;
     Grid<float> coarse(heights.cols(), heights.rows());
     for (int row = 0; row < coarse.rows(); ++row) {
         for (int col = 0; col < coarse.cols(); ++col) {
             const glm::dvec2 at = around_overview(on_overview(sample(tile, {col - 1, row - 1})));
-            coarse(col, row) = static_cast<float>(terrain::bilinear_height(overview, at));
+            coarse(col, row) = smooth_height(overview, at, turn);
         }
     }
     // A sample of the overview, which has no finer waves, in vertices.

@@ -50,6 +50,31 @@ TEST(TileMakers, FillVoidsWithTheOverview) {
     EXPECT_NEAR(made.albedo(59, 59).r, beside.r, 2) << "no grey: the data lie around it";
 }
 
+// Light shows where slopes change at the samples of the overview.
+TEST(TileMakers, FillVoidsWithoutBendsAtTheSamplesOfTheOverview) {
+    terrain::Terrain bowl = overview()->terrain();
+    Grid<float>& heights = bowl.heightfield.heights;
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
+            heights(col, row) = static_cast<float>(0.5 * col * col);
+        }
+    }
+    bowl.heightfield.range = terrain::height_range(heights, {});
+    const auto surface =
+        TerrainSurface::create(std::make_shared<const terrain::Terrain>(std::move(bowl)));
+    const TileBuilder make(std::make_shared<const TerrainSurface>(*surface), TileTree(side, side),
+                           reduction);
+    Grid<float> unknown(67, 67);
+    std::fill(unknown.samples().begin(), unknown.samples().end(),
+              std::numeric_limits<float>::quiet_NaN());
+    const TerrainTile made = make.make({0, 3, 3}, std::move(unknown));
+    for (int col = 1; col < 64; ++col) {
+        const auto height = [&](int at) { return made.heightfield.heights(at, 32); };
+        EXPECT_NEAR(height(col + 1) - 2.0F * height(col) + height(col - 1), 1.0 / 64.0, 5e-3)
+            << col;
+    }
+}
+
 TEST(TileMakers, ShowPicturesAndTheTintWhereTheyShowNothing) {
     const TileBuilder make(overview(), TileTree(side, side), reduction,
                            {.finest_pixel = 2.0, .refinement = 1});
