@@ -243,7 +243,7 @@ function(reljef_test ROOM)
   if(TARGET reljef_test_precompiled AND build STREQUAL reljef_test_build) # otherwise optimised in another way
     target_precompile_headers(${target} REUSE_FROM reljef_test_precompiled)
   endif()
-  set(properties TIMEOUT 900)
+  set(properties TIMEOUT 2700) # the longest take six minutes on two processors; others may be busy
   if("address" IN_LIST RELJEF_SANITIZE)
     # Where the runtime of g++ 12 watches thread-local storage, it takes some of glibc's blocks for
     # those of a glibc before 2.25, and the search for leaks ends with a fault of its own, now and then.

@@ -313,7 +313,7 @@ private:
                                          .form = layers_form,
                                          .label = row.setting.label,
                                          .timing = std::move(row.timing),
-                                         .error = std::move(row.error)});
+                                         .error = row.error});
             }
         }
         return {};

@@ -18,6 +18,12 @@ inline void check(bool condition, const char* what) {
     }
 }
 
+/// What a pointer that is not null points to.
+template <class T> T& checked_pointer(T* pointer, const char* what) {
+    check(pointer != nullptr, what);
+    return *pointer;
+}
+
 /// The whole part of a number; absent if it is NaN or beyond int.
 constexpr std::optional<int> checked_int(double value) {
     return value > -2147483649.0 && value < 2147483648.0 ? std::optional(static_cast<int>(value))

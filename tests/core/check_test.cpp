@@ -18,6 +18,17 @@ TEST(CheckDeathTest, AbortsInEveryBuildTypeAndSaysWhat) {
                 "reljef: broken precondition: the sky fell");
 }
 
+TEST(CheckedPointer, IsWhatThePointerPointsTo) {
+    int number = 3;
+    EXPECT_EQ(&checked_pointer(&number, "never printed"), &number);
+}
+
+TEST(CheckedPointerDeathTest, AbortsWhereThereIsNothing) {
+    const int* const nothing = nullptr;
+    EXPECT_EXIT(checked_pointer(nothing, "the sky fell"), testing::KilledBySignal(SIGABRT),
+                "reljef: broken precondition: the sky fell");
+}
+
 TEST(CheckedInt, IsAbsentBeyondIntAndForNaN) {
     EXPECT_EQ(checked_int(2147483647.9), INT_MAX);
     EXPECT_EQ(checked_int(-2147483648.9), INT_MIN);

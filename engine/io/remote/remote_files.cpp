@@ -376,9 +376,8 @@ void forget_remote_file(const std::string& name) {
 }
 
 Result<std::optional<std::string>> read_remote_file(const std::string& url, std::size_t max_bytes) {
-    RemoteFiles* files = installed_files();
-    check(files != nullptr, "install_remote_files() was expected");
-    auto whole = files->reader().read_whole(url, max_bytes);
+    RemoteFiles& files = checked_pointer(installed_files(), "install_remote_files() was expected");
+    auto whole = files.reader().read_whole(url, max_bytes);
     if (!whole) {
         return whole.error();
     }

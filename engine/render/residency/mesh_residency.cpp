@@ -275,16 +275,13 @@ Result<void> MeshResidency::prepare_warps(const std::vector<view::MeshDraw>& dra
 }
 
 const ResidentHull& MeshResidency::hull(const view::MeshDraw& draw) const {
-    const auto* const entry = find_for(hulls_, draw);
-    check(entry != nullptr, "a hull that was not prepared");
-    return entry->resident;
+    return checked_pointer(find_for(hulls_, draw), "a hull that was not prepared").resident;
 }
 
 const ResidentMesh& MeshResidency::mesh(const view::MeshDraw& draw) const {
     if (is_displaced(draw)) {
-        const auto* const entry = find_for(displaced_, draw);
-        check(entry != nullptr, "a displaced mesh that was not prepared");
-        return entry->resident;
+        return checked_pointer(find_for(displaced_, draw), "a displaced mesh that was not prepared")
+            .resident;
     }
     return triangles_
         .at({view::drawn_mesh(draw).get(), has_tile(draw) ? Look::textured : Look::plain})

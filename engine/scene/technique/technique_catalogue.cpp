@@ -17,15 +17,16 @@ template <class Owner, class Value> Owner owner_of(Value Owner::*member);
 template <class Owner, class Value> Value value_of(Value Owner::*member);
 
 template <auto member> double parameter_value(const Technique& technique) {
-    const auto* const held = std::get_if<decltype(owner_of(member))>(&technique.parameters);
-    check(held != nullptr, "a parameter of another technique");
-    return static_cast<double>(held->*member);
+    const auto& held =
+        checked_pointer(std::get_if<decltype(owner_of(member))>(&technique.parameters),
+                        "a parameter of another technique");
+    return static_cast<double>(held.*member);
 }
 
 template <auto member> void set_parameter_value(Technique& technique, double value) {
-    auto* const held = std::get_if<decltype(owner_of(member))>(&technique.parameters);
-    check(held != nullptr, "a parameter of another technique");
-    held->*member = static_cast<decltype(value_of(member))>(value);
+    auto& held = checked_pointer(std::get_if<decltype(owner_of(member))>(&technique.parameters),
+                                 "a parameter of another technique");
+    held.*member = static_cast<decltype(value_of(member))>(value);
 }
 
 template <auto member>

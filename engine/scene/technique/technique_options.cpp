@@ -398,16 +398,16 @@ bool is_option(std::string_view assignment) {
 
 Result<void> set_option(TechniqueOptions& options, TechniqueId id, std::string_view assignment) {
     const Assignment found = assignment_of(assignment);
-    const OptionInfo* const info = option_named(found.key);
-    check(info != nullptr, "set_option of what is no option");
-    const auto reason = info->reason_against(id);
+    const OptionInfo& info =
+        checked_pointer(option_named(found.key), "set_option of what is no option");
+    const auto reason = info.reason_against(id);
     if (!reason.empty()) {
         return Error{fmt::format("technique {}: option '{}' found, {}", technique_info(id).name,
                                  found.key, reason)};
     }
     TechniqueOptions changed = options;
     auto set =
-        info->words.empty() ? set_range(changed, *info, found) : set_word(changed, *info, found);
+        info.words.empty() ? set_range(changed, info, found) : set_word(changed, info, found);
     if (set) {
         options = changed;
     }

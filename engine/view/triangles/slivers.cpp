@@ -68,13 +68,13 @@ std::vector<std::uint32_t> Slivers::all() const {
 SliverView::SliverView(const DrawList& list, const TileDraw& draw, const CutOptions& cut)
     : size_(list.size), bisection_(cut.bisection) {
     const TerrainDraw& terrain = list.terrains[draw.node];
-    const auto* const view =
-        terrain.coarseness ? std::get_if<terrain::ErrorView>(&*terrain.coarseness) : nullptr;
-    check(view != nullptr, "slivers without an error bound");
-    max_error_ = view->interpolation;
-    max_depth_error_ = share_of_depth * view->max_error;
-    near_ = view->perspective ? list.camera.near : 0.0;
-    cut_view_ = triangle_view(*view, cut);
+    const auto& view = checked_pointer(
+        terrain.coarseness ? std::get_if<terrain::ErrorView>(&*terrain.coarseness) : nullptr,
+        "slivers without an error bound");
+    max_error_ = view.interpolation;
+    max_depth_error_ = share_of_depth * view.max_error;
+    near_ = view.perspective ? list.camera.near : 0.0;
+    cut_view_ = triangle_view(view, cut);
     clip_from_offset_ = scene::clip_from_view(list.camera, list.size) *
                         scene::view_from_world_rotation(list.camera) *
                         glm::dmat4(glm::dmat3(terrain.world_from_local));

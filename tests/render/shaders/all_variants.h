@@ -54,7 +54,7 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
 }
 
 /// Every variant with an effect, each once.
-inline std::vector<ShaderVariant> all_variants() {
+inline std::vector<ShaderVariant> find_all_variants() {
     std::set<ShaderVariant> variants;
     std::unordered_set<std::uint64_t> known; // most of millions of subsets are one of few variants
     const auto add = [&](ShaderVariant variant) {
@@ -74,6 +74,12 @@ inline std::vector<ShaderVariant> all_variants() {
         }
     }
     return {variants.begin(), variants.end()};
+}
+
+/// The same, in order; found once for all tests of this process.
+inline const std::vector<ShaderVariant>& all_variants() {
+    static const std::vector<ShaderVariant> all = find_all_variants();
+    return all;
 }
 
 } // namespace reljef::render

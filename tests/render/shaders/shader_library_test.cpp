@@ -13,7 +13,7 @@ namespace reljef::render {
 namespace {
 
 TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
-    const auto variants = all_variants();
+    const auto& variants = all_variants();
     EXPECT_EQ(std::set(variants.begin(), variants.end()).size(), variants.size());
     for (const ShaderVariant& variant : variants) {
         EXPECT_EQ(canonical_variant(variant), variant);
@@ -21,7 +21,7 @@ TEST(ShaderVariants, AreEachThereOnceAndMeanSomething) {
 }
 
 TEST(ShaderVariants, HoldWhateverAnyCombinationMeans) {
-    const auto variants = all_variants();
+    const auto& variants = all_variants();
     for (const ShaderKind kind :
          {ShaderKind::terrain, ShaderKind::relief, ShaderKind::mesh, ShaderKind::textured_mesh,
           ShaderKind::relief_mesh, ShaderKind::relief_hull, ShaderKind::textured_terrain,
