@@ -21,7 +21,8 @@ namespace {
 constexpr double max_sampled_pixels = 4096.0 * 4096.0;
 
 int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
-    const bool has_triangles = !list.tiles.empty() || !list.meshes.empty() || !list.bases.empty();
+    // Walls below rays are as sharp as these: they do not make every ray four.
+    const bool has_triangles = !list.tiles.empty() || !list.meshes.empty();
     const double pixels = static_cast<double>(size.x) * size.y;
     const bool has_several = has_triangles && pixels <= max_sampled_pixels;
     return samples != view::automatic_samples ? samples

@@ -13,6 +13,7 @@
 
 #include "engine/material/relief_material.h"
 #include "engine/render/passes/sample_target.h"
+#include "engine/scene/graph/terrain_base.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/view/sample_count.h"
 #include "tests/render/driver_fixture.h"
@@ -385,6 +386,14 @@ TEST_F(SamplesGlTest, AutomaticIsFourForTrianglesAndOneForRays) {
     EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 4));
     technique = scene::parse_technique("exact").value();
     EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 1));
+    auto& node = *world.terrain->get<scene::TerrainNode>();
+    const scene::TerrainSurface& surface = *node.surface;
+    scene::MeshNode walls;
+    walls.mesh = std::make_shared<const scene::Mesh>(
+        scene::terrain_base(surface, scene::block_bottom(surface)).value());
+    node.base = std::make_shared<const scene::MeshNode>(walls);
+    EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 1))
+        << "walls below rays";
     world.scene.add_mesh(scene::sphere_mesh(20.0F));
     EXPECT_EQ(drawn(world.scene, view::automatic_samples), drawn(world.scene, 4));
 }
