@@ -160,7 +160,7 @@ Chapter light_chapter() {
               picture("FLIP", "grazing", Quantity::flip, {scene::Emboss{}}, texture, at_most(1.0)),
               picture("SSIM", "grazing", Quantity::ssim, {scene::Emboss{}}, texture,
                       at_least(1.0))},
-         .reason = "From above, the edges are where they should be, and SSIM, which compares "
+         .reason = "From above, the edges lie in their right places, and SSIM, which compares "
                    "structure, sees that. Their brightness is not right, which FLIP sees."},
         {"M 3.4",
          "Seen from straight above, normal maps show a surface almost perfectly.",
@@ -189,7 +189,7 @@ Chapter light_chapter() {
           picture("", "grazing", Quantity::flip, {scene::Normal{}}, relief, at_most(1.1))},
          "",
          "From straight above, light is all there is to see. The flatter the angle, the farther "
-         "are places from where they should be."},
+         "each place is from the right one."},
         {"J 2.7.2",
          "A plain texture gives no impression of depth.",
          "more than half of the pixels wrong (our reading)",
@@ -242,7 +242,7 @@ Chapter options_chapter() {
          {brick_time("hard", shadowed_relief(0.0), relief, at_least(1.25)),
           brick_time("soft", shadowed_relief(scene::Shadow{}.depth), relief, at_least(1.25))}},
         {"M 3.6.11",
-         "Relief ends at the border of its polygon. What would true outlines cost?",
+         "Relief ends at the border of its polygon; what true outlines would cost is left open.",
          "",
          {brick_time("time with true outlines over relief", outlined_relief(), relief, {})},
          "`silhouettes=true` lifts this"},

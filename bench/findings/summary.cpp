@@ -105,7 +105,7 @@ std::string findings_limits() {
   find edges (M 3.6.7); on which surfaces normal maps suffice (M 3.4); tangents along the texture (D).
 - J guesses heights by a filter of specular light; what the filter computes is not given. Our guess takes brightness as
   height.
-- A time holds for its machine, a ratio within its run. Machines of one letter are virtual, and not equally fast.
+- A time holds for its machine, a ratio within its run. Machines of one letter may differ in speed.
 )";
 }
 

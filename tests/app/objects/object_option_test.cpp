@@ -108,7 +108,8 @@ TEST_F(ObjectsOnTerrain, WrongOnesAreOneSentence) {
     test::expect_refusal(render(cube_), 1, {cube_, "no place found"});
     test::expect_refusal(render("none.obj:at=1,2"), 1, {"none.obj: nothing found"});
     const auto text = folder_.write("text.gltf", "no glTF").string();
-    test::expect_refusal(render(text + ":at=1,2"), 1, {text, "cannot be read"});
+    test::expect_refusal(render(text + ":at=1,2"), 1,
+                         {text, "holds no JSON", "glTF 2.0 file was expected"});
 }
 
 } // namespace
