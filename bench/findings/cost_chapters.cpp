@@ -1,4 +1,6 @@
 // What relief and parallax cost and show, and whether triangles do better.
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "bench/findings/conclusions.h"
@@ -444,26 +446,20 @@ std::vector<Conclusion> relief_or_triangles() {
     };
 }
 
-void append(std::vector<Conclusion>& conclusions, std::vector<Conclusion> more) {
-    for (Conclusion& conclusion : more) {
-        conclusions.push_back(std::move(conclusion));
-    }
-}
-
 } // namespace
 
 Chapter relief_chapter() {
     Chapter chapter{"What does relief cost, and what does it show?", relief_answer(),
                     cost_of_relief()};
-    append(chapter.conclusions, quality_of_relief());
+    chapter.conclusions = joined(std::move(chapter.conclusions), quality_of_relief());
     return chapter;
 }
 
 Chapter parallax_chapter() {
     Chapter chapter{"What does parallax cost, and what does it show?", parallax_answer(),
                     cost_of_parallax()};
-    append(chapter.conclusions, quality_of_parallax());
-    append(chapter.conclusions, parallax_and_heights());
+    chapter.conclusions = joined(std::move(chapter.conclusions), quality_of_parallax());
+    chapter.conclusions = joined(std::move(chapter.conclusions), parallax_and_heights());
     return chapter;
 }
 
@@ -471,7 +467,7 @@ Chapter triangles_chapter() {
     Chapter chapter{"Relief, or triangles with levels of detail?",
                     triangles_answer(),
                     {order_of_test_4(), levels_and_time()}};
-    append(chapter.conclusions, relief_or_triangles());
+    chapter.conclusions = joined(std::move(chapter.conclusions), relief_or_triangles());
     return chapter;
 }
 

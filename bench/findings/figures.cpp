@@ -121,6 +121,12 @@ std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure
     return figures;
 }
 
+std::vector<Conclusion> joined(std::vector<Conclusion> conclusions,
+                               const std::vector<Conclusion>& more) {
+    conclusions.insert(conclusions.end(), more.begin(), more.end());
+    return conclusions;
+}
+
 std::vector<Figure> and_on_gpu(std::vector<Figure> figures) {
     const std::size_t count = figures.size();
     for (std::size_t i = 0; i < count; ++i) {

@@ -50,6 +50,8 @@ Figure ratio(const std::string& words, Quantity quantity, const RowName& row, co
 Figure drop(const std::string& words, const RowName& row, const RowName& base, const Range& range);
 Figure frame_rate(const std::string& words, const RowName& row, const Range& range);
 std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure>& more);
+std::vector<Conclusion> joined(std::vector<Conclusion> conclusions,
+                               const std::vector<Conclusion>& more);
 /// The figures, and then the same of a machine with a GPU. Precondition: their results exist in
 /// h100, too.
 std::vector<Figure> and_on_gpu(std::vector<Figure> figures);

@@ -1,6 +1,7 @@
 #include "bench/findings/measurements.h"
 
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,18 +29,19 @@ std::string bricks_command(const std::string& pose) {
 
 std::string ResultsSource::suite() const {
     constexpr std::string_view program = "reljef-bench ";
-    const std::string verb =
+    std::string verb =
         command.substr(program.size(), command.find(' ', program.size()) - program.size());
-    for (const std::string variant : {"claims", "distances", "guesses"}) {
-        if (command.find(" --" + variant + " ") != std::string::npos) {
-            return verb + "-" + variant;
+    for (const std::string_view variant : {"claims", "distances", "guesses"}) {
+        if (command.find(fmt::format(" --{} ", variant)) != std::string::npos) {
+            return fmt::format("{}-{}", verb, variant);
         }
     }
     return verb;
 }
 
-// The commands of bench/results/README.md.
-std::vector<ResultsSource> results_sources() {
+namespace {
+
+std::vector<ResultsSource> technique_sources() {
     return {
         {"tables", "The seven tests of J on built-in terrains, with J's figures beside ours.",
          "reljef-bench tables --context osmesa --json bench/results/tables.json "
@@ -73,6 +75,11 @@ std::vector<ResultsSource> results_sources() {
          "--markdown bench/results/scales.md"},
         {"bricks-map", "Bricks from straight above.", bricks_command("map")},
         {"bricks-grazing", "Bricks at a flat angle.", bricks_command("grazing")},
+    };
+}
+
+std::vector<ResultsSource> other_sources() {
+    return {
         {"distance", "Errors over the distance of the eye.",
          "reljef-bench tables --distances --context osmesa --json bench/results/distance.json "
          "--markdown bench/results/distance.md",
@@ -98,11 +105,21 @@ std::vector<ResultsSource> results_sources() {
          false},
         {"claims",
          "A city of one repeated tile, relief over a city only, four layers on bricks, and the "
-         "phases "
-         "of warping.",
+         "phases of warping.",
          "reljef-bench tables --claims --context osmesa --size 512x384 --rounds 9 "
          "--json bench/results/claims.json --markdown bench/results/claims.md"},
     };
+}
+
+} // namespace
+
+// The commands of bench/results/README.md.
+std::vector<ResultsSource> results_sources() {
+    std::vector<ResultsSource> sources = technique_sources();
+    for (ResultsSource& source : other_sources()) {
+        sources.push_back(std::move(source));
+    }
+    return sources;
 }
 
 } // namespace reljef::bench

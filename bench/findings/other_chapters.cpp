@@ -1,4 +1,6 @@
 // What light alone can show, what options cost, and what data are needed.
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "bench/findings/conclusions.h"
@@ -126,18 +128,9 @@ Technique outlined_relief() {
     return technique;
 }
 
-} // namespace
-
-Chapter light_chapter() {
+std::vector<Conclusion> bump_maps() {
     const Technique texture{scene::Texture{}};
-    const Technique relief{scene::Relief{}};
-    Chapter chapter{"What can light alone show?"};
-    chapter.answer = {
-        {"On bricks, normal maps cost {} of the frame rate of a plain texture. Light alone moves "
-         "nothing, so {} of the pixels show a wrong point.",
-         {brick_cost("", {scene::Normal{}}, texture, at_least(0.0)),
-          plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), {})}}};
-    chapter.conclusions = {
+    return {
         {"J 2.2",
          "Bump mapping looks good at a small cost.",
          "at most 25 % of the frame rate (J's range)",
@@ -162,6 +155,13 @@ Chapter light_chapter() {
                       at_least(1.0))},
          .reason = "From above, the edges lie in their right places, and SSIM, which compares "
                    "structure, sees that. Their brightness is not right, which FLIP sees."},
+    };
+}
+
+std::vector<Conclusion> normal_maps() {
+    const Technique texture{scene::Texture{}};
+    const Technique relief{scene::Relief{}};
+    return {
         {"M 3.4",
          "Seen from straight above, normal maps show a surface almost perfectly.",
          "at most 1.1 times the difference (FLIP) of exact rays (our reading)",
@@ -190,12 +190,66 @@ Chapter light_chapter() {
          "",
          "From straight above, light is all there is to see. The flatter the angle, the farther "
          "each place is from the right one."},
-        {"J 2.7.2",
-         "A plain texture gives no impression of depth.",
-         "more than half of the pixels wrong (our reading)",
-         {plain("city", Quantity::wrong, source_test("relief-2", texture), at_least(50.0)),
-          plain("landscape", Quantity::wrong, source_test("relief-4", texture), at_least(50.0))}},
     };
+}
+
+std::vector<Conclusion> layers_and_warping() {
+    const Technique relief{scene::Relief{}};
+    return {
+        {"M 3.6.9, 3.6.10, 3.6.11",
+         "Two and four layers show fences, thin shells and chains.",
+         "at most 10 % of the pixels wrong (our limit)",
+         {plain("fence", Quantity::wrong,
+                seen({"pareto-quick.json", "tile fence", "oblique"}, {scene::Lattice{}}),
+                at_most(10.0)),
+          plain("shell", Quantity::wrong,
+                seen({"pareto-quick.json", "tile copper", "oblique"}, {scene::DualLayer{}}),
+                at_most(10.0)),
+          plain("rings", Quantity::wrong,
+                seen({"pareto-quick.json", "tile rings", "oblique"}, {scene::MultiLayer{}}),
+                at_most(10.0))}},
+        {"M 4",
+         "Four layers waste work on a surface that one layer can show.",
+         "more time than relief on the same surface",
+         {ratio("bricks", Quantity::ms,
+                claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
+                claim("tile brick", "oblique", "detail texture", relief), at_least(1.0)),
+          ratio("bricks, as many steps", Quantity::ms,
+                claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
+                claim("tile brick", "oblique", "detail texture",
+                      {scene::Relief{.linear_steps = 32, .bisection_steps = 6}}),
+                at_least(1.0))},
+         "layers take 32 steps, relief 11 or 32"},
+        {.source = "J 2.4.5",
+         .claim = "Of warping, rebuilding the picture is far more work than moving the points.",
+         .rule = "both take at least 3 times the time of moving alone (our reading of \"far\")",
+         .figures = {warping_over_moving()},
+         .note = "on a CPU; places only, without colours",
+         .reason = "Moving a point divides. Rebuilding copies and interpolates, along the rows and "
+                   "then along the columns: more work, but not far more."},
+    };
+}
+
+} // namespace
+
+Chapter light_chapter() {
+    const Technique texture{scene::Texture{}};
+    Chapter chapter{"What can light alone show?"};
+    chapter.answer = {
+        {"On bricks, normal maps cost {} of the frame rate of a plain texture. Light alone moves "
+         "nothing, so {} of the pixels show a wrong point.",
+         {brick_cost("", {scene::Normal{}}, texture, at_least(0.0)),
+          plain("", Quantity::wrong, seen(bricks(), {scene::Normal{}}), {})}}};
+    chapter.conclusions = joined(
+        joined(bump_maps(), normal_maps()),
+        {
+            {"J 2.7.2",
+             "A plain texture gives no impression of depth.",
+             "more than half of the pixels wrong (our reading)",
+             {plain("city", Quantity::wrong, source_test("relief-2", texture), at_least(50.0)),
+              plain("landscape", Quantity::wrong, source_test("relief-4", texture),
+                    at_least(50.0))}},
+        });
     return chapter;
 }
 
@@ -246,38 +300,8 @@ Chapter options_chapter() {
          "",
          {brick_time("time with true outlines over relief", outlined_relief(), relief, {})},
          "`silhouettes=true` lifts this"},
-        {"M 3.6.9, 3.6.10, 3.6.11",
-         "Two and four layers show fences, thin shells and chains.",
-         "at most 10 % of the pixels wrong (our limit)",
-         {plain("fence", Quantity::wrong,
-                seen({"pareto-quick.json", "tile fence", "oblique"}, {scene::Lattice{}}),
-                at_most(10.0)),
-          plain("shell", Quantity::wrong,
-                seen({"pareto-quick.json", "tile copper", "oblique"}, {scene::DualLayer{}}),
-                at_most(10.0)),
-          plain("rings", Quantity::wrong,
-                seen({"pareto-quick.json", "tile rings", "oblique"}, {scene::MultiLayer{}}),
-                at_most(10.0))}},
-        {"M 4",
-         "Four layers waste work on a surface that one layer can show.",
-         "more time than relief on the same surface",
-         {ratio("bricks", Quantity::ms,
-                claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
-                claim("tile brick", "oblique", "detail texture", relief), at_least(1.0)),
-          ratio("bricks, as many steps", Quantity::ms,
-                claim("tile brick", "oblique", "detail texture", {scene::MultiLayer{}}),
-                claim("tile brick", "oblique", "detail texture",
-                      {scene::Relief{.linear_steps = 32, .bisection_steps = 6}}),
-                at_least(1.0))},
-         "layers take 32 steps, relief 11 or 32"},
-        {.source = "J 2.4.5",
-         .claim = "Of warping, rebuilding the picture is far more work than moving the points.",
-         .rule = "both take at least 3 times the time of moving alone (our reading of \"far\")",
-         .figures = {warping_over_moving()},
-         .note = "on a CPU; places only, without colours",
-         .reason = "Moving a point divides. Rebuilding copies and interpolates, along the rows and "
-                   "then along the columns: more work, but not far more."},
     };
+    chapter.conclusions = joined(std::move(chapter.conclusions), layers_and_warping());
     return chapter;
 }
 
