@@ -87,8 +87,8 @@ Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
         }};
 }
 
-// A frame in a driver is not interrupted: that of a slow shader takes as long as it likes.
-constexpr std::chrono::milliseconds longest_end{1000};
+// For work in the background after the window was closed.
+constexpr std::chrono::milliseconds longest_background{500};
 
 struct Renderers {
     session::SceneRenderer& shown;
@@ -139,7 +139,7 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                                  .panels = panels ? &*panels : nullptr,
                                  .finer = std::move(opened.finer)});
     std::fflush(stdout);
-    interrupt.end_after(longest_end / 2); // of work in the background
+    interrupt.end_after(longest_background);
     interrupt.request_stop();
     return done;
 }

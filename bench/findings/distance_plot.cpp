@@ -20,7 +20,7 @@ struct PlotLine {
     std::vector<glm::dvec2> points; // metres, and the quantity
 };
 
-// Both axes are logarithmic.
+// Both axes are logarithmic. That of the quantity is longer if the lines need it, see fitted().
 struct PlotPanel {
     std::string title = {};
     std::vector<PlotLine> lines = {};
@@ -84,7 +84,7 @@ RowName time_row(double metres, const Drawn& drawn) {
 }
 
 double share_between(double value, double low, double high) {
-    return std::clamp(std::log(value / low) / std::log(high / low), 0.0, 1.0);
+    return std::log(value / low) / std::log(high / low);
 }
 
 glm::dvec2 place_of(const PlotPanel& panel, glm::dvec2 point) {
@@ -117,8 +117,17 @@ std::string axes(const PlotPanel& panel) {
         svg += rule(bottom, place_of(panel, {metres, panel.high}), "#e4e4e4", 1.0);
         svg += text_at(bottom + glm::dvec2(0.0, 18.0), "middle", name);
     }
-    for (const double value : {0.01, 0.1, 1.0, 10.0, 20.0, 50.0, 100.0, 1000.0}) {
-        const bool is_between = value == 20.0 || value == 50.0; // for short axes
+    for (const auto& [value, is_between] : // those for short axes
+         {std::pair{0.01, false},
+          {0.1, false},
+          {1.0, false},
+          {10.0, false},
+          {20.0, true},
+          {50.0, true},
+          {100.0, false},
+          {200.0, true},
+          {500.0, true},
+          {1000.0, false}}) {
         if (value < panel.low || value > panel.high || (is_between && panel.low < 1.0)) {
             continue;
         }
@@ -166,7 +175,20 @@ std::string names_svg(const PlotPanel& panel, std::vector<PlotLine> lines) {
     return svg;
 }
 
-std::string panel_svg(const PlotPanel& panel) {
+// With a little room around the lines.
+PlotPanel fitted(PlotPanel panel) {
+    constexpr double room = 1.25;
+    for (const PlotLine& line : panel.lines) {
+        for (const glm::dvec2& point : line.points) {
+            panel.low = std::min(panel.low, point.y / room);
+            panel.high = std::max(panel.high, point.y * room);
+        }
+    }
+    return panel;
+}
+
+std::string panel_svg(const PlotPanel& given) {
+    const PlotPanel panel = fitted(given);
     std::string svg = axes(panel);
     std::vector<PlotLine> lines = panel.lines;
     std::erase_if(lines, [](const PlotLine& line) { return line.points.empty(); });

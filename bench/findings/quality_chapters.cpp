@@ -135,8 +135,7 @@ std::vector<Conclusion> linear_search() {
                                 at_most(1.05)))),
          "",
          "More halvings find no wall that the steps missed, but they end closer to the surface "
-         "that "
-         "was found: a place is off by a 256th of a step after eight."},
+         "that was found: a place is off by a 256th of a step after eight."},
         {"M 3.6.3",
          "The equal steps decide: refining afterwards cannot repair what they miss.",
          "with more refining, at least half of the wrong pixels stay (our reading)",

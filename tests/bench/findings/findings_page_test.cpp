@@ -1,5 +1,7 @@
 #include "bench/findings/findings_page.h"
 
+#include <filesystem>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -8,6 +10,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/interrupt.h"
 #include "app/cli/parser.h"
@@ -144,6 +147,31 @@ TEST(Findings, AreSentencesWithAFigureForEachPlace) {
         }
     }
     EXPECT_GE(claims.size(), 50U);
+}
+
+// Two frames of 165 and 200 ms once stood at the end of an axis of 150.
+TEST(Findings, NoPointOfThePlotLiesBeyondItsAxis) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path committed = source_folder() / "bench" / "results";
+    std::filesystem::copy_file(committed / "distance.json", folder.path() / "distance.json");
+    auto objects = nlohmann::json::parse(test::read_bytes(committed / "objects.json"));
+    for (auto& row : objects["rows"]) {
+        row["ms"]["median"] = 10.0 * row["ms"]["median"].get<double>();
+        row["ms"].erase("interval");
+    }
+    folder.write("objects.json", objects.dump());
+    const auto results = read_all_results(folder.path());
+    ASSERT_TRUE(results) << results.error().message;
+    const auto plot = distance_plot(*results);
+    ASSERT_TRUE(plot) << plot.error().message;
+    const std::regex height("cy=\"([0-9.]+)\"");
+    std::size_t points = 0;
+    for (auto found = std::sregex_iterator(plot->begin(), plot->end(), height);
+         found != std::sregex_iterator(); ++found, ++points) {
+        EXPECT_GT(std::stod((*found)[1]), 40.0);
+        EXPECT_LT(std::stod((*found)[1]), 280.0);
+    }
+    EXPECT_GT(points, 20U);
 }
 
 TEST(Findings, UsePlainWords) {
