@@ -32,20 +32,19 @@ WarpedSurface surface_of(const CutCity& city) {
     return {std::move(heights), render::Warp(in_samples)};
 }
 
-Grid<glm::vec2> moved_points(const WarpedSurface& surface, const ParallelOptions& parallel) {
-    Grid<glm::vec2> places(surface.heights.cols(), surface.heights.rows(), glm::vec2(-1.0F));
+// `places`: of the size of the heights.
+void move_points(const WarpedSurface& surface, Grid<glm::vec2>& places,
+                 const ParallelOptions& parallel) {
     parallel_for(
         places.rows(),
         [&](int row) {
             for (int col = 0; col < places.cols(); ++col) {
                 const float height = surface.heights(col, row);
-                if (const auto seen = surface.warp.at(glm::dvec2(col, row), height)) {
-                    places(col, row) = glm::vec2(*seen);
-                }
+                const auto seen = surface.warp.at(glm::dvec2(col, row), height);
+                places(col, row) = seen ? glm::vec2(*seen) : glm::vec2(-1.0F);
             }
         },
         parallel);
-    return places;
 }
 
 } // namespace
@@ -54,13 +53,14 @@ Result<Measurement> measure_warp_phases(const CutCity& city, const MeasureOption
                                         unsigned threads) {
     const WarpedSurface surface = surface_of(city);
     const ParallelOptions parallel{threads, options.stop, {}};
-    Grid<glm::vec2> places; // kept, so that no frame is left out as unused
+    Grid<glm::vec2> places(surface.heights.cols(), surface.heights.rows());
     const DrawFrame move = [&]() -> Result<void> {
-        places = moved_points(surface, parallel);
+        move_points(surface, places, parallel);
         return {};
     };
+    Grid<glm::vec2> rebuilt; // kept, so that no frame is left out as unused
     const DrawFrame rebuild = [&]() -> Result<void> {
-        places = render::prewarped(surface.heights.view(), surface.warp, parallel);
+        rebuilt = render::prewarped(surface.heights.view(), surface.warp, parallel);
         return {};
     };
     MeasureOptions timing = options;
