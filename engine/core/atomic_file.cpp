@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fstream>
 #include <memory>
-#include <mutex>
 #include <set>
 #include <system_error>
 
@@ -80,35 +79,6 @@ void remove_if_stale(const fs::path& folder, int folder_descriptor, const char* 
         fs::remove_all(folder / name, ignored);
     }
 }
-
-// The temporary files and folders of this process.
-class OwnTemporaries {
-public:
-    // Never destroyed: a thread may need it while the program ends.
-    static OwnTemporaries& all() {
-        static auto* const own = new OwnTemporaries;
-        return *own;
-    }
-    void add(const fs::path& path) {
-        const std::lock_guard lock(mutex_);
-        paths_.insert(path);
-    }
-    void forget(const fs::path& path) {
-        const std::lock_guard lock(mutex_);
-        paths_.erase(path);
-    }
-    void remove() {
-        const std::lock_guard lock(mutex_);
-        for (const fs::path& path : paths_) {
-            std::error_code ignored;
-            fs::remove_all(path, ignored);
-        }
-    }
-
-private:
-    std::mutex mutex_;
-    std::set<fs::path> paths_;
-};
 
 struct Temporary {
     fs::path path;
@@ -223,8 +193,17 @@ void remove_leftovers(const fs::path& folder) {
     }
 }
 
+// Each is open as long as it lives, so the descriptors list them. Where a lock cannot become
+// exclusive, another process owns the file, and a thread only looks at it.
 void remove_own_temporaries() {
-    OwnTemporaries::all().remove();
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd", ignored)) {
+        const fs::path path = fs::read_symlink(entry.path(), ignored);
+        if (is_temporary_name(path.filename().string(), fs::is_directory(path, ignored)) &&
+            ::flock(std::stoi(entry.path().filename()), LOCK_EX | LOCK_NB) == 0) {
+            fs::remove_all(path, ignored);
+        }
+    }
 }
 
 Result<AtomicFile> AtomicFile::create(fs::path target) {
@@ -247,7 +226,6 @@ Result<AtomicFile> AtomicFile::create(fs::path target) {
     if (!made.descriptor) {
         return file.error(std::strerror(errno));
     }
-    OwnTemporaries::all().add(made.path);
     file.temporary_ = std::move(made.path);
     file.file_ = std::move(made.descriptor);
     return file;
@@ -274,7 +252,6 @@ AtomicFile::~AtomicFile() {
     for (const fs::path* const leftover : {&temporary_, &replaced_}) {
         if (!leftover->empty()) {
             fs::remove(*leftover, ignored);
-            OwnTemporaries::all().forget(*leftover);
         }
     }
 }
@@ -306,7 +283,6 @@ Result<void> AtomicFile::rename() {
     if (::rename(temporary_.c_str(), place_.c_str()) != 0) {
         return error(std::strerror(errno));
     }
-    OwnTemporaries::all().forget(temporary_);
     temporary_.clear();
     return {};
 }
@@ -454,7 +430,6 @@ Result<ScratchFolder> ScratchFolder::create(fs::path parent) {
                                  std::strerror(errno))};
     }
     ScratchFolder folder;
-    OwnTemporaries::all().add(made.path);
     folder.path_ = std::move(made.path);
     folder.folder_ = std::move(made.descriptor);
     return folder;
@@ -465,7 +440,6 @@ ScratchFolder::~ScratchFolder() {
     std::error_code ignored;
     if (folder_) {
         fs::remove_all(path_, ignored);
-        OwnTemporaries::all().forget(path_);
     }
     errno = reason;
 }

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -106,8 +107,13 @@ TEST(CtrlC, EndsAViewerThatWasClosedWithSuccess) {
 
 TEST(CtrlC, EndsWithoutTemporaryFilesOfWorkThatGoesOn) {
     const test::TemporaryFolder folder;
+    const test::TemporaryFolder others;
+    const auto of_parent = AtomicFile::create(others.path() / "file");
+    ASSERT_TRUE(of_parent);
     const pid_t child = ::fork();
     if (child == 0) {
+        ::closefrom(STDERR_FILENO + 1);
+        const Descriptor seen(::open(of_parent->temporary().c_str(), O_RDONLY));
         auto first = AtomicFile::create(folder.path() / "file");
         const AtomicFile moved = std::move(*first);
         const auto scratch = ScratchFolder::create(folder.path());
@@ -126,6 +132,7 @@ TEST(CtrlC, EndsWithoutTemporaryFilesOfWorkThatGoesOn) {
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"done"});
+    EXPECT_EQ(others.names().size(), 1U) << "the temporary file of another process";
 }
 
 TEST(CtrlC, WaitsForWorkThatEndsByItself) {
