@@ -194,7 +194,7 @@ void Viewer::update_appearance() {
     redraw_ = std::exchange(hides_overlay, comparison_.is_on()) != comparison_.is_on() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     redraw_ = levels_.update() || redraw_;
-    if (surface_switch_.update(switch_.technique(), switch_.light())) {
+    if (surface_switch_.update(switch_.technique(), switch_.light(), size_)) {
         if (!measuring_.points().empty()) { // they are no longer on the ground
             measuring_.clear();
             notes_.note("the ground has changed: the measured points are removed");

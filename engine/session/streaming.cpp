@@ -380,12 +380,14 @@ scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now
     return later;
 }
 
-bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain,
-               const std::shared_ptr<scene::TileStream>& stream, glm::ivec2 size) {
-    const auto shown = std::exchange(terrain.stream, stream);
+bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain, const StreamedSurface& next,
+               glm::ivec2 size) {
+    const StreamedSurface shown{std::exchange(terrain.surface, next.surface),
+                                std::exchange(terrain.stream, next.stream)};
     const std::vector<view::TileRequests> requests =
         view::tile_requests(scene, scene.camera(), size);
-    terrain.stream = shown;
+    terrain.surface = shown.surface;
+    terrain.stream = shown.stream;
     request_tiles(requests);
     return std::all_of(requests.begin(), requests.end(), [](const view::TileRequests& request) {
         return std::all_of(

@@ -52,10 +52,16 @@ MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
 /// With which terrains in memory would not be averages of their samples, MiB; empty: they are none.
 std::optional<int> megabytes_for_all_samples(const scene::Scene& scene);
 
-/// Loads the tiles of the scene's view into another stream of a terrain. Returns whether they are
-/// in memory or have failed for good; call it until then.
-bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain,
-               const std::shared_ptr<scene::TileStream>& stream, glm::ivec2 size);
+/// A streamed terrain that may be shown instead of another one of the same ground.
+struct StreamedSurface {
+    std::shared_ptr<const scene::TerrainSurface> surface; ///< the overview
+    std::shared_ptr<scene::TileStream> stream;
+};
+
+/// Loads the tiles of the scene's view for `next` as if the terrain showed it. Returns whether they
+/// are in memory or have failed for good; call it until then.
+bool load_view(const scene::Scene& scene, scene::TerrainNode& terrain, const StreamedSurface& next,
+               glm::ivec2 size);
 
 /// Extrapolates a camera that moved from `before` to `now` in `seconds` by `ahead` more seconds.
 scene::Camera camera_ahead(const scene::Camera& before, const scene::Camera& now, double seconds,

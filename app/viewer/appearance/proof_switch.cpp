@@ -1,6 +1,5 @@
 #include "app/viewer/appearance/proof_switch.h"
 
-#include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"
 
 namespace reljef::app {
@@ -27,16 +26,22 @@ bool ProofSwitch::update(glm::ivec2 size) {
         auto proofs = proving_->take();
         proving_.reset();
         if (proofs) {
-            prepare(std::move(*proofs));
+            session::TerrainSource source = *scene_.source;
+            source.proofs = std::move(*proofs);
+            proven_ = std::make_shared<const session::TerrainSource>(std::move(source));
+            prepare();
         } else {
             log_.note(session::unproven_note(proofs.error()));
         }
     }
-    if (stream_ == nullptr || size.x == 0 || size.y == 0) { // minimized
+    if (next_.stream == nullptr || size.x == 0 || size.y == 0) { // minimized
         return false;
     }
     auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
-    const bool is_loaded = session::load_view(scene_.scene, terrain, stream_, size);
+    if (next_.surface != terrain.surface) { // which has changed meanwhile
+        prepare();
+    }
+    const bool is_loaded = session::load_view(scene_.scene, terrain, next_, size);
     if (!is_loaded || (lighting_ && !lighting_->is_done())) {
         return false;
     }
@@ -44,16 +49,14 @@ bool ProofSwitch::update(glm::ivec2 size) {
     return true;
 }
 
-void ProofSwitch::prepare(Proofs proofs) {
-    session::TerrainSource source = *scene_.source;
-    source.proofs = std::move(proofs);
+void ProofSwitch::prepare() {
     const auto& terrain = *scene_.terrain->get<scene::TerrainNode>();
-    stream_ = session::make_stream(source, terrain.surface);
+    next_ = {terrain.surface, session::make_stream(*proven_, terrain.surface)};
     auto request =
         session::light_request(scene_, *scene_.light->get<scene::Light>(),
                                terrain.material.technique, 0); // of a stream: no maps, no limit
     if (request) {
-        request->stream = stream_;
+        request->stream = next_.stream;
         lighting_.emplace([request = std::move(*request)](const std::stop_token&) {
             return std::make_shared<const view::PreparedLight>(view::prepare_light(request));
         });
@@ -65,7 +68,9 @@ void ProofSwitch::show() {
         light_ = std::move(*light);
     }
     lighting_.reset();
-    scene_.terrain->get<scene::TerrainNode>()->stream = std::exchange(stream_, nullptr);
+    scene_.terrain->get<scene::TerrainNode>()->stream = next_.stream;
+    scene_.source = std::move(proven_);
+    next_ = {};
 }
 
 } // namespace reljef::app

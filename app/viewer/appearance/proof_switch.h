@@ -11,11 +11,13 @@
 #include "engine/session/prepared_maps.h"
 #include "engine/session/proven_tiles.h"
 #include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
 
 namespace reljef::app {
 
 /// Proves the errors of a streamed terrain in the background. Then loads the view into a stream
-/// with proofs, and shows it. The destructor stops; finished parts of the index are kept.
+/// with proofs, and shows it; the scene's source has the proofs from then on. The destructor stops;
+/// finished parts of the index are kept.
 class ProofSwitch {
 public:
     /// The scene outlives this. Nothing to do if it is not streamed or already proven.
@@ -35,12 +37,13 @@ public:
 private:
     using Proofs = std::shared_ptr<const session::ProvenTiles>;
     using Light = std::shared_ptr<const view::PreparedLight>;
-    void prepare(Proofs proofs);
+    void prepare();
     void show();
 
     session::TerrainScene& scene_;
     session::RelayedLog log_;
-    std::shared_ptr<scene::TileStream> stream_; // with proofs; null: not yet
+    std::shared_ptr<const session::TerrainSource> proven_; // null: not yet
+    session::StreamedSurface next_;                        // with proofs; null: not yet
     Light light_;
     std::optional<Background<Light>> lighting_;
     std::optional<Background<Proofs>> proving_; // uses the log

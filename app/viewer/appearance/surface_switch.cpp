@@ -23,44 +23,60 @@ Result<scene::TerrainSurface> surface_of(const scene::TerrainSurface& shown,
 } // namespace
 
 std::string SurfaceSwitch::obstacle() const {
-    if (!scene_.models.empty()) {
-        return "models have no vertical exaggeration; a terrain has";
-    }
-    return scene_.terrain->get<scene::TerrainNode>()->stream != nullptr
-               ? "a terrain that is read tile by tile keeps its exaggeration; --exaggeration sets "
-                 "it"
-               : "";
+    return scene_.models.empty() ? "" : "models have no vertical exaggeration; a terrain has";
 }
 
 double SurfaceSwitch::factor() const {
     if (next_) {
         return next_->factor;
     }
-    return work_ ? preparing_.factor : surface().placement().exaggeration();
+    return is_working() ? preparing_.factor : surface().placement().exaggeration();
 }
 
 const terrain::ColorRamp& SurfaceSwitch::ramp() const {
     if (next_) {
         return next_->ramp;
     }
-    return work_ ? preparing_.ramp : surface().ramp();
+    return is_working() ? preparing_.ramp : surface().ramp();
 }
 
 double SurfaceSwitch::imagery_share() const {
     if (next_) {
         return next_->imagery_share;
     }
-    return work_ ? preparing_.imagery_share : surface().imagery_share();
+    return is_working() ? preparing_.imagery_share : surface().imagery_share();
 }
 
-bool SurfaceSwitch::update(const scene::Technique& technique, const scene::Light& light) {
+bool SurfaceSwitch::update(const scene::Technique& technique, const scene::Light& light,
+                           glm::ivec2 size) {
     if (work_ && work_->is_done()) {
-        return show();
+        end();
     }
-    if (!work_ && next_) {
+    if (made_ && is_outdated()) {
+        next_ = next_ ? std::move(next_) : std::optional(preparing_);
+        made_.reset();
+    }
+    if (made_ && is_loaded(size)) {
+        show();
+        return true;
+    }
+    if (!is_working() && next_) {
         begin(*std::exchange(next_, std::nullopt), technique, light);
     }
     return false;
+}
+
+// Streams only: tiles of an earlier request, or without the proofs that are there now.
+bool SurfaceSwitch::is_outdated() const {
+    return made_->shown.stream != nullptr && (next_ || made_->source != scene_.source);
+}
+
+bool SurfaceSwitch::is_loaded(glm::ivec2 size) const {
+    const bool is_minimized = size.x == 0 || size.y == 0;
+    return made_->shown.stream == nullptr ||
+           (!is_minimized &&
+            session::load_view(scene_.scene, *scene_.terrain->get<scene::TerrainNode>(),
+                               made_->shown, size));
 }
 
 void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
@@ -72,7 +88,7 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
     missing.light = session::light_request(scene_, light, technique, largest_side_);
     preparing_ = std::move(shape);
     work_.emplace([shown = node, technique, rays = scene_.rays, missing = std::move(missing),
-                   shape = preparing_, threads = threads_,
+                   shape = preparing_, threads = threads_, source = scene_.source,
                    this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
         auto changed = surface_of(
@@ -83,18 +99,23 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
             return changed.error();
         }
         Made made;
-        made.surface = std::make_shared<const scene::TerrainSurface>(std::move(*changed));
+        made.shown.surface = std::make_shared<const scene::TerrainSurface>(std::move(*changed));
+        if (shown.stream != nullptr) {
+            made.source = source;
+            made.shown.stream = session::make_stream(*source, made.shown.surface);
+        }
         session::MissingMaps requested = missing;
-        requested.surface = made.surface;
+        requested.surface = made.shown.surface;
         scene::TerrainNode changed_node = shown;
-        changed_node.surface = made.surface;
+        changed_node.surface = made.shown.surface;
         changed_node.bisection = nullptr;
         changed_node.cones = shape.finer != nullptr ? nullptr : shown.cones;
         const auto of_technique = session::missing_maps(changed_node, technique, rays);
         requested.bisection = requested.bisection || of_technique.bisection;
         requested.cones = requested.cones || of_technique.cones;
         if (requested.light) {
-            requested.light->surface = made.surface;
+            requested.light->surface = made.shown.surface;
+            requested.light->stream = made.shown.stream;
         }
         auto maps = session::prepare_maps(requested, threads, log_, stop);
         if (!maps) {
@@ -105,25 +126,31 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
     });
 }
 
-bool SurfaceSwitch::show() {
-    const auto made = work_->take();
+void SurfaceSwitch::end() {
+    auto made = work_->take();
     work_.reset();
-    if (!made) {
-        log_.note(preparing_.finer != nullptr
-                      ? fmt::format("{}: shown with fewer samples than it has: {}",
-                                    preparing_.finer->name, made.error().message)
-                      : made.error().message);
-        return false;
+    if (made) {
+        made_ = std::move(*made);
+        return;
     }
+    log_.note(preparing_.finer != nullptr
+                  ? fmt::format("{}: shown with fewer samples than it has: {}",
+                                preparing_.finer->name, made.error().message)
+                  : made.error().message);
+}
+
+void SurfaceSwitch::show() {
+    const Made made = *std::exchange(made_, std::nullopt);
     if (next_ && next_->finer == preparing_.finer) {
         next_->finer = nullptr; // it is shown now
     }
     auto& node = *scene_.terrain->get<scene::TerrainNode>();
-    node.surface = made->surface;
+    node.surface = made.shown.surface;
+    node.stream = made.shown.stream;
     session::follow_ramp(scene_);
     node.bisection = nullptr;
     node.cones = preparing_.finer != nullptr ? nullptr : node.cones;
-    session::apply_maps(scene_, made->maps);
+    session::apply_maps(scene_, made.maps);
     session::stand_on(*node.surface, scene_.objects);
     session::stand_on(*node.surface, scene_.buildings);
     session::stand_on(*node.surface, scene_.point_lights);
@@ -134,8 +161,7 @@ bool SurfaceSwitch::show() {
             city ? std::make_shared<const scene::TerrainSurface>(std::move(*city)) : nullptr;
     }
     session::set_daylight(scene_, *scene_.light->get<scene::Light>());
-    light_ = made->maps.light;
-    return true;
+    light_ = made.maps.light;
 }
 
 } // namespace reljef::app

@@ -9,19 +9,21 @@
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_setup.h"
+#include "engine/session/streaming.h"
 #include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::app {
 
-/// Changes the vertical exaggeration of a terrain in memory, its colours by height, and how fine it
-/// is. The surface and its maps are made in the background; the scene changes when they are ready.
+/// Changes the vertical exaggeration of a terrain, its colours by height, and how fine it is in
+/// memory. The surface and its maps are made in the background, and the tiles of the view are read
+/// anew if it is streamed; the scene changes when they are ready.
 class SurfaceSwitch {
 public:
     /// The scene outlives this. `largest_side`: as in AppearanceSwitchOptions.
     SurfaceSwitch(session::TerrainScene& scene, int threads, int largest_side)
         : scene_(scene), threads_(threads), largest_side_(largest_side) {}
 
-    /// Why neither can change; empty: both can.
+    /// Why nothing can change; empty: all can.
     [[nodiscard]] std::string obstacle() const;
     /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
     /// is in (0, terrain::max_exaggeration].
@@ -34,16 +36,16 @@ public:
     void request(std::shared_ptr<const terrain::Terrain> finer) {
         next_ = Shape{factor(), ramp(), imagery_share(), std::move(finer)};
     }
-    /// Begins and ends the work, for a scene with this technique and light. Returns whether the
-    /// scene changed.
-    bool update(const scene::Technique& technique, const scene::Light& light);
+    /// Begins and ends the work, for a picture of `size` pixels of a scene with this technique and
+    /// light. Returns whether the scene changed.
+    bool update(const scene::Technique& technique, const scene::Light& light, glm::ivec2 size);
 
     /// The requested factor, else the current one.
     [[nodiscard]] double factor() const;
     /// The requested colours, else the current ones.
     [[nodiscard]] const terrain::ColorRamp& ramp() const;
     [[nodiscard]] double imagery_share() const;
-    [[nodiscard]] bool is_preparing() const { return work_.has_value() || next_.has_value(); }
+    [[nodiscard]] bool is_preparing() const { return is_working() || next_.has_value(); }
     /// The current task; its label is empty if there is none.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const { return log_.progress(); }
     void relay_to(session::Log& log) { log_.relay_to(log); }
@@ -60,18 +62,23 @@ private:
         std::shared_ptr<const terrain::Terrain> finer; // null: the terrain that is shown
     };
     struct Made {
-        std::shared_ptr<const scene::TerrainSurface> surface;
+        session::StreamedSurface shown;                       // without a stream: in memory
+        std::shared_ptr<const session::TerrainSource> source; // of the stream
         session::PreparedMaps maps;
     };
+    [[nodiscard]] bool is_working() const { return work_.has_value() || made_.has_value(); }
     void begin(Shape shape, const scene::Technique& technique, const scene::Light& light);
+    void end();
+    [[nodiscard]] bool is_outdated() const;
+    [[nodiscard]] bool is_loaded(glm::ivec2 size) const;
     [[nodiscard]] const scene::TerrainSurface& surface() const {
         return *scene_.terrain->get<scene::TerrainNode>()->surface;
     }
     // The finer terrain of the last request that is not shown yet.
     [[nodiscard]] std::shared_ptr<const terrain::Terrain> finer() const {
-        return next_ ? next_->finer : work_ ? preparing_.finer : nullptr;
+        return next_ ? next_->finer : is_working() ? preparing_.finer : nullptr;
     }
-    bool show();
+    void show();
 
     session::TerrainScene& scene_;
     int threads_;
@@ -81,6 +88,7 @@ private:
     session::RelayedLog log_;
     std::shared_ptr<const view::PreparedLight> light_;
     std::optional<Background<Made>> work_; // uses the log
+    std::optional<Made> made_;             // its tiles are read
 };
 
 } // namespace reljef::app

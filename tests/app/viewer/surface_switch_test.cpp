@@ -1,13 +1,21 @@
 #include "app/viewer/appearance/surface_switch.h"
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "app/viewer/viewer.h"
 #include "app/viewer/viewer_content.h"
+#include "engine/session/streaming.h"
+#include "engine/view/select.h"
 #include "tests/app/made_hill.h"
+#include "tests/session/made_waves.h"
+#include "tests/support/process_state.h"
+#include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
 namespace {
@@ -225,6 +233,97 @@ TEST_F(ExaggerationTest, ALowSunIsWarmAndItsSkyFollows) {
     EXPECT_EQ(scene.surroundings.turbidity, 6.0);
     EXPECT_EQ(scene.scene.sky()->visibility, 1234.0);
     EXPECT_NE(scene.light->get<scene::Light>()->color, low.color);
+}
+
+// A terrain that is read tile by tile, with the viewer.
+class StreamedSurfaceTest : public testing::Test {
+protected:
+    StreamedSurfaceTest() {
+        test::write_waves(folder_.path() / "waves.tif", 2300, 600);
+        session::SourceOptions choice;
+        choice.terrain = (folder_.path() / "waves.tif").string();
+        choice.memory_megabytes = 8;
+        choice.streamed = true;
+        choice.index = session::IndexUse::existing;
+        session::Log silent;
+        auto opened = session::open_scene(choice, {}, silent);
+        EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
+        scene = std::move(*opened);
+    }
+    [[nodiscard]] const scene::TerrainNode& node() const {
+        return *scene.terrain->get<scene::TerrainNode>();
+    }
+    void open_viewer(bool proves_errors) {
+        ViewerOptions options;
+        options.proves_errors = proves_errors;
+        viewer.emplace(scene, scene::orbit_path(scene.bounds, 10.0), glm::ivec2(160, 120), options);
+    }
+    void expect_whole_view() const {
+        for (const auto& request :
+             view::tile_requests(scene.scene, scene.scene.camera(), {160, 120})) {
+            EXPECT_EQ(request.stream, node().stream);
+            EXPECT_FALSE(request.used.empty());
+            EXPECT_TRUE(request.missing.empty());
+        }
+    }
+
+    test::TemporaryFolder folder_;
+    test::EnvironmentVariable cache_{"XDG_CACHE_HOME", (folder_.path() / "cache").string()};
+    session::TerrainScene scene;
+    std::optional<Viewer> viewer;
+};
+
+TEST_F(StreamedSurfaceTest, ChangesWhenTheTilesOfTheViewAreThere) {
+    open_viewer(false);
+    const std::weak_ptr<scene::TileStream> before = node().stream;
+    ASSERT_TRUE(viewer->act(SetExaggeration{2.0}));
+    ASSERT_TRUE(viewer->act(SetRamp{"swiss"}));
+    EXPECT_EQ(node().stream, before.lock());
+    wait_for_maps(*viewer);
+    EXPECT_EQ(node().surface->placement().exaggeration(), 2.0);
+    EXPECT_EQ(node().surface->ramp().name, "swiss");
+    EXPECT_EQ(&node().stream->maker().overview(), node().surface.get());
+    EXPECT_EQ(scene.bounds.high.z, scene.terrain->world_bounds().high.z);
+    EXPECT_TRUE(before.expired()) << "its tiles would take memory";
+    expect_whole_view();
+    const auto light = viewer->take_light();
+    ASSERT_NE(light, nullptr);
+    EXPECT_EQ(light->request.stream, node().stream);
+    EXPECT_EQ(light->request.surface, node().surface);
+}
+
+TEST_F(StreamedSurfaceTest, TheLastOfManyRequestsIsShown) {
+    open_viewer(false);
+    for (double factor = 1.25; factor < 4.0; factor += 0.25) {
+        viewer->set_exaggeration(factor);
+        for (int i = 0; i < 20; ++i) {
+            viewer->advance(1.0 / 60.0);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    wait_for_maps(*viewer);
+    EXPECT_EQ(node().surface->placement().exaggeration(), 3.75);
+    EXPECT_EQ(viewer->exaggeration(), 3.75);
+    expect_whole_view();
+}
+
+// Whichever is ready first, the other one keeps it.
+TEST_F(StreamedSurfaceTest, KeepsProofsThatArriveMeanwhile) {
+    open_viewer(true);
+    double factor = 1.5;
+    for (int i = 0; i < 30'000 && !node().stream->options().find_proof; ++i) {
+        if (!viewer->is_preparing()) {
+            viewer->set_exaggeration(factor = 3.5 - factor);
+        }
+        viewer->advance(1.0 / 60.0);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    viewer->set_exaggeration(2.5);
+    wait_for_maps(*viewer);
+    EXPECT_EQ(node().surface->placement().exaggeration(), 2.5);
+    ASSERT_TRUE(node().stream->options().find_proof);
+    EXPECT_TRUE(node().stream->options().find_proof({0, 0, 0}));
+    EXPECT_EQ(&node().stream->maker().overview(), node().surface.get());
 }
 
 } // namespace
