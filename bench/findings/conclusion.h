@@ -59,8 +59,8 @@ struct Figure {
     Range expected = {}; ///< if the conclusion is true
 };
 
-/// A conclusion of a source. It is confirmed if each figure lies in its range, refuted if none
-/// does. Otherwise it depends, also if noise leaves open where a figure lies.
+/// A conclusion of a source. It is confirmed if each figure lies in its range, and refuted if none
+/// does. Otherwise it depends, or is within noise if no figure is known to lie outside.
 struct Conclusion {
     std::string source; ///< letter, chapter, page
     std::string claim;  ///< in our words

@@ -52,7 +52,7 @@ RowName seen(const View& view, const scene::Technique& technique) {
 }
 
 View bricks() {
-    return {"pareto-quick.json", "tile brick", "oblique"};
+    return {"pareto.json", "tile brick", "oblique"};
 }
 
 View at_scale(const std::string& terrain, const std::string& scale) {
@@ -121,23 +121,31 @@ std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure
     return figures;
 }
 
+std::vector<Figure> named(const std::string& quantity, std::vector<Figure> figures) {
+    for (Figure& figure : figures) {
+        figure.words = fmt::format("{}, {}", quantity, figure.words);
+    }
+    return figures;
+}
+
 std::vector<Conclusion> joined(std::vector<Conclusion> conclusions,
                                const std::vector<Conclusion>& more) {
     conclusions.insert(conclusions.end(), more.begin(), more.end());
     return conclusions;
 }
 
-std::vector<Figure> and_on_gpu(std::vector<Figure> figures) {
-    const std::size_t count = figures.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        Figure figure = figures[i];
+std::vector<Figure> on_gpu(std::vector<Figure> figures) {
+    for (Figure& figure : figures) {
         figure.row.file = "h100/" + figure.row.file;
         if (figure.base) {
             figure.base->file = "h100/" + figure.base->file;
         }
-        figures.push_back(std::move(figure));
     }
     return figures;
+}
+
+std::vector<Figure> and_on_gpu(const std::vector<Figure>& figures) {
+    return joined(figures, on_gpu(figures));
 }
 
 ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests,

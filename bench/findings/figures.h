@@ -50,11 +50,14 @@ Figure ratio(const std::string& words, Quantity quantity, const RowName& row, co
 Figure drop(const std::string& words, const RowName& row, const RowName& base, const Range& range);
 Figure frame_rate(const std::string& words, const RowName& row, const Range& range);
 std::vector<Figure> joined(std::vector<Figure> figures, const std::vector<Figure>& more);
+/// "error, city" instead of "city".
+std::vector<Figure> named(const std::string& quantity, std::vector<Figure> figures);
 std::vector<Conclusion> joined(std::vector<Conclusion> conclusions,
                                const std::vector<Conclusion>& more);
-/// The figures, and then the same of a machine with a GPU. Precondition: their results exist in
-/// h100, too.
-std::vector<Figure> and_on_gpu(std::vector<Figure> figures);
+/// The same of a machine with a GPU. Precondition: their results exist in h100, too.
+std::vector<Figure> on_gpu(std::vector<Figure> figures);
+/// The figures, and then the same of a machine with a GPU.
+std::vector<Figure> and_on_gpu(const std::vector<Figure>& figures);
 
 /// The mean loss of frame rate of a technique in J's own table, percent.
 struct ThesisDrop {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/args.h>
@@ -36,14 +37,22 @@ The numbers after D, M and J are chapters. A conclusion is
 
 - **confirmed** if each figure keeps the rule in the column *confirmed if*,
 - **refuted** if none does,
-- **depends** if some do, or if the noise of the times leaves open whether they do,
+- **depends** if some do,
+- **within noise** if none is outside, but the noise of the times leaves open whether all are inside,
 - **answered** if the source asks or leaves a figure blank,
 - **not measured yet** if a figure is missing.
 
 Words such as "much" and "good" have no figure in the sources. Then the rule is our reading of them, and the column
-says so. *Wrong* is the share of the pixels of terrain that show a point more than one texel from the correct one. The error in pixels
-is the distance between where a point is shown and its true place (root mean square). A number with × is a ratio. A time
-is as uncertain as the noise floor of its run (10 % if the run has none), or as the interval of its median if that is wider.
+says so. Three measures tell how wrong a picture is:
+
+- *Wrong* is the share of the pixels of terrain that show a point more than one texel from the correct one. From afar a
+  texel is smaller than a pixel. Then it also counts what nobody can see.
+- The error in pixels is the distance between where a point is shown and its true place (root mean square).
+- *FLIP* is the difference from the true picture, as an eye sees it: 0 is none, 1 is all. The true picture has shadows,
+  which most techniques do not draw. So even exact rays differ from it.
+
+A number with × is a ratio. A time is as uncertain as the noise floor of its run (10 % if the run has none), or as the
+interval of its median if that is wider; from 10 % on, it stands after ±.
 *CPU* stands for a software renderer, *GPU* for a graphics card; without either word, it is a software renderer. The last
 column names the results, with the command that measures them again, and the machine by a letter; both are listed below.
 )";
@@ -52,6 +61,8 @@ constexpr std::string_view page_end = R"(
 `reljef-bench findings --markdown docs/findings.md --plot docs/pictures/distance.svg` writes this page and its plot from
 the results in `bench/results`. A test compares them.
 )";
+
+constexpr double shown_points = 10.0; // of the uncertainty of a percentage
 
 constexpr std::string_view table_head =
     "| source | conclusion | confirmed if | reljef measures | verdict | data |\n"
@@ -173,7 +184,8 @@ Result<std::string> sentences_text(std::span<const Chapter::Sentence> sentences,
 
 // Why a conclusion does not hold.
 std::string reason_text(const Conclusion& conclusion, Finding verdict) {
-    const bool holds = verdict != Finding::refuted && verdict != Finding::depends;
+    const bool holds =
+        verdict != Finding::refuted && verdict != Finding::depends && verdict != Finding::open;
     return holds || conclusion.reason.empty()
                ? std::string()
                : fmt::format("- *{}* {}\n", conclusion.claim, conclusion.reason);
@@ -216,10 +228,11 @@ std::string counts_text(const std::vector<Finding>& verdicts) {
     const auto missing = count(Finding::not_measured);
     return fmt::format(
         "\nOf {} conclusions, {} are confirmed, {} are refuted, and {} depend on the "
-        "scene or the view;\n{} answer what a source leaves open{}.\n",
+        "scene or the view;\n{} are within the noise of the times, and {} answer what a source "
+        "leaves open{}.\n",
         verdicts.size(), count(Finding::confirmed), count(Finding::refuted),
-        count(Finding::depends), count(Finding::answered),
-        missing == 0 ? "" : fmt::format(", and {} are not measured yet", missing));
+        count(Finding::depends), count(Finding::open), count(Finding::answered),
+        missing == 0 ? "" : fmt::format("; {} are not measured yet", missing));
 }
 
 std::string summary_text(const std::string& sentences, const CommittedResults& results) {
@@ -266,14 +279,25 @@ std::string source_text(const ResultsSource& source, const PageContext& context)
     return text + fmt::format("\n\n```\nbuild/release/bin/{}\n```\n", source.command);
 }
 
+// From 10 % of the number on.
+std::string uncertainty_text(const Number& number) {
+    constexpr double shown_from = 0.1;
+    const double share = number.uncertainty() / std::abs(number.value);
+    return share >= shown_from ? fmt::format(" ± {:.0f}\u00a0%", 100.0 * share) : "";
+}
+
 } // namespace
 
 std::string number_text(const Figure& figure, const Number& number) {
     const double value = number.value;
     switch (figure.form) {
     case Figure::Form::ratio:
-        return value >= 100.0 ? fmt::format("{:.0f}×", value) : fmt::format("{:.2f}×", value);
+        return fmt::format("{:.{}f}×{}", value, value >= 100.0 ? 0 : 2, uncertainty_text(number));
     case Figure::Form::drop:
+        return fmt::format("{:.1f}{}\u00a0%", value,
+                           number.uncertainty() >= shown_points
+                               ? fmt::format(" ± {:.0f}", number.uncertainty())
+                               : "");
     case Figure::Form::constant:
         return fmt::format("{:.1f}\u00a0%", value);
     case Figure::Form::rate:

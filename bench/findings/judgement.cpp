@@ -64,6 +64,8 @@ std::string_view to_string(Finding verdict) {
         return "refuted";
     case Finding::depends:
         return "depends";
+    case Finding::open:
+        return "within noise";
     case Finding::answered:
         return "answered";
     case Finding::not_measured:
@@ -96,6 +98,7 @@ Finding verdict_of(std::span<const Figure> figures,
     check(figures.size() == numbers.size(), "a number for each figure");
     bool all_inside = true;
     bool all_outside = true;
+    bool none_outside = true;
     for (std::size_t i = 0; i < figures.size(); ++i) {
         if (!numbers[i]) {
             return Finding::not_measured;
@@ -103,6 +106,7 @@ Finding verdict_of(std::span<const Figure> figures,
         const Place place = place_of(*numbers[i], figures[i].expected);
         all_inside = all_inside && place == Place::inside;
         all_outside = all_outside && place == Place::outside;
+        none_outside = none_outside && place != Place::outside;
     }
     if (figures.empty()) {
         return Finding::not_measured;
@@ -110,7 +114,7 @@ Finding verdict_of(std::span<const Figure> figures,
     if (all_inside || all_outside) {
         return all_inside ? Finding::confirmed : Finding::refuted;
     }
-    return Finding::depends;
+    return none_outside ? Finding::open : Finding::depends;
 }
 
 Result<Judgement> judge(const Conclusion& conclusion, const CommittedResults& results) {

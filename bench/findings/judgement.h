@@ -14,7 +14,8 @@ namespace reljef::bench {
 enum class Finding {
     confirmed,    ///< each figure lies in its range
     refuted,      ///< none does
-    depends,      ///< some do, or noise leaves open which
+    depends,      ///< some do
+    open,         ///< none lies outside, but noise leaves open whether all lie inside
     answered,     ///< the source makes no claim
     not_measured, ///< a figure is missing
 };

@@ -17,12 +17,14 @@ std::string city_command(const std::string& city) {
 }
 
 std::string bricks_command(const std::string& pose) {
-    return fmt::format("reljef-bench tables --context osmesa --pose {0} --terrain gallery "
-                       "--technique emboss --technique normal --technique bump --technique relief "
-                       "--technique relief:shadow=hard --technique exact "
-                       "--technique exact:shadow=hard --json bench/results/bricks-{0}.json "
-                       "--markdown bench/results/bricks-{0}.md",
-                       pose);
+    return fmt::format(
+        "reljef-bench tables --context osmesa --pose {0} --terrain gallery "
+        "--technique emboss --technique normal --technique bump --technique relief "
+        "--technique relief:shadow=hard --technique relief:fade=0..1 "
+        "--technique relief:n=5,k=8 --technique relief:n=5,k=8,fade=0..1 "
+        "--technique exact --technique exact:shadow=hard --json bench/results/bricks-{0}.json "
+        "--markdown bench/results/bricks-{0}.md",
+        pose);
 }
 
 } // namespace
@@ -50,22 +52,21 @@ std::vector<ResultsSource> technique_sources() {
          "reljef-bench tables --context osmesa --terrain bench/scenes/urban-s05.toml "
          "--terrain natural --pose oblique --json bench/results/oblique.json "
          "--markdown bench/results/oblique.md"},
-        {"pareto-quick", "Every technique with other parameters and options, in small pictures.",
-         "reljef-bench pareto --quick --context osmesa --json bench/results/pareto-quick.json "
-         "--markdown bench/results/pareto-quick.md"},
+        {"pareto", "Every technique over the range of each parameter, and with each option.",
+         "reljef-bench pareto --context osmesa --size 512x384 --rounds 5 "
+         "--json bench/results/pareto.json --markdown bench/results/pareto.md"},
         {"peers", "Irrlicht's terrain node, which J used, beside our triangles.",
-         "reljef-bench peers --terrain N45E006.hgt --rounds 15 --json bench/results/peers.json"},
+         "reljef-bench peers --terrain N45E006.hgt --rounds 15 --json bench/results/peers.json "
+         "--markdown bench/results/peers.md"},
         {"angles", "Wrong pixels of all techniques from straight above to flat angles.",
          "reljef-bench stress --only grazing-view --context osmesa "
-         "--json bench/results/angles.json",
-         false},
+         "--json bench/results/angles.json --markdown bench/results/angles.md"},
         {"steps", "The searches of M's figures, with their numbers of steps.",
          "reljef-bench tables --context osmesa --terrain bench/scenes/urban-s05.toml "
          "--terrain natural --pose oblique --rounds 5 --technique relief:n=1,k=8 "
          "--technique relief:n=11,k=8 --technique relief:n=20,k=4 --technique steep:n=40 "
          "--technique relief:n=25,k=8 --technique relief:n=11,k=8,steps=5..25 "
-         "--json bench/results/steps.json --markdown bench/results/steps.md",
-         false},
+         "--json bench/results/steps.json --markdown bench/results/steps.md"},
         {"scales", "A city and a landscape as high as M's two scales make them.",
          "reljef-bench tables --context osmesa --rounds 5 --pose oblique "
          "--terrain bench/scenes/urban-s04.toml --terrain bench/scenes/urban-s15.toml "

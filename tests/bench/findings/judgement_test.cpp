@@ -45,19 +45,30 @@ TEST(VerdictOf, IsNotMeasuredWithoutOneOfTheNumbersOrAnyFigure) {
     EXPECT_EQ(verdict_of({}, {}), Finding::not_measured);
 }
 
-TEST(VerdictOf, DependsWhereNoiseReachesTheEndOfTheRangeAndNeverTurns) {
+TEST(VerdictOf, IsOpenWhereNoiseReachesTheEndOfTheRangeAndNeverTurns) {
     const auto figures = figures_at_most(10.0, 1);
     EXPECT_EQ(verdict_of(figures, Numbers{Number{9.0, 0.5}}), Finding::confirmed);
-    EXPECT_EQ(verdict_of(figures, Numbers{Number{9.0, 1.5}}), Finding::depends);
-    EXPECT_EQ(verdict_of(figures, Numbers{Number{11.0, 1.5}}), Finding::depends);
+    EXPECT_EQ(verdict_of(figures, Numbers{Number{9.0, 1.5}}), Finding::open);
+    EXPECT_EQ(verdict_of(figures, Numbers{Number{11.0, 1.5}}), Finding::open);
     EXPECT_EQ(verdict_of(figures, Numbers{Number{11.0, 0.5}}), Finding::refuted);
     std::mt19937 random(2);
     std::uniform_real_distribution<double> value(0.0, 20.0);
     for (int round = 0; round < 2000; ++round) {
         const Number exact{value(random)};
         const Finding noisy = verdict_of(figures, Numbers{Number{exact.value, value(random)}});
-        EXPECT_TRUE(noisy == Finding::depends || noisy == verdict_of(figures, Numbers{exact}));
+        EXPECT_TRUE(noisy == Finding::open || noisy == verdict_of(figures, Numbers{exact}));
     }
+}
+
+TEST(VerdictOf, DependsIfAFigureIsOutsideAndOthersAreOpenOrInside) {
+    const auto figures = figures_at_most(10.0, 2);
+    const Number inside{9.0, 0.5};
+    const Number open{9.0, 1.5};
+    const Number outside{11.0, 0.5};
+    EXPECT_EQ(verdict_of(figures, Numbers{inside, open}), Finding::open);
+    EXPECT_EQ(verdict_of(figures, Numbers{inside, outside}), Finding::depends);
+    EXPECT_EQ(verdict_of(figures, Numbers{open, outside}), Finding::depends);
+    EXPECT_EQ(verdict_of(figures, Numbers{outside, outside}), Finding::refuted);
 }
 
 // Results of one file with two rows.
