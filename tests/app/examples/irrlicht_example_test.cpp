@@ -63,7 +63,8 @@ TEST(IrrlichtExample, HasAtMost120Lines) {
 // "Scene::add_mesh", "session::Device" …
 std::vector<std::string> names_on_page() {
     const std::string page = test::read_bytes(RELJEF_IRRLICHT_PAGE);
-    const std::regex name(R"(\b(?:scene|session|platform|view|material|io|building|Scene|Node|Material)::(\w+))");
+    const std::regex name(
+        R"(\b(?:scene|session|platform|view|material|io|building|Scene|Node|Material)::(\w+))");
     std::vector<std::string> names;
     for (std::sregex_iterator found(page.begin(), page.end(), name), end; found != end; ++found) {
         names.push_back((*found)[1]);
