@@ -7,8 +7,10 @@
 #               ALONE: tests of windows, which get a display to themselves
 #               SANITIZED: what the sanitizers run by default (tests of input, memory and threads);
 #                          none without it
+#               READERS: tests of what reads files and other input; CI runs these under sanitizers
 #               OPTIMISED: the tests themselves compute much
-# Tests that run by default have the label `default`; target `default_tests` builds their programs.
+# Tests that run by default have the label `default`; target `default_tests` builds their programs. So do label
+# `readers` and target `readers_tests` for READERS.
 
 add_library(reljef_warnings INTERFACE)
 target_compile_options(reljef_warnings INTERFACE
@@ -231,7 +233,7 @@ function(reljef_add_shards NAME PROGRAM SHARDS FILTER)
 endfunction()
 
 function(reljef_test ROOM)
-  cmake_parse_arguments(TEST "OPTIMISED" "ALONE;SHARDS;COST;SANITIZED" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(TEST "OPTIMISED;READERS" "ALONE;SHARDS;COST;SANITIZED" "SOURCES;LINK" ${ARGN})
   set(target reljef_${ROOM}_test)
   add_executable(${target} ${TEST_SOURCES})
   set(build reljef_test_build)
@@ -265,7 +267,12 @@ function(reljef_test ROOM)
   endif()
   if(NOT RELJEF_SANITIZE OR TEST_SANITIZED STREQUAL "*")
     set(label default)
-  elseif(TEST_SANITIZED)
+  endif()
+  if(TEST_READERS)
+    add_dependencies(readers_tests ${target})
+    list(APPEND label readers)
+  endif()
+  if(RELJEF_SANITIZE AND TEST_SANITIZED AND NOT TEST_SANITIZED STREQUAL "*")
     reljef_add_shards(${ROOM}.sanitized ${target} ${TEST_SHARDS} "${TEST_SANITIZED}" ${ROOM} default)
     string(APPEND left_out ":${TEST_SANITIZED}")
   endif()

@@ -10,7 +10,7 @@ namespace reljef::bench {
 namespace {
 
 std::string city_command(const std::string& city) {
-    return fmt::format("reljef-bench objects --rounds 5 --size 512x384 --context osmesa "
+    return fmt::format("reljef-bench objects --rounds 15 --size 512x384 --context osmesa "
                        "--terrain {0}.toml --json bench/results/objects-{0}.json "
                        "--markdown bench/results/objects-{0}.md",
                        city);

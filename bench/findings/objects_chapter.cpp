@@ -86,6 +86,17 @@ std::vector<Figure> looks_in_all_cities(int distance, const Range& range) {
             looks_of_relief(fmt::format("Ann Arbor, {}", words), ann_arbor(distance), range)};
 }
 
+// The time of objects over that of relief in the built-in cities of 35, 81 and 476 buildings.
+std::vector<Figure> by_number(RowName (*objects)(const CityView&), int distance,
+                              const Range& range) {
+    std::vector<Figure> figures;
+    for (const char* scene : {"urban 256", "urban 512", "urban 1024"}) {
+        const CityView view{"objects.json", scene, distance};
+        figures.push_back(ratio("", Quantity::ms, objects(view), as_relief(view), range));
+    }
+    return figures;
+}
+
 // Few buildings over relief, from 300 m.
 std::vector<Figure> few_buildings() {
     std::vector<Figure> figures;
@@ -125,6 +136,13 @@ std::vector<Chapter::Sentence> objects_answer() {
           share(as_relief(delft(3000)), as_objects(delft(3000))),
           looks_of_relief("", delft(300), {}), looks_of_relief("", delft(1000), {}),
           looks_of_relief("", delft(3000), {})}},
+        {"35, 81 and 476 buildings with their ground take {}, {} and {} the time of relief from "
+         "300 m, and {}, {} and {} from 1 km.",
+         joined(by_number(as_objects, 300, {}), by_number(as_objects, 1000, {}))},
+        {"Alone they take {}, {} and {}, and from 1 km {}, {} and {}: whether relief is faster "
+         "than buildings is decided by distance rather than by their number.",
+         joined(by_number(as_objects_alone, 300, at_most(1.0)),
+                by_number(as_objects_alone, 1000, at_least(1.0)))},
     };
 }
 

@@ -295,8 +295,9 @@ Chapter options_chapter() {
                      picture("exact rays", "grazing", Quantity::flip,
                              shadowed({scene::Exact{}}, 0.0), {scene::Exact{}}, {})},
          .reason =
-             "At a flat angle, exact rays with hard shadows are farther from the true picture, "
-             "too: it is not the search that fails."},
+             "At a flat angle, a far pixel covers a strip of the map, with joints that the bricks "
+             "before them hide. The share of the sun is the mean of that strip, as the colour is, "
+             "so far bricks are too dark. Exact rays have the same fault: it is not the search."},
         {"M 4",
          "Do without shadows where none fall.",
          "shadows take at least 1.25 times the time of relief (our reading)",

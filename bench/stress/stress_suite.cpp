@@ -10,6 +10,7 @@
 #include "app/cli/console_log.h"
 #include "app/cli/progress_line.h"
 #include "bench/runner/benchmark_scene.h"
+#include "bench/runner/problems.h"
 #include "bench/stress/stress_run.h"
 
 namespace reljef::bench {
@@ -86,9 +87,13 @@ public:
         for (const std::string& name : results_.options.terrains) {
             auto terrain = open_stressed(name, results_.options, stop_);
             if (!terrain) {
-                return terrain.error();
+                problems_.add(terrain.error());
+                continue;
             }
             terrains_.push_back(std::move(*terrain));
+        }
+        if (terrains_.empty() || stop_.stop_requested()) {
+            return problems_.end();
         }
         StressRun own(results_, terrains_, stop_);
         run_all(own, [](Where where) { return where != Where::device; });
@@ -99,7 +104,7 @@ public:
         results_.environment = environment_of(*device, results_.options.suite.threads);
         own.use(*device);
         run_all(own, [](Where where) { return where == Where::device; });
-        return {};
+        return problems_.end();
     }
 
 private:
@@ -142,6 +147,7 @@ private:
     std::stop_token stop_;
     cli::ProgressLine line_;
     std::vector<terrain::Terrain> terrains_;
+    Problems problems_; // of terrains
     double count_ = 0.0;
 };
 
@@ -178,6 +184,7 @@ StressResults run_stress(const StressOptions& options, const std::stop_token& st
     }
     const auto done = StressSuite(results, stop).run();
     results.end = run_end(done, stop, !results.rows.empty());
+    results.end.failed = results.end.failed && results.rows.empty();
     return results;
 }
 

@@ -12,8 +12,8 @@ namespace reljef::bench {
 std::vector<std::string> stress_names();
 
 /// Runs the stresses: those of the options, or all; a quick run leaves out those over terrain
-/// larger than memory. A stress that fails becomes a row over its limit. Keeps its rows when it is
-/// stopped.
+/// larger than memory. A stress that fails becomes a row over its limit. Terrains that cannot be
+/// opened are left out and named at the end. Keeps its rows when it is stopped.
 StressResults run_stress(const StressOptions& options, const std::stop_token& stop);
 
 } // namespace reljef::bench

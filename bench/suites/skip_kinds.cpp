@@ -29,7 +29,8 @@ constexpr SkipKind beams{"beams", "the way on which no ray of 8 by 8 pixels hits
                          [](Options& options) { options.opengl->skips.beams = false; },
                          SkipRounding::hits};
 constexpr SkipKind blocks{"blocks", "blocks of the maximum mipmap below the ray",
-                          [](Options& options) { options.opengl->skips.blocks = false; }};
+                          [](Options& options) { options.opengl->skips.blocks = false; },
+                          SkipRounding::hits};
 
 constexpr SkipKind certain{"certain light",
                            "sun rays from cells that are certainly lit or in shadow",

@@ -12,7 +12,7 @@ namespace reljef::bench {
 /// Where floats may round differently without a kind of skipping.
 enum class SkipRounding {
     none,  ///< the picture has the same bits
-    hits,  ///< rays begin elsewhere: hits move within the error of rounding
+    hits,  ///< rays begin or enter cells elsewhere: hits move within the error of rounding
     colors ///< drivers approximate exp(0): colours move by one level of 255 at most
 };
 

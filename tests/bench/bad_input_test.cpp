@@ -86,7 +86,9 @@ TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     for (const std::vector<std::string>& suite :
          {std::vector<std::string>{"tables", "--technique", "relief"},
           {"lod", "--poses", "4"},
-          {"skip", "--kind", "frustum"}}) {
+          {"skip", "--kind", "frustum"},
+          {"pareto", "--technique", "relief"},
+          {"stress", "--only", "grazing-view", "--technique", "relief"}}) {
         std::vector<std::string> arguments = suite;
         for (const std::string& terrain : {folder.path().string() + "/none.asc", four, good}) {
             arguments.insert(arguments.end(), {"--terrain", terrain});
