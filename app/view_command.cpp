@@ -12,6 +12,7 @@
 #include "app/choice/calibration_option.h"
 #include "app/cli/console_log.h"
 #include "app/cli/options.h"
+#include "app/cli/program.h"
 #include "app/cli/standard_input.h"
 #include "app/commands.h"
 #include "app/objects/light_option.h"
@@ -178,6 +179,44 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
     return session::SceneRenderer::create(options);
 }
 
+Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening& opening,
+                  const cli::Interrupt& interrupt) {
+    const session::RayUse rays = rays_of(choice, window);
+    auto renderer = make_renderer(choice, window, rays);
+    if (!renderer) {
+        return renderer.error();
+    }
+    if (auto used = use_calibration(choice.view, platform::info_of(window.context()), *renderer);
+        !used) {
+        return used;
+    }
+    cli::ConsoleLog console(choice.terrain.quiet);
+    MessageHistory log(console);
+    auto opened =
+        opening.finish(window, rays, renderer->max_texture_side(), log, interrupt.source());
+    if (!opened) {
+        return opened.error();
+    }
+    const Renderers renderers{*renderer, [&] { return make_renderer(choice, window, rays); }};
+    return *opened ? fly(window, renderers, **opened, choice, log, interrupt) : Result<void>();
+}
+
+// The error stands on stderr at once, and in the window until the user closes it. Returns what is
+// left to be written.
+Error shown_error(const Error& error, const ViewerChoice& choice, platform::Window& window,
+                  const cli::Interrupt& interrupt) {
+    if (choice.frames_given || interrupt.requested()) {
+        return error;
+    }
+    auto panels = make_panels(choice, window);
+    if (!panels) {
+        return error;
+    }
+    cli::write_error("reljef", error);
+    show_failure(window, *panels, error.message, interrupt.token());
+    return {{}, error.kind};
+}
+
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     session::limit_software_threads(choice.terrain.threads);
     interrupt.end_after(cli::Interrupt::longest_frame);
@@ -188,25 +227,8 @@ Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
     if (!window) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
-    const session::RayUse rays = rays_of(choice, **window);
-    auto renderer = make_renderer(choice, **window, rays);
-    if (!renderer) {
-        return renderer.error();
-    }
-    if (auto used =
-            use_calibration(choice.view, platform::info_of((*window)->context()), *renderer);
-        !used) {
-        return used;
-    }
-    cli::ConsoleLog console(choice.terrain.quiet);
-    MessageHistory log(console);
-    auto opened =
-        opening.finish(**window, rays, renderer->max_texture_side(), log, interrupt.source());
-    if (!opened) {
-        return opened.error();
-    }
-    const Renderers renderers{*renderer, [&] { return make_renderer(choice, **window, rays); }};
-    return *opened ? fly(**window, renderers, **opened, choice, log, interrupt) : Result<void>();
+    auto shown = show(choice, **window, opening, interrupt);
+    return shown ? shown : shown_error(shown.error(), choice, **window, interrupt);
 }
 
 } // namespace

@@ -7,7 +7,9 @@
 #include <iostream>
 #include <new>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fcntl.h>
@@ -48,7 +50,7 @@ std::string one_line(std::string_view message) {
 }
 
 int fail(const Program& program, std::string_view message) {
-    write_stderr(fmt::format("{}: {}\n", program.name, one_line(message)));
+    write_error(program.name, Error{std::string(message)});
     return failed;
 }
 
@@ -60,8 +62,7 @@ int report_lost_output(const Program& program) {
 }
 
 int usage_error(const Program& program, std::string message) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    write_stderr(fmt::format("{}: {} (see --help)\n", program.name, printable(message)));
+    write_error(program.name, reljef::usage_error(std::move(message)));
     return misused;
 }
 
@@ -82,7 +83,11 @@ int run_command(const Program& program, const Command& command, const Interrupt&
         return done;
     }
     const std::string& message = result.error().message;
-    if (result.error().kind == Error::Kind::usage) {
+    const bool is_usage = result.error().kind == Error::Kind::usage;
+    if (message.empty()) { // it was written
+        return is_usage ? misused : failed;
+    }
+    if (is_usage) {
         return usage_error(program, message);
     }
     const bool is_stopped = interrupt.requested() && !message.starts_with("interrupted");
@@ -114,6 +119,16 @@ int run_made(const Program& program, int argc, char** argv) {
 
 std::string version_text() {
     return "reljef " RELJEF_VERSION;
+}
+
+void write_error(std::string_view program, const Error& error) {
+    if (error.kind == Error::Kind::failure) {
+        write_stderr(fmt::format("{}: {}\n", program, one_line(error.message)));
+        return;
+    }
+    std::string line = error.message;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    write_stderr(fmt::format("{}: {} (see --help)\n", program, printable(line)));
 }
 
 int run_program(Program (*make)(), int argc, char** argv) noexcept {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/cli/interrupt.h"
@@ -15,8 +16,9 @@ namespace reljef::cli {
 
 /// A verb of the program.
 struct Command {
-    CLI::App* arguments = nullptr;     ///< owned by the program's parser
-    std::function<Result<void>()> run; ///< after parsing
+    CLI::App* arguments = nullptr; ///< owned by the program's parser
+    /// After parsing. An error without a message was written before, by write_error().
+    std::function<Result<void>()> run;
 };
 
 struct Program {
@@ -29,6 +31,9 @@ struct Program {
 
 /// "reljef 0.1.0".
 std::string version_text();
+
+/// Writes an error to stderr, as one line that begins with the name of the program.
+void write_error(std::string_view program, const Error& error);
 
 /// Parses the arguments and runs their verb. Errors are one line on stderr. Returns the exit
 /// status: 0, 1 if the verb failed, was interrupted or could not write its output, 2 after wrong

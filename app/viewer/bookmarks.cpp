@@ -84,13 +84,13 @@ std::optional<fs::path> absolute_path_in(const char* variable) {
 
 } // namespace
 
-Result<Bookmarks::List> Bookmarks::of(const std::string& terrain) const {
+Result<BookmarkContent> Bookmarks::of(const std::string& terrain) const {
     const auto text = text_of(file_);
     if (!text) {
         return text.error();
     }
     const std::string key = terrain_key(terrain);
-    List list;
+    BookmarkContent list;
     int damaged = 0;
     int first_damaged = 0;
     int number = 0;
@@ -133,20 +133,34 @@ Result<void> Bookmarks::add(Bookmark bookmark) const {
 }
 
 Result<void> Bookmarks::remove(const Bookmark& bookmark) const {
+    return replace(bookmark, std::nullopt);
+}
+
+Result<void> Bookmarks::rename(const Bookmark& bookmark, const std::string& name) const {
+    Bookmark other = bookmark;
+    other.name = without_separators(name);
+    return name.empty() ? Error{fmt::format("bookmark {}: an empty name found, a name was expected",
+                                            bookmark.name)}
+                        : replace(bookmark, other);
+}
+
+Result<void> Bookmarks::replace(const Bookmark& bookmark,
+                                const std::optional<Bookmark>& other) const {
     const auto text = text_of(file_);
     if (!text) {
         return text.error();
     }
     std::string kept;
-    bool is_removed = false;
+    bool is_found = false;
     for (const std::string& line : lines_of(*text)) {
-        if (!is_removed && is_content(line) && bookmark_of(line) == bookmark) {
-            is_removed = true;
-        } else {
+        if (is_found || !is_content(line) || bookmark_of(line) != bookmark) {
             kept += line + '\n';
+            continue;
         }
+        is_found = true;
+        kept += other ? line_of(*other) + '\n' : std::string();
     }
-    return is_removed
+    return is_found
                ? write_text_file(file_, kept)
                : Error{fmt::format("{}: no bookmark '{}' found", file_.string(), bookmark.name)};
 }

@@ -1,6 +1,5 @@
 #include "app/viewer/filming.h"
 
-#include <cstdio>
 #include <variant>
 
 #include <fmt/format.h>
@@ -65,10 +64,8 @@ Result<void> Filming::film_frame(const DrawFrame& draw, const ReadFrame& read) {
         return finished;
     }
     const std::string name = video_->file().filename().string();
-    fmt::print("saved {}\n", name);
-    std::fflush(stdout);
     end();
-    messages_.confirm("Saved " + name);
+    messages_.report(fmt::format("saved {}\n", name));
     return {};
 }
 

@@ -1,6 +1,7 @@
 #include "app/viewer/measuring.h"
 
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <utility>
 
@@ -9,6 +10,7 @@
 
 #include "engine/core/atomic_file.h"
 #include "engine/session/measuring/ground_measure.h"
+#include "engine/terrain/measure/sight.h"
 
 namespace reljef::app {
 namespace {
@@ -23,6 +25,23 @@ std::string distance_text(std::span<const terrain::ProfilePoint> profile,
         text += fmt::format(", {} by {:.1f} m", *rise < 0.0 ? "lower" : "higher", std::abs(*rise));
     }
     return text + fmt::format(", climb {:.1f} m, descent {:.1f} m\n", found.climb, found.descent);
+}
+
+// What is seen shines green, what is hidden lies in blue shade; voids keep their colours.
+Image colors_of(const Grid<std::uint8_t>& seen) {
+    constexpr Rgba8 visible{136, 214, 84, 104};
+    constexpr Rgba8 hidden{18, 22, 70, 140};
+    constexpr Rgba8 unknown{0, 0, 0, 0};
+    Image colors(seen.cols(), seen.rows());
+    for (int row = 0; row < seen.rows(); ++row) {
+        for (int col = 0; col < seen.cols(); ++col) {
+            const auto state = static_cast<terrain::SeenState>(seen(col, row));
+            colors(col, row) = state == terrain::SeenState::visible  ? visible
+                               : state == terrain::SeenState::hidden ? hidden
+                                                                     : unknown;
+        }
+    }
+    return colors;
 }
 
 } // namespace
@@ -110,6 +129,7 @@ std::optional<Result<std::string>> Measuring::update() {
     if (!found) {
         return Result<std::string>(found.error());
     }
+    seen_ = std::make_shared<const Image>(colors_of(found->seen));
     const auto written = session::write_viewshed(done->file, *found, done->surface->heightfield());
     return written ? Result<std::string>(fmt::format("saved {}: {:.2f} % of the terrain is "
                                                      "visible\n",

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/viewer/appearance/background.h"
+#include "engine/core/color.h"
 #include "engine/core/result.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/session/ground.h"
@@ -49,8 +50,12 @@ public:
     /// Begins the viewshed of the last point in the background; a streamed terrain's is that of its
     /// overview. Fails without a point, and while one is made.
     Result<void> begin_viewshed(const std::filesystem::path& file);
-    /// Writes a finished viewshed. Returns a line on it, or the error; empty: not yet.
+    /// Writes a finished viewshed, and keeps it as seen(). Returns a line on it, or the error;
+    /// empty: not yet.
     std::optional<Result<std::string>> update();
+    /// The last viewshed as colours over the ground, see scene::TerrainOptions::overlay; null:
+    /// none.
+    [[nodiscard]] const std::shared_ptr<const Image>& seen() const { return seen_; }
     /// The label is empty if there is no viewshed.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
 
@@ -75,6 +80,7 @@ private:
     bool is_in_sight_ = false;
     std::vector<terrain::ProfilePoint> profile_;
     std::unique_ptr<Viewshed> viewshed_;
+    std::shared_ptr<const Image> seen_;
 };
 
 } // namespace reljef::app

@@ -1,16 +1,39 @@
 #include "app/viewer/message_history.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdio>
 #include <limits>
 
+#include <fmt/format.h>
+
 namespace reljef::app {
+namespace {
+
+// Up to a line that does not begin with a blank, without its end.
+std::string_view first_result(std::string_view lines) {
+    std::size_t end = lines.find('\n');
+    while (end != lines.npos && end + 1 < lines.size() && lines[end + 1] == ' ') {
+        end = lines.find('\n', end + 1);
+    }
+    return lines.substr(0, end);
+}
+
+} // namespace
 
 void MessageHistory::message(session::MessageKind kind, std::string_view sentence) {
     next_.message(kind, sentence);
     keep(sentence, kind != session::MessageKind::note);
 }
 
-void MessageHistory::confirm(std::string_view sentence) {
-    keep(sentence, false);
+void MessageHistory::report(std::string_view lines) {
+    fmt::print("{}", lines);
+    std::fflush(stdout);
+    while (!lines.empty()) {
+        const std::string_view result = first_result(lines);
+        keep(result, false);
+        lines.remove_prefix(std::min(result.size() + 1, lines.size()));
+    }
 }
 
 void MessageHistory::keep(std::string_view sentence, bool is_error) {

@@ -11,7 +11,8 @@
 
 namespace reljef::app {
 
-/// Passes messages on and keeps the latest for the panels.
+/// All sentences of the viewer. Passes messages on, prints results, and keeps the latest of both
+/// for the panels.
 class MessageHistory : public session::Log {
 public:
     static constexpr std::size_t max_messages = 200;
@@ -23,8 +24,9 @@ public:
     [[nodiscard]] std::unique_ptr<session::Task> start(const std::string& label) override {
         return next_.start(label);
     }
-    /// Only for the panels.
-    void confirm(std::string_view sentence);
+    /// Results of what the user does, as a saved file: writes lines with their ends to standard
+    /// output. A line that begins with a blank continues the one before it.
+    void report(std::string_view lines);
 
     /// Oldest first.
     [[nodiscard]] std::vector<MessageContent> messages() const;

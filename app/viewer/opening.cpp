@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/viewer.h"
+#include "engine/core/stopwatch.h"
 #include "engine/terrain/field/coarse_terrain.h"
 
 namespace reljef::app {
@@ -87,6 +88,9 @@ session::SceneOptions without_maps(session::SceneOptions view) {
     return view;
 }
 
+// Between two frames of a window without a scene.
+constexpr std::chrono::milliseconds failure_pause{100};
+
 } // namespace
 
 Opening::Opening(const session::SourceOptions& terrain, const session::SceneOptions& view,
@@ -147,6 +151,22 @@ Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, ses
         return std::optional<OpenedScene>();
     }
     return opened ? Result<std::optional<OpenedScene>>(std::move(*opened)) : opened.error();
+}
+
+void show_failure(platform::Window& window, Panels& panels, const std::string& sentence,
+                  const std::stop_token& stop) {
+    if (!panels.has_room(window.framebuffer_size())) {
+        return;
+    }
+    window.set_title("reljef - " + sentence);
+    Stopwatch since_last;
+    while (!stop.stop_requested() && !window.should_close()) {
+        panels.draw_failure(sentence, window.framebuffer_size(), since_last.restart());
+        window.swap_buffers();
+        if (asks_to_end(window.wait_events(failure_pause))) {
+            return;
+        }
+    }
 }
 
 } // namespace reljef::app

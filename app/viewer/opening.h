@@ -3,8 +3,10 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
+#include <string>
 
 #include "app/viewer/appearance/background.h"
+#include "app/viewer/panels/panels.h"
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
 #include "engine/session/log.h"
@@ -54,5 +56,10 @@ private:
     session::RelayedLog relayed_;
     Background<session::TerrainSource> reading_; // last: uses all others
 };
+
+/// Shows in an open window why there is no scene, until the user closes it (Esc) or `stop`. Returns
+/// at once if the window has no room for panels. Precondition: its context is current.
+void show_failure(platform::Window& window, Panels& panels, const std::string& sentence,
+                  const std::stop_token& stop);
 
 } // namespace reljef::app

@@ -95,6 +95,7 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
     if (options.bookmarks) {
         bookmarks_.emplace(*options.bookmarks);
     }
+    read_bookmarks();
     for (const scene::Material* const shown : scene_.materials()) {
         start_techniques_.push_back(shown->technique);
     }
@@ -194,8 +195,13 @@ void Viewer::update_appearance() {
     redraw_ = std::exchange(hides_overlay, comparison_.is_on()) != comparison_.is_on() || redraw_;
     redraw_ = (proofs_ && proofs_->update(size_)) || redraw_;
     redraw_ = levels_.update() || redraw_;
+    const auto before = scene_.terrain->get<scene::TerrainNode>()->surface;
     if (surface_switch_.update(switch_.technique(), switch_.light(), size_)) {
-        if (!measuring_.points().empty()) { // they are no longer on the ground
+        const auto& shown = *scene_.terrain->get<scene::TerrainNode>()->surface;
+        const bool is_same_ground =
+            &before->terrain() == &shown.terrain() &&
+            before->placement().exaggeration() == shown.placement().exaggeration();
+        if (!is_same_ground && !measuring_.points().empty()) { // they are no longer on the ground
             measuring_.clear();
             notes_.note("the ground has changed: the measured points are removed");
         }
@@ -233,9 +239,13 @@ void Viewer::advance(double seconds) {
     last_step_ = step;
     move(step);
     desk_.record(flight_.camera(), step);
+    const auto seen_before = measuring_.seen();
     if (const auto viewshed = measuring_.update()) {
         report(*viewshed ? Result<void>() : viewshed->error());
         output_ += *viewshed ? **viewshed : std::string();
+    }
+    if (measuring_.seen() != seen_before) {
+        report(act(ShowViewshed{}));
     }
 }
 

@@ -76,8 +76,11 @@ public:
     /// Saves the current view under a name, or under its place if that is empty.
     Result<void> save_bookmark(const std::string& name);
     /// The bookmarks of this terrain.
-    [[nodiscard]] Result<Bookmarks::List> bookmarks() const;
+    [[nodiscard]] Result<BookmarkContent> bookmarks() const;
+    /// The same as of the last action on them.
+    [[nodiscard]] const BookmarkContent& known_bookmarks() const { return known_bookmarks_; }
     Result<void> go_to_bookmark(const Bookmark& bookmark);
+    Result<void> rename_bookmark(const Bookmark& bookmark, const std::string& name);
     Result<void> remove_bookmark(const Bookmark& bookmark);
     /// The options that show this view again; fails on the map, which has none.
     [[nodiscard]] Result<std::string> camera_options() const;
@@ -88,6 +91,8 @@ public:
     /// Writes the profile, or begins the viewshed, under a free name in the current folder.
     Result<void> save_profile();
     Result<void> begin_viewshed();
+    /// Whether the ground has the colours of the last viewshed, or gets them.
+    [[nodiscard]] bool shows_viewshed() const { return surface_switch_.overlay() != nullptr; }
 
     /// What the right part of the window shows.
     [[nodiscard]] Comparison& comparison() { return comparison_; }
@@ -126,6 +131,14 @@ public:
     Result<void> act(const RemovePathKey& remove);
     Result<void> act(const SetPathDuration& set);
     Result<void> act(const ClearPoints& action);
+    Result<void> act(const AddBookmark& add) { return save_bookmark(add.name); }
+    Result<void> act(const GoToBookmark& go) { return go_to_bookmark(go.bookmark); }
+    Result<void> act(const RenameBookmark& rename) {
+        return rename_bookmark(rename.bookmark, rename.name);
+    }
+    Result<void> act(const RemoveBookmark& remove) { return remove_bookmark(remove.bookmark); }
+    Result<void> act(const SetSpeed& set);
+    Result<void> act(const ShowViewshed& set);
 
     /// Whether the scene changed since the last call; true at first.
     bool take_redraw() { return std::exchange(redraw_, false); }
@@ -210,7 +223,9 @@ private:
     void keep_path() { report(save_path()); }
     void keep_profile() { report(save_profile()); }
     void keep_viewshed() { report(begin_viewshed()); }
+    void toggle_viewshed() { report(act(ShowViewshed{!shows_viewshed()})); }
     void ask_for_video();
+    void read_bookmarks();
     void bookmark_here() { report(save_bookmark({})); }
     void next_bookmark();
     void copy_camera();
@@ -225,6 +240,7 @@ private:
     void step_parameter(int steps);
     void change_technique(const std::function<void()>& change);
     void select_parameter(int steps);
+    void restore_techniques();
     void raise_parameter() { step_parameter(1); }
     void lower_parameter() { step_parameter(-1); }
     void next_parameter() { select_parameter(1); }
@@ -257,6 +273,7 @@ private:
     Comparison comparison_;
     std::string terrain_;
     std::optional<Bookmarks> bookmarks_;
+    BookmarkContent known_bookmarks_;
     std::size_t next_bookmark_ = 0;
     session::RelayedLog notes_;
     std::optional<std::string> clipboard_;

@@ -17,6 +17,14 @@ const scene::TerrainSurface& surface_of(const session::TerrainScene& scene) {
     return *scene.terrain->get<scene::TerrainNode>()->surface;
 }
 
+std::vector<scene::Technique> techniques_of(const session::TerrainScene& scene) {
+    std::vector<scene::Technique> techniques;
+    for (const scene::Material* const material : scene.materials()) {
+        techniques.push_back(material->technique);
+    }
+    return techniques;
+}
+
 } // namespace
 
 void Viewer::report(const Result<void>& result) {
@@ -46,14 +54,21 @@ void Viewer::copy_camera() {
         notes_.note(text.error().message);
         return;
     }
-    output_ += *text + '\n';
+    output_ += fmt::format("copied: {}\n", *text);
     clipboard_ = std::move(*text);
 }
 
-Result<Bookmarks::List> Viewer::bookmarks() const {
+Result<BookmarkContent> Viewer::bookmarks() const {
     return bookmarks_ ? bookmarks_->of(terrain_)
                       : Error{"bookmarks: $XDG_DATA_HOME and $HOME are no absolute paths, one "
                               "was expected"};
+}
+
+// Other windows may have changed the file.
+void Viewer::read_bookmarks() {
+    auto there = bookmarks();
+    known_bookmarks_ = there ? std::move(*there) : BookmarkContent{{}, there.error().message};
+    content_changed_ = true;
 }
 
 Result<void> Viewer::save_bookmark(const std::string& name) {
@@ -65,16 +80,30 @@ Result<void> Viewer::save_bookmark(const std::string& name) {
     const Bookmark bookmark{
         terrain_, name.empty() ? fmt::format("view {}", there->bookmarks.size() + 1) : name,
         *camera};
-    if (auto added = bookmarks_->add(bookmark); !added) {
-        return added;
-    }
-    output_ += fmt::format("bookmark {}: {}\n", bookmark.name, bookmark.camera);
-    return {};
+    auto added = bookmarks_->add(bookmark);
+    read_bookmarks();
+    output_ += added ? fmt::format("saved bookmark {}: {}\n", bookmark.name, bookmark.camera)
+                     : std::string();
+    return added;
 }
 
 Result<void> Viewer::remove_bookmark(const Bookmark& bookmark) {
-    const auto there = bookmarks();
-    return there ? bookmarks_->remove(bookmark) : there.error();
+    if (!bookmarks_) {
+        return bookmarks().error();
+    }
+    auto removed = bookmarks_->remove(bookmark);
+    read_bookmarks();
+    output_ += removed ? fmt::format("deleted bookmark {}\n", bookmark.name) : std::string();
+    return removed;
+}
+
+Result<void> Viewer::rename_bookmark(const Bookmark& bookmark, const std::string& name) {
+    if (!bookmarks_) {
+        return bookmarks().error();
+    }
+    auto renamed = bookmarks_->rename(bookmark, name);
+    read_bookmarks();
+    return renamed;
 }
 
 Result<void> Viewer::go_to_bookmark(const Bookmark& bookmark) {
@@ -84,24 +113,21 @@ Result<void> Viewer::go_to_bookmark(const Bookmark& bookmark) {
                                  bookmark.name, bookmark.camera)};
     }
     fly_to(*found);
-    output_ += fmt::format("bookmark {}\n", bookmark.name);
+    output_ += fmt::format("flying to bookmark {}\n", bookmark.name);
     return {};
 }
 
 void Viewer::next_bookmark() {
-    const auto there = bookmarks();
-    if (!there) {
-        notes_.note(there.error().message);
-        return;
+    read_bookmarks();
+    const auto& [list, note] = known_bookmarks_;
+    if (!note.empty()) {
+        notes_.note(note);
     }
-    if (!there->note.empty()) {
-        notes_.note(there->note);
-    }
-    if (there->bookmarks.empty()) {
+    if (!list.empty()) {
+        report(go_to_bookmark(list[next_bookmark_++ % list.size()]));
+    } else if (bookmarks()) {
         notes_.note("this terrain has no bookmark; B makes one");
-        return;
     }
-    report(go_to_bookmark(there->bookmarks[next_bookmark_++ % there->bookmarks.size()]));
 }
 
 void Viewer::receive_click() {
@@ -133,6 +159,15 @@ Result<void> Viewer::save_profile() {
 
 Result<void> Viewer::begin_viewshed() {
     return measuring_.begin_viewshed(next_file(".", "reljef-viewshed", ".tif"));
+}
+
+Result<void> Viewer::act(const ShowViewshed& set) {
+    if (set.shown && measuring_.seen() == nullptr) {
+        return Error{"viewshed: none found, one was expected; U makes it"};
+    }
+    surface_switch_.request(set.shown ? measuring_.seen() : std::shared_ptr<const Image>());
+    content_changed_ = true;
+    return {};
 }
 
 void Viewer::seek(double seconds) {
@@ -226,14 +261,19 @@ void Viewer::choose_technique(std::size_t index) {
     change_technique([&] { techniques_.choose(index); });
 }
 
+void Viewer::restore_techniques() {
+    switch_.request(start_techniques_);
+    redraw_ = redraw_ || !switch_.is_preparing();
+}
+
 void Viewer::step_parameter(int steps) {
     change_technique([&] { techniques_.step_parameter(steps); });
 }
 
 void Viewer::change_technique(const std::function<void()>& change) {
-    const scene::Technique before = switch_.technique();
+    const auto before = techniques_of(scene_);
     change();
-    redraw_ = redraw_ || (before != switch_.technique() && !switch_.is_preparing());
+    redraw_ = redraw_ || before != techniques_of(scene_);
 }
 
 Result<void> Viewer::act(const SwapTechniques& /*action*/) {
@@ -264,6 +304,11 @@ Result<void> Viewer::act(const SeekPath& seek) {
 
 Result<void> Viewer::act(const ClearPoints& /*action*/) {
     measuring_.clear();
+    return {};
+}
+
+Result<void> Viewer::act(const SetSpeed& set) {
+    flight_.set_speed(set.speed);
     return {};
 }
 
@@ -374,12 +419,7 @@ session::RelayedLog::TaskProgress Viewer::progress() const {
 }
 
 bool Viewer::keeps_techniques() const {
-    const std::vector<scene::Material*> materials = scene_.materials();
-    return std::equal(materials.begin(), materials.end(), start_techniques_.begin(),
-                      start_techniques_.end(),
-                      [](const scene::Material* material, const scene::Technique& technique) {
-                          return material->technique == technique;
-                      });
+    return techniques_of(scene_) == start_techniques_;
 }
 
 std::optional<session::PickedPlace> Viewer::place_at_pixel(glm::dvec2 pixel) const {

@@ -101,6 +101,9 @@ MeasureContent measure_of(const Viewer& viewer, const scene::Camera& camera, glm
                                   is_before ? std::optional(at.pixel) : std::nullopt});
     }
     measure.profile = profile_of(measuring);
+    if (measuring.seen() != nullptr) {
+        measure.viewshed = viewer.shows_viewshed();
+    }
     return measure;
 }
 
@@ -156,9 +159,11 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.terrain = terrain_of(scene).surface->terrain().name;
     content.frame.window = window;
     content.technique = viewer.techniques().content();
+    content.technique.is_as_at_start = viewer.keeps_techniques();
     content.appearance = appearance_of(viewer, scene);
     content.measure = measure_of(viewer, camera, window);
     content.path = path_of(viewer);
+    content.bookmarks = viewer.known_bookmarks();
     content.compare = viewer.comparison().content(viewer.technique());
     content.eye = place_of(scene, {viewer.is_map() ? camera.target : camera.eye});
     if (!viewer.is_map() && scene.models.empty()) {

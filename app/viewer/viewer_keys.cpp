@@ -16,13 +16,15 @@ struct Viewer::Binding {
 };
 
 std::span<const Viewer::Binding> Viewer::bindings() {
-    static constexpr std::array<Binding, 32> all{
+    static constexpr std::array<Binding, 34> all{
         {{Key::p, Key::unknown, &Viewer::toggle_path, "P", "fly along the path, or stop"},
          {Key::g, Key::unknown, &Viewer::toggle_follow_ground, "G",
           "keep the height above the ground, or fly where you look"},
          {Key::o, Key::unknown, &Viewer::toggle_map, "O", "map from straight above, and back"},
          {Key::t, Key::unknown, &Viewer::next_technique, "T, 1 2 ...",
           "next technique, or the technique of that number"},
+         {Key::digit0, Key::unknown, &Viewer::restore_techniques, "0",
+          "the techniques of the start; the gallery's models have different ones"},
          {Key::right_bracket, Key::unknown, &Viewer::raise_parameter, "]",
           "raise the technique's parameter that is highlighted"},
          {Key::left_bracket, Key::unknown, &Viewer::lower_parameter, "[", "lower it"},
@@ -44,7 +46,9 @@ std::span<const Viewer::Binding> Viewer::bindings() {
          {Key::i, Key::unknown, &Viewer::keep_profile, "I",
           "save the profile between the last two points"},
          {Key::u, Key::unknown, &Viewer::keep_viewshed, "U",
-          "save what is seen from the last point, 2 m above it"},
+          "save what is seen from the last point, 2 m above it, and colour the ground by it"},
+         {Key::f2, Key::unknown, &Viewer::toggle_viewshed, "F2",
+          "end these colours of the ground, or show them again"},
          {Key::k, Key::unknown, &Viewer::toggle_recording, "K",
           "record the flight as the path, or end it and save the path"},
          {Key::insert, Key::unknown, &Viewer::append_key, "Insert",

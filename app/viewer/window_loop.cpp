@@ -1,7 +1,6 @@
 #include "app/viewer/window_loop.h"
 
 #include <chrono>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -303,8 +302,7 @@ private:
             return;
         }
         window_.set_clipboard(*command);
-        fmt::print("{}\n", *command);
-        messages_.confirm("Copied: " + *command);
+        messages_.report(fmt::format("copied: {}\n", *command));
     }
 
     void log_raised_path() {
@@ -330,8 +328,7 @@ private:
         if (const auto text = viewer_.take_clipboard()) {
             window_.set_clipboard(*text);
         }
-        fmt::print("{}", viewer_.take_output());
-        std::fflush(stdout);
+        messages_.report(viewer_.take_output());
     }
 
     void show_help() {
@@ -355,8 +352,7 @@ private:
             messages_.note(written.error().message);
             return;
         }
-        fmt::print("saved {}\n", file.filename().string());
-        messages_.confirm("Saved " + file.filename().string());
+        messages_.report(fmt::format("saved {}\n", file.filename().string()));
     }
 
     Result<void> draw() {

@@ -114,14 +114,23 @@ MissingMaps missing_maps(const scene::TerrainNode& node, const scene::Technique&
 
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique) {
+    std::vector<scene::Technique> techniques;
+    for (const scene::Material* const material : scene.materials()) {
+        techniques.push_back(technique.value_or(material->technique));
+    }
+    return missing_maps(scene, techniques);
+}
+
+MissingMaps missing_maps(const TerrainScene& scene, std::span<const scene::Technique> techniques) {
     if (scene.models.empty()) {
         const auto& node = *scene.terrain->get<scene::TerrainNode>();
-        return missing_maps(node, technique.value_or(node.material.technique), scene.rays);
+        return missing_maps(node, techniques.front(), scene.rays);
     }
     MissingMaps missing;
-    for (const scene::Material* const material : scene.materials()) {
-        const MissingMaps::Set& set = material->detail.set;
-        const scene::Technique& shown = technique ? *technique : material->technique;
+    const std::vector<scene::Material*> materials = scene.materials();
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const MissingMaps::Set& set = materials[i]->detail.set;
+        const scene::Technique& shown = techniques[i];
         if (set == nullptr || shown.id() != scene::TechniqueId::cone) {
             continue;
         }

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -35,6 +36,9 @@ struct MissingMaps {
 /// renderer makes them during a frame.
 MissingMaps missing_maps(const TerrainScene& scene,
                          const std::optional<scene::Technique>& technique = std::nullopt);
+
+/// The same for one technique for each of its materials.
+MissingMaps missing_maps(const TerrainScene& scene, std::span<const scene::Technique> techniques);
 
 /// Those of a terrain outside of a scene.
 MissingMaps missing_maps(const scene::TerrainNode& terrain, const scene::Technique& technique,

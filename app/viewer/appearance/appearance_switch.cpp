@@ -29,6 +29,22 @@ AppearanceSwitch::~AppearanceSwitch() {
     retire();
 }
 
+void AppearanceSwitch::request(const scene::Technique& technique,
+                               std::optional<std::size_t> model) {
+    std::vector<scene::Technique> techniques;
+    if (pending_ != nullptr) {
+        techniques = pending_->appearance.techniques;
+    }
+    const std::vector<scene::Material*> materials = scene_.materials();
+    for (std::size_t i = techniques.size(); i < materials.size(); ++i) {
+        techniques.push_back(materials[i]->technique);
+    }
+    for (std::size_t i = 0; i < techniques.size(); ++i) {
+        techniques[i] = model.value_or(i) == i ? technique : techniques[i];
+    }
+    request(std::move(techniques));
+}
+
 void AppearanceSwitch::request(const scene::Light& light) {
     Appearance appearance;
     if (pending_ != nullptr) {
@@ -91,8 +107,8 @@ bool AppearanceSwitch::undo() {
 }
 
 const scene::Technique& AppearanceSwitch::technique() const {
-    return pending_ != nullptr && pending_->appearance.technique
-               ? *pending_->appearance.technique
+    return pending_ != nullptr && !pending_->appearance.techniques.empty()
+               ? pending_->appearance.techniques.front()
                : scene_.materials().front()->technique;
 }
 
@@ -116,8 +132,10 @@ void AppearanceSwitch::relay_to(session::Log& log) {
 
 session::MissingMaps AppearanceSwitch::missing(const Appearance& appearance) const {
     const scene::Technique& shown = scene_.materials().front()->technique;
-    const scene::Technique& technique = appearance.technique ? *appearance.technique : shown;
-    session::MissingMaps missing = session::missing_maps(scene_, appearance.technique);
+    const std::vector<scene::Technique>& techniques = appearance.techniques;
+    const scene::Technique& technique = techniques.empty() ? shown : techniques.front();
+    session::MissingMaps missing = techniques.empty() ? session::missing_maps(scene_)
+                                                      : session::missing_maps(scene_, techniques);
     const bool is_lit_so = appearance.light == *scene_.light->get<scene::Light>() &&
                            technique.options.shadow.has_value() == shown.options.shadow.has_value();
     if (!is_lit_so) {
@@ -145,14 +163,12 @@ void AppearanceSwitch::begin(const Appearance& appearance) {
 
 void AppearanceSwitch::show(const Appearance& appearance) {
     session::set_daylight(scene_, appearance.light);
-    if (appearance.technique) {
+    if (!appearance.techniques.empty()) {
         before_.clear();
         const std::vector<scene::Material*> materials = scene_.materials();
         for (std::size_t i = 0; i < materials.size(); ++i) {
             before_.push_back(materials[i]->technique);
-            if (appearance.model.value_or(i) == i) {
-                materials[i]->technique = *appearance.technique;
-            }
+            materials[i]->technique = appearance.techniques[i];
         }
         shadow_floor_of(scene_);
     }

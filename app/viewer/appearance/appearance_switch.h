@@ -29,8 +29,10 @@ public:
     /// Shows the technique when its maps are ready. Replaces an earlier request.
     /// `model`: only this one; absent: all.
     void request(const scene::Technique& technique,
-                 std::optional<std::size_t> model = std::nullopt) {
-        begin({technique, model, light()});
+                 std::optional<std::size_t> model = std::nullopt);
+    /// The same with one for each material of the scene.
+    void request(std::vector<scene::Technique> techniques) {
+        begin({std::move(techniques), light()});
     }
     void request(const scene::Light& light);
     /// Shows the light after what is being prepared. Replaces an earlier one that has not begun, so
@@ -42,7 +44,7 @@ public:
     /// if there is none.
     bool undo();
 
-    /// The requested technique, else the current one.
+    /// The requested technique, else the current one; of the first model if there are several.
     [[nodiscard]] const scene::Technique& technique() const;
     /// The requested light, else the current one.
     [[nodiscard]] const scene::Light& light() const;
@@ -58,8 +60,7 @@ public:
 
 private:
     struct Appearance {
-        std::optional<scene::Technique> technique; // absent: unchanged
-        std::optional<std::size_t> model;          // of the technique; absent: all
+        std::vector<scene::Technique> techniques; // of the materials; empty: unchanged
         scene::Light light;
     };
     struct Pending {

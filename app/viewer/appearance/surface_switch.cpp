@@ -14,16 +14,23 @@ Result<scene::TerrainSurface> surface_of(const scene::TerrainSurface& shown,
     if (finer != nullptr) {
         return scene::TerrainSurface::create(std::move(finer), options);
     }
-    auto made = shown.exaggerated(options.exaggeration);
-    const bool is_same =
-        options.ramp == shown.ramp() && options.imagery_share == shown.imagery_share();
-    return made && !is_same ? made->colored(options.ramp, options.imagery_share) : std::move(made);
+    return shown.changed(options);
 }
 
 } // namespace
 
 std::string SurfaceSwitch::obstacle() const {
     return scene_.models.empty() ? "" : "models have no vertical exaggeration; a terrain has";
+}
+
+SurfaceSwitch::Shape SurfaceSwitch::now() const {
+    if (next_) {
+        return *next_;
+    }
+    const scene::TerrainSurface& shown = surface();
+    return is_working() ? preparing_
+                        : Shape{shown.placement().exaggeration(), shown.ramp(),
+                                shown.imagery_share(), shown.overlay(), nullptr};
 }
 
 double SurfaceSwitch::factor() const {
@@ -91,9 +98,9 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                    shape = preparing_, threads = threads_, source = scene_.source,
                    this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
-        auto changed = surface_of(
-            *shown.surface, shape.finer,
-            {shown.surface->placement().kind(), shape.factor, shape.ramp, shape.imagery_share});
+        auto changed = surface_of(*shown.surface, shape.finer,
+                                  {shown.surface->placement().kind(), shape.factor, shape.ramp,
+                                   shape.imagery_share, shape.overlay});
         task = nullptr;
         if (!changed) {
             return changed.error();

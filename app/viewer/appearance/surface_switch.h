@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/viewer/appearance/background.h"
+#include "engine/core/color.h"
 #include "engine/session/log.h"
 #include "engine/session/prepared_maps.h"
 #include "engine/session/scene_setup.h"
@@ -27,14 +28,25 @@ public:
     [[nodiscard]] std::string obstacle() const;
     /// Shows a factor after the one that is being prepared. Precondition: no obstacle; the factor
     /// is in (0, terrain::max_exaggeration].
-    void request(double factor) { next_ = Shape{factor, ramp(), imagery_share(), finer()}; }
+    void request(double factor) {
+        next_ = now();
+        next_->factor = factor;
+    }
     /// The same with other colours. `imagery_share`: scene::TerrainOptions.
     void request(terrain::ColorRamp ramp, double imagery_share) {
-        next_ = Shape{factor(), std::move(ramp), imagery_share, finer()};
+        next_ = now();
+        next_->ramp = std::move(ramp);
+        next_->imagery_share = imagery_share;
+    }
+    /// The same with colours over all others: scene::TerrainOptions::overlay.
+    void request(std::shared_ptr<const Image> overlay) {
+        next_ = now();
+        next_->overlay = std::move(overlay);
     }
     /// The same with finer samples of the same ground.
     void request(std::shared_ptr<const terrain::Terrain> finer) {
-        next_ = Shape{factor(), ramp(), imagery_share(), std::move(finer)};
+        next_ = now();
+        next_->finer = std::move(finer);
     }
     /// Begins and ends the work, for a picture of `size` pixels of a scene with this technique and
     /// light. Returns whether the scene changed.
@@ -45,6 +57,7 @@ public:
     /// The requested colours, else the current ones.
     [[nodiscard]] const terrain::ColorRamp& ramp() const;
     [[nodiscard]] double imagery_share() const;
+    [[nodiscard]] std::shared_ptr<const Image> overlay() const { return now().overlay; }
     [[nodiscard]] bool is_preparing() const { return is_working() || next_.has_value(); }
     /// The current task; its label is empty if there is none.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const { return log_.progress(); }
@@ -59,6 +72,7 @@ private:
         double factor = 1.0;
         terrain::ColorRamp ramp;
         double imagery_share = 1.0;
+        std::shared_ptr<const Image> overlay;
         std::shared_ptr<const terrain::Terrain> finer; // null: the terrain that is shown
     };
     struct Made {
@@ -74,10 +88,8 @@ private:
     [[nodiscard]] const scene::TerrainSurface& surface() const {
         return *scene_.terrain->get<scene::TerrainNode>()->surface;
     }
-    // The finer terrain of the last request that is not shown yet.
-    [[nodiscard]] std::shared_ptr<const terrain::Terrain> finer() const {
-        return next_ ? next_->finer : is_working() ? preparing_.finer : nullptr;
-    }
+    // What was requested last, else what is shown. With the finer terrain if it is not shown yet.
+    [[nodiscard]] Shape now() const;
     void show();
 
     session::TerrainScene& scene_;

@@ -7,8 +7,8 @@
 namespace reljef::app {
 namespace {
 
-constexpr std::size_t digits = 9; // 1 to 9
-constexpr int coarse_levels = 5;  // until the maps of a technique are ready
+constexpr int digits = 9;        // 1 to 9
+constexpr int coarse_levels = 5; // until the maps of a technique are ready
 
 // An option that is on, to ask whether a technique takes it.
 scene::Technique with_option(const scene::Technique& technique, const scene::OptionInfo& option) {
@@ -37,19 +37,31 @@ TechniqueEditor::TechniqueEditor(const session::TerrainScene& scene, AppearanceS
     : scene_(scene), switch_(changes) {
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
         const bool is_polygons = info.id == scene::TechniqueId::polygons;
-        TechniqueChoice choice{info.id == requested.id() ? requested
-                               : is_polygons             ? session::technique_of({})
-                                                         : scene::make_technique(info.id),
-                               {}};
-        if (const auto good = scene.check(scene::make_technique(info.id)); !good) {
-            choice.reason = good.error().message;
-        } else {
-            drawing_.push_back(choices_.size());
-            choice.digit = drawing_.size() <= digits
-                               ? std::optional(static_cast<int>(drawing_.size()))
-                               : std::nullopt;
+        choices_.push_back({info.id == requested.id() ? requested
+                            : is_polygons             ? session::technique_of({})
+                                                      : scene::make_technique(info.id),
+                            {}});
+    }
+    check_choices();
+}
+
+void TechniqueEditor::select_model(std::optional<std::size_t> model) {
+    model_ = model;
+    check_choices();
+}
+
+void TechniqueEditor::check_choices() {
+    drawing_.clear();
+    for (std::size_t i = 0; i < choices_.size(); ++i) {
+        TechniqueChoice& choice = choices_[i];
+        const auto good = check(scene::make_technique(choice.technique.id()));
+        choice.reason = good ? std::string() : good.error().message;
+        choice.digit.reset();
+        if (good) {
+            drawing_.push_back(i);
+            const int number = static_cast<int>(drawing_.size());
+            choice.digit = number <= digits ? std::optional(number) : std::nullopt;
         }
-        choices_.push_back(std::move(choice));
     }
 }
 

@@ -27,13 +27,13 @@ public:
 
     /// Shows a technique on the selected model, or on all. Fails if it cannot draw them.
     Result<void> request(const scene::Technique& technique);
-    /// The next technique that draws the scene.
+    /// The next technique that draws the selected model, or all.
     void next();
-    /// The technique with this number among those that draw the scene, from 0; nothing without it.
+    /// The technique with this number among those of next(), from 0; nothing without it.
     void choose(std::size_t index);
 
-    /// Absent: all models. Precondition: it exists.
-    void select_model(std::optional<std::size_t> model) { model_ = model; }
+    /// Absent: all models. Precondition: it exists. The choices are those that draw it.
+    void select_model(std::optional<std::size_t> model);
     /// The parameter that step_parameter() changes.
     void select_parameter(std::size_t index) { parameter_ = index; }
     /// Another parameter; from the last to the first.
@@ -45,13 +45,14 @@ public:
 
 private:
     [[nodiscard]] const scene::Technique& edited() const;
+    void check_choices();
     [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
     [[nodiscard]] std::vector<std::string> option_reasons() const;
 
     const session::TerrainScene& scene_;
     AppearanceSwitch& switch_;
     std::vector<TechniqueChoice> choices_; // in the catalogue's order
-    std::vector<std::size_t> drawing_;     // the choices that draw the scene
+    std::vector<std::size_t> drawing_;     // the choices that draw what is edited
     std::optional<std::size_t> model_;
     std::size_t parameter_ = 0;
 };

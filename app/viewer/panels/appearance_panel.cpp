@@ -1,5 +1,6 @@
 #include "app/viewer/panels/appearance_panel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -7,14 +8,12 @@
 #include <fmt/format.h>
 
 #include "app/viewer/panels/toolkit/widgets.h"
-#include "engine/geo/sun_position.h"
 #include "engine/scene/graph/daylight.h"
 
 namespace reljef::app {
 namespace {
 
-constexpr double min_altitude = 1.0; // degrees, of the slider
-constexpr double max_altitude = 90.0;
+constexpr double max_altitude = 90.0; // degrees
 constexpr double full_circle = 360.0;
 constexpr double min_factor = 0.1; // of the slider; the option takes any
 constexpr double max_factor = 20.0;
@@ -37,14 +36,15 @@ PanelActions draw_sun(const AppearanceContent& appearance) {
     const bool is_turned =
         draw_slider("Azimuth, from north clockwise", sun.azimuth, 0.0, full_circle, "{:.0f}\u00b0");
     const bool is_raised =
-        draw_slider("Altitude", sun.altitude, min_altitude, max_altitude, "{:.0f}\u00b0");
+        draw_slider("Altitude", sun.altitude, lowest_sun, max_altitude, "{:.0f}\u00b0");
+    tip("Below 0\u00b0 the sun has set: twilight, down to -18\u00b0");
     if (!(is_turned || is_raised)) {
         return {};
     }
     if (is_turned) { // as shown
         sun.azimuth = std::round(sun.azimuth);
     } else {
-        sun.altitude = std::max(std::round(sun.altitude), min_altitude);
+        sun.altitude = std::round(sun.altitude);
     }
     return {sun};
 }
@@ -187,6 +187,11 @@ PanelActions draw_samples(const AppearanceContent& appearance) {
     return actions;
 }
 
+int days_of_year(int year) {
+    const bool is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    return is_leap ? 366 : 365;
+}
+
 // A box that does what a key does.
 PanelActions draw_switch(const char* label, bool is_on, Key key) {
     return tick(label, is_on) ? PanelActions{PressKey{key}} : PanelActions();
@@ -194,19 +199,48 @@ PanelActions draw_switch(const char* label, bool is_on, Key key) {
 
 } // namespace
 
+Result<SetSun> sun_at(const geo::UniversalTime& time, const AppearanceContent& appearance) {
+    const auto sun =
+        geo::sun_position(time, appearance.on_earth->latitude, appearance.on_earth->longitude);
+    if (!sun) {
+        return sun.error();
+    }
+    if (sun->altitude < lowest_sun) {
+        return Error{fmt::format("the sun is {:.1f} degrees below the horizon at that time, at "
+                                 "most {} was expected",
+                                 -sun->altitude, -lowest_sun)};
+    }
+    const double azimuth =
+        std::fmod(sun->azimuth + appearance.true_north + full_circle, full_circle);
+    return SetSun{azimuth, sun->altitude};
+}
+
+geo::UniversalTime AppearancePanel::time() const {
+    const bool has_days = year_ >= geo::first_sun_year && year_ <= geo::last_sun_year;
+    geo::UniversalTime time =
+        has_days ? geo::day_of_year(
+                       year_, std::min(static_cast<int>(std::lround(day_)), days_of_year(year_)))
+                 : geo::UniversalTime{.year = year_};
+    time.hours = hours_;
+    return time;
+}
+
 PanelActions AppearancePanel::draw_date(const AppearanceContent& appearance) {
-    constexpr int year = 2026; // the sun's path is nearly that of each year
-    constexpr double days = 365.0;
     constexpr double last_minute = 24.0 - 1.0 / 60.0;
     if (!appearance.on_earth) {
         return {};
     }
-    geo::UniversalTime time = geo::day_of_year(year, static_cast<int>(std::lround(day_)));
+    const geo::UniversalTime shown = time();
     const int minutes = static_cast<int>(std::lround(60.0 * hours_));
-    row("Or by date", fmt::format("{:04}-{:02}-{:02}", time.year, time.month, time.day));
+    row("Or by date", fmt::format("{:04}-{:02}-{:02}", shown.year, shown.month, shown.day));
+    ImGui::SetNextItemWidth(-1.0F);
+    bool is_moved = ImGui::InputInt("##year", &year_, 1, 10);
+    tip(fmt::format("The year, {} to {}", geo::first_sun_year, geo::last_sun_year));
     ImGui::SetNextItemWidth(-1.0F);
     constexpr double first = 1.0;
-    bool is_moved = ImGui::SliderScalar("##day", ImGuiDataType_Double, &day_, &first, &days, "");
+    const double last = days_of_year(shown.year);
+    is_moved =
+        ImGui::SliderScalar("##day", ImGuiDataType_Double, &day_, &first, &last, "") || is_moved;
     row("and time, UTC", fmt::format("{:02}:{:02}", minutes / 60, minutes % 60));
     ImGui::SetNextItemWidth(-1.0F);
     constexpr double midnight = 0.0;
@@ -219,16 +253,9 @@ PanelActions AppearancePanel::draw_date(const AppearanceContent& appearance) {
     if (!is_moved) {
         return {};
     }
-    time = geo::day_of_year(year, static_cast<int>(std::lround(day_)));
-    time.hours = hours_;
-    const auto sun =
-        geo::sun_by_day(time, appearance.on_earth->latitude, appearance.on_earth->longitude);
+    const auto sun = sun_at(time(), appearance);
     note_ = sun ? std::string() : sun.error().message;
-    if (!sun) {
-        return {};
-    }
-    const double azimuth = std::fmod(sun->azimuth + appearance.true_north + 360.0, 360.0);
-    return {SetSun{azimuth, sun->altitude}};
+    return sun ? PanelActions{*sun} : PanelActions();
 }
 
 PanelActions AppearancePanel::draw(const PanelContent& content, const Fonts& fonts) {

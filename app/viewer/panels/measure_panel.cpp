@@ -62,7 +62,14 @@ PanelActions draw_measure(const PanelContent& content, const Fonts& fonts) {
     }
     ImGui::EndDisabled();
     tip("What an eye 2 m above the last point sees, by exact rays: a GeoTIFF in the current "
-        "folder");
+        "folder. Its colours lie on the ground: green where it sees, blue where it does not.");
+    if (measure.viewshed) {
+        const bool is_on = *measure.viewshed;
+        if (tick("Colour the ground by the viewshed  (F2)", is_on)) {
+            actions.emplace_back(ShowViewshed{!is_on});
+        }
+        tip("Green: seen from the point. Blue: hidden.");
+    }
     return actions;
 }
 

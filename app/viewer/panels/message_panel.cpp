@@ -64,6 +64,27 @@ void draw_messages(const PanelContent& content, const Area& area, const Fonts& f
     ImGui::End();
 }
 
+void draw_failure(const std::string& sentence, const Area& area, const Fonts& fonts) {
+    constexpr float lines = 40.0F; // widths of a letter "m"
+    const Card card("failure", area);
+    const glm::dvec2 size = area.size();
+    const float width = std::min(lines * ImGui::GetFontSize(), 0.8F * static_cast<float>(size.x));
+    const float left = 0.5F * (static_cast<float>(size.x) - width);
+    ImGui::SetCursorPos({left, 0.33F * static_cast<float>(size.y)});
+    ImGui::BeginGroup();
+    {
+        const FontScope bold(fonts.heading);
+        text("Nothing can be shown");
+    }
+    ImGui::PushTextWrapPos(left + width);
+    ImGui::PushStyleColor(ImGuiCol_Text, in_imgui(palette::warning));
+    text(sentence);
+    ImGui::PopStyleColor();
+    muted_text("Esc closes the window. The sentence stands in the terminal, too.");
+    ImGui::PopTextWrapPos();
+    ImGui::EndGroup();
+}
+
 void draw_log(const PanelContent& content, const Fonts& fonts) {
     const FontScope small(fonts.small);
     if (content.messages.empty()) {

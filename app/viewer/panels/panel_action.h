@@ -31,7 +31,7 @@ struct SelectParameter {
 
 struct SetSun {
     double azimuth = 0.0;  ///< degrees clockwise from north
-    double altitude = 0.0; ///< degrees above the horizon, (0, 90]
+    double altitude = 0.0; ///< degrees above the horizon, [-90, 90]
 };
 
 struct SetTurbidity {
@@ -125,10 +125,38 @@ struct SetPathDuration {
     double seconds = 0.0; ///< > 0
 };
 
+/// Keeps the view under a name; empty: "view 1", "view 2", ….
+struct AddBookmark {
+    std::string name;
+};
+
+struct GoToBookmark {
+    Bookmark bookmark;
+};
+
+struct RenameBookmark {
+    Bookmark bookmark;
+    std::string name; ///< not empty
+};
+
+struct RemoveBookmark {
+    Bookmark bookmark;
+};
+
+/// Of the flight with keys.
+struct SetSpeed {
+    double speed = 0.0; ///< metres per second, > 0
+};
+
 struct CancelVideo {};
 
 /// Forgets the measured points.
 struct ClearPoints {};
+
+/// Colours the ground by what the last viewshed sees.
+struct ShowViewshed {
+    bool shown = true;
+};
 
 /// Does what the key does.
 struct PressKey {
@@ -143,7 +171,8 @@ using PanelAction =
                  SetGrain, SetContours, SetContourLabels, SetEyeDome, SetRamp, SetImageryShare,
                  SetExaggeration, SetSamples, PressKey, CopyCommand, SetComparison,
                  SetOtherTechnique, SetWipe, SwapTechniques, SeekPath, InsertPathKey, MovePathKey,
-                 RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo, ClearPoints>;
+                 RetimePathKey, RemovePathKey, SetPathDuration, CancelVideo, ClearPoints,
+                 AddBookmark, GoToBookmark, RenameBookmark, RemoveBookmark, SetSpeed, ShowViewshed>;
 using PanelActions = std::vector<PanelAction>;
 
 inline PanelActions& operator+=(PanelActions& actions, PanelActions more) {

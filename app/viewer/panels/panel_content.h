@@ -45,6 +45,7 @@ struct TechniqueContent {
     std::optional<std::size_t> model;        ///< that the panel edits; absent: all
     std::vector<std::string> option_reasons; ///< in the catalogue's order: why one cannot be set
     std::size_t parameter = 0;               ///< that keys change, in the catalogue's order
+    bool is_as_at_start = true;              ///< all models have their first techniques
     bool wireframe = false;
 };
 
@@ -122,6 +123,7 @@ struct MeasureContent {
     bool is_on = false; ///< clicks pick points
     std::vector<MeasuredPoint> points;
     std::optional<ProfileContent> profile;
+    std::optional<bool> viewshed; ///< whether the ground has its colours; absent: there is none
 };
 
 struct PathContent {
@@ -146,6 +148,20 @@ struct PlaceContent {
     double height = 0.0;                ///< true metres above the DEM's zero
     std::optional<double> above_ground; ///< true metres; of the eye
     std::string object;                 ///< its name; empty: the ground
+};
+
+/// A named view of a terrain.
+struct Bookmark {
+    std::string terrain; ///< TERRAIN of the command line
+    std::string name;
+    std::string camera; ///< the options that show it
+
+    friend bool operator==(const Bookmark&, const Bookmark&) = default;
+};
+
+struct BookmarkContent {
+    std::vector<Bookmark> bookmarks; ///< of this terrain
+    std::string note;                ///< one sentence on what cannot be read; empty: nothing
 };
 
 struct TaskContent {
@@ -175,6 +191,7 @@ struct PanelContent {
     CompareContent compare;
     MeasureContent measure;
     PathContent path;
+    BookmarkContent bookmarks;
     PlaceContent eye;
     std::optional<PlaceContent> cursor;     ///< the ground or object under the pointer
     std::optional<double> heading;          ///< degrees clockwise from north

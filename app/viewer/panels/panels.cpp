@@ -12,21 +12,22 @@
 #include "app/viewer/panels/legend_panel.h"
 #include "app/viewer/panels/measure_panel.h"
 #include "app/viewer/panels/message_panel.h"
-#include "app/viewer/panels/panel_layout.h"
 #include "app/viewer/panels/status_panel.h"
 #include "app/viewer/panels/technique_panel.h"
+#include "app/viewer/panels/toolkit/panel_layout.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
 namespace {
 
 constexpr double tabs_height = 72.0; // units of text
-constexpr double footer_height = 34.0;
+constexpr double footer_height = 64.0;
 constexpr double border_height = 14.0;
 
-enum class Tab : std::size_t { technique, view, compare, measure, path, notes };
-constexpr std::array tab_names{"Technique", "View", "Compare", "Measure", "Path", "Notes"};
-constexpr std::size_t tabs_in_a_row = 3;
+enum class Tab : std::size_t { technique, view, places, compare, measure, path, notes };
+constexpr std::array tab_names{"Technique", "View", "Places", "Compare",
+                               "Measure",   "Path", "Notes"};
+constexpr std::size_t tabs_in_a_row = 4;
 
 // The key without modifiers, when it goes down.
 bool presses(const Event& event, Key key) {
@@ -41,9 +42,13 @@ PanelActions draw_footer() {
     if (ImGui::Button("Copy as command", {width, 0.0F})) {
         actions.emplace_back(CopyCommand{});
     }
-    tip("Copies the command that renders this view into a file");
+    tip("Copies the command that renders this view into a file (Z)");
     ImGui::SameLine();
-    if (ImGui::Button("Save picture", {width, 0.0F})) {
+    if (ImGui::Button("Copy camera", {width, 0.0F})) {
+        actions.emplace_back(PressKey{Key::v});
+    }
+    tip("Copies the --camera of this view (V)");
+    if (wide_button("Save picture")) {
         actions.emplace_back(PressKey{Key::c});
     }
     tip("Saves the picture, without panels, into the current folder (C)");
@@ -116,6 +121,14 @@ PanelActions Panels::draw(const PanelContent& content, glm::ivec2 window, double
     return actions;
 }
 
+void Panels::draw_failure(const std::string& sentence, glm::ivec2 window, double seconds) {
+    interface_.begin(window, seconds);
+    if (has_room(window)) {
+        app::draw_failure(sentence, {{0.0, 0.0}, glm::dvec2(window)}, interface_.fonts());
+    }
+    interface_.end();
+}
+
 PanelActions Panels::draw_inspector(const PanelContent& content, const Area& area) {
     const Fonts& fonts = interface_.fonts();
     PanelActions actions;
@@ -145,6 +158,8 @@ PanelActions Panels::draw_tab(const PanelContent& content) {
         return draw_technique(content, fonts);
     case Tab::view:
         return appearance_.draw(content, fonts);
+    case Tab::places:
+        return bookmarks_.draw(content, fonts);
     case Tab::compare:
         return draw_compare(content, fonts);
     case Tab::measure:

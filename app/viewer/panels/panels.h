@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/panels/appearance_panel.h"
+#include "app/viewer/panels/bookmark_panel.h"
 #include "app/viewer/panels/panel_action.h"
 #include "app/viewer/panels/panel_content.h"
 #include "app/viewer/panels/path_panel.h"
@@ -51,6 +52,9 @@ public:
     /// asks for. A window that is too small for panels has none.
     PanelActions draw(const PanelContent& content, glm::ivec2 window, double seconds);
 
+    /// Draws a sentence over the whole window, in place of everything else.
+    void draw_failure(const std::string& sentence, glm::ivec2 window, double seconds);
+
 private:
     PanelActions draw_inspector(const PanelContent& content, const Area& area);
     PanelActions draw_tab(const PanelContent& content);
@@ -60,6 +64,7 @@ private:
 
     Interface interface_;
     AppearancePanel appearance_;
+    BookmarkPanel bookmarks_;
     PlacePanel place_;
     PathPanel path_;
     double inspector_content_ = 0.0; // height in the last frame, pixels

@@ -34,6 +34,12 @@ PanelActions draw_models(const TechniqueContent& content) {
         }
         ImGui::EndCombo();
     }
+    ImGui::BeginDisabled(content.is_as_at_start);
+    if (wide_button("Techniques of the start  (0)")) {
+        actions.emplace_back(PressKey{Key::digit0});
+    }
+    ImGui::EndDisabled();
+    tip("Gives each model the technique that it began with");
     return actions;
 }
 

@@ -142,7 +142,10 @@ bool FreeFlight::receive(const Event& event) {
 }
 
 void FreeFlight::change_speed(double steps) {
-    const double speed = speed_ * std::pow(speed_per_wheel_step, steps);
+    set_speed(speed_ * std::pow(speed_per_wheel_step, steps));
+}
+
+void FreeFlight::set_speed(double speed) {
     if (!std::isnan(speed)) {
         speed_ = std::clamp(speed, min_speed, max_speed);
     }

@@ -75,6 +75,8 @@ public:
     void set_mouse_look(bool on);
     /// Multiplies the speed by 1.25 for each step.
     void change_speed(double steps);
+    /// Metres a second, clamped to what the flight allows; not a number changes nothing.
+    void set_speed(double speed);
     void set_follow_ground(bool on) { follows_ground_ = on; }
     [[nodiscard]] bool follows_ground() const { return follows_ground_; }
 

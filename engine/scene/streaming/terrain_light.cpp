@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_inverse.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/scene/streaming/ground_overlay.h"
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/tint.h"
 #include "engine/terrain/light/sky_share.h"
@@ -48,11 +49,13 @@ Image albedo_map(const TerrainSurface& surface) {
     const bool opaque = share == 1.0 && !terrain.color.empty() &&
                         std::all_of(terrain.color.samples().begin(), terrain.color.samples().end(),
                                     [](Rgba8 pixel) { return pixel.a == 255; });
-    return opaque
-               ? terrain.color
+    Image colors =
+        opaque ? terrain.color
                : terrain::composite(terrain.color,
                                     terrain::hypsometric_tint(terrain.heightfield, surface.ramp()),
                                     share);
+    blend_overlay(surface, colors);
+    return colors;
 }
 
 TerrainIrradiance::TerrainIrradiance(const TerrainSurface& surface, const TerrainLight& light)

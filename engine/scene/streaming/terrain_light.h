@@ -20,8 +20,8 @@ struct TerrainLight {
     friend bool operator==(const TerrainLight&, const TerrainLight&) = default;
 };
 
-/// The imagery over the hypsometric tint, sRGB, opaque. Its outermost texels are the outermost
-/// samples.
+/// The imagery over the hypsometric tint, and the overlay over both, sRGB, opaque. Its outermost
+/// texels are the outermost samples.
 Image albedo_map(const TerrainSurface& surface);
 
 /// Linear radiance at albedo 1 from the sky and the sun.

@@ -24,7 +24,8 @@ std::shared_ptr<const TerrainTile> borrowing_tile(const terrain::TileCells& cell
 TerrainSurface::TerrainSurface(std::shared_ptr<const terrain::Terrain> terrain,
                                terrain::Placement placement, const TerrainOptions& options)
     : terrain_(std::move(terrain)), placement_(std::move(placement)), ramp_(options.ramp),
-      imagery_share_(options.imagery_share), pyramid_(terrain_->heightfield.heights.view()) {
+      imagery_share_(options.imagery_share), overlay_(options.overlay),
+      pyramid_(terrain_->heightfield.heights.view()) {
     const terrain::Heightfield& heightfield = terrain_->heightfield;
     const double flat = terrain::reference_height(heightfield);
     const glm::ivec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
@@ -58,18 +59,13 @@ Result<TerrainSurface> TerrainSurface::create(std::shared_ptr<const terrain::Ter
 }
 
 Result<TerrainSurface> TerrainSurface::exaggerated(double factor) const {
-    return create(terrain_, {.placement = placement_.kind(),
-                             .exaggeration = factor,
-                             .ramp = ramp_,
-                             .imagery_share = imagery_share_});
+    TerrainOptions other = options();
+    other.exaggeration = factor;
+    return changed(other);
 }
 
-Result<TerrainSurface> TerrainSurface::colored(terrain::ColorRamp ramp,
-                                               double imagery_share) const {
-    return create(terrain_, {.placement = placement_.kind(),
-                             .exaggeration = placement_.exaggeration(),
-                             .ramp = std::move(ramp),
-                             .imagery_share = imagery_share});
+TerrainOptions TerrainSurface::options() const {
+    return {placement_.kind(), placement_.exaggeration(), ramp_, imagery_share_, overlay_};
 }
 
 std::optional<double> TerrainSurface::height_at(double x, double y) const {

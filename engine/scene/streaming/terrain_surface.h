@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/color.h"
 #include "engine/core/geometry.h"
 #include "engine/core/result.h"
 #include "engine/scene/streaming/terrain_tile.h"
@@ -21,6 +22,9 @@ struct TerrainOptions {
     double exaggeration = 1.0;
     terrain::ColorRamp ramp = *terrain::named_ramp(terrain::default_ramp); ///< where no image lies
     double imagery_share = 1.0; ///< of the terrain's colours, [0, 1]; the rest are the ramp's
+    /// Over all other colours, by its alpha; its outermost texels, at least 2 x 2, are the
+    /// outermost samples. Null: none.
+    std::shared_ptr<const Image> overlay = {};
 };
 
 /// A terrain in a node's local frame (metres, x east, y north, z up), for drawing and queries. The
@@ -32,9 +36,11 @@ public:
 
     /// The same terrain with another exaggeration. Fails if the factor is out of range.
     [[nodiscard]] Result<TerrainSurface> exaggerated(double factor) const;
-    /// The same terrain with other colours: TerrainOptions.
-    [[nodiscard]] Result<TerrainSurface> colored(terrain::ColorRamp ramp,
-                                                 double imagery_share) const;
+    /// The same terrain with other options. Fails as create().
+    [[nodiscard]] Result<TerrainSurface> changed(const TerrainOptions& options) const {
+        return create(terrain_, options);
+    }
+    [[nodiscard]] TerrainOptions options() const;
 
     [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
     [[nodiscard]] const terrain::Heightfield& heightfield() const { return terrain_->heightfield; }
@@ -43,6 +49,7 @@ public:
     [[nodiscard]] const terrain::Placement& placement() const { return placement_; }
     [[nodiscard]] const terrain::ColorRamp& ramp() const { return ramp_; }
     [[nodiscard]] double imagery_share() const { return imagery_share_; }
+    [[nodiscard]] const std::shared_ptr<const Image>& overlay() const { return overlay_; }
     [[nodiscard]] const terrain::MinMaxPyramid& pyramid() const { return pyramid_; }
 
     /// Row after row. They borrow the samples of this surface.
@@ -68,6 +75,7 @@ private:
     terrain::Placement placement_;
     terrain::ColorRamp ramp_;
     double imagery_share_;
+    std::shared_ptr<const Image> overlay_;
     terrain::MinMaxPyramid pyramid_;
     std::vector<std::shared_ptr<const TerrainTile>> tiles_;
     std::vector<Box> flat_bounds_;

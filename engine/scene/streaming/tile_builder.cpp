@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/core/bilinear.h"
+#include "engine/scene/streaming/ground_overlay.h"
 
 namespace reljef::scene {
 namespace {
@@ -462,7 +463,9 @@ TerrainTile TileBuilder::make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
             }
         }
     }
-    return make_part(tile, vertex, std::move(around), true);
+    TerrainTile made = make_part(tile, vertex, std::move(around), true);
+    blend_overlay(*this, made, vertex);
+    return made;
 }
 
 TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
@@ -487,6 +490,7 @@ TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
               "a picture of a tile's picture_size was expected");
         made.albedo = terrain::composite(picture.texels, made.albedo, share);
     }
+    blend_overlay(*this, made);
     return made;
 }
 

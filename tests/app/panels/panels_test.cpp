@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer/panels/panel_layout.h"
+#include "app/viewer/panels/toolkit/panel_layout.h"
 
 namespace reljef::app {
 namespace {
@@ -60,6 +60,45 @@ struct PanelsTest : testing::Test {
         return std::nullopt;
     }
 
+    // Clicks over an area until a click presses the key.
+    bool presses(const Area& area, Key key, double step = 12.0) {
+        for (double y = area.high.y - 6.0; y > area.low.y; y -= step) {
+            for (double x = area.low.x + 24.0; x < area.high.x; x += 40.0) {
+                for (const PanelAction& action : click({x, y})) {
+                    const auto* const pressed = std::get_if<PressKey>(&action);
+                    if (pressed != nullptr && pressed->key == key) {
+                        return true;
+                    }
+                }
+            }
+        }
+        return false;
+    }
+
+    // The third of four tabs in the first row.
+    void show_places() {
+        draw();
+        draw();
+        click(layout.inspector.low + glm::dvec2(182.0, 22.0));
+        draw();
+    }
+
+    // Where found_in() clicks one below the other; `from_right`: of the inspector, pixels.
+    Area column(double from_right) const {
+        const double x = layout.inspector.high.x - from_right;
+        return {{x - 24.0, layout.inspector.low.y + 76.0}, {x + 1.0, layout.inspector.high.y}};
+    }
+
+    PanelActions type(const std::string& text) {
+        for (const char letter : text) {
+            panels.receive(TextEvent{static_cast<char32_t>(letter)});
+        }
+        press(Key::enter); // down and up before the next frame
+        PanelActions actions = draw();
+        actions += draw();
+        return actions += draw();
+    }
+
     void press(Key key) {
         used = panels.receive(KeyEvent{.key = key, .pressed = true});
         panels.receive(KeyEvent{.key = key, .pressed = false});
@@ -78,6 +117,67 @@ TEST_F(PanelsTest, ClicksOnButtonsAreActions) {
     const auto picture = found_in<PressKey>(layout.inspector);
     ASSERT_TRUE(picture);
     EXPECT_EQ(picture->key, Key::c);
+}
+
+TEST_F(PanelsTest, TheCameraCanBeCopied) {
+    draw();
+    draw();
+    EXPECT_TRUE(presses(layout.inspector, Key::v));
+}
+
+TEST_F(PanelsTest, BookmarksAreAddedFlownToAndDeleted) {
+    const Bookmark ridge{"alps.tif", "Grat Süd", "--camera 46,8,2000,10,-5"};
+    content.bookmarks = {{ridge, {"alps.tif", "", "--camera 46,8,2000,20,-5"}}, "a note"};
+    show_places();
+    const auto added = found_in<AddBookmark>(column(40.0), 6.0);
+    ASSERT_TRUE(added);
+    EXPECT_EQ(added->name, "");
+    const auto gone = found_in<RemoveBookmark>(column(40.0), 6.0);
+    ASSERT_TRUE(gone);
+    EXPECT_EQ(gone->bookmark, content.bookmarks.bookmarks[1]);
+    const auto there = found_in<GoToBookmark>(column(250.0), 6.0);
+    ASSERT_TRUE(there);
+    EXPECT_EQ(there->bookmark, content.bookmarks.bookmarks[1]);
+}
+
+TEST_F(PanelsTest, ABookmarkIsRenamedInItsRow) {
+    const Bookmark ridge{"alps.tif", "ridge", "--camera 46,8,2000,10,-5"};
+    content.bookmarks.bookmarks = {ridge};
+    show_places();
+    std::optional<RenameBookmark> renamed;
+    for (double y = layout.inspector.low.y + 80.0; y < layout.inspector.low.y + 200.0 && !renamed;
+         y += 5.0) {
+        for (double x = layout.inspector.high.x - 150.0; x < layout.inspector.high.x - 80.0;
+             x += 20.0) {
+            click({x, y});
+            draw();
+            draw();
+            for (const PanelAction& action : type("summit")) {
+                const auto* const found = std::get_if<RenameBookmark>(&action);
+                renamed = found != nullptr ? std::optional(*found) : renamed;
+            }
+        }
+    }
+    ASSERT_TRUE(renamed);
+    EXPECT_EQ(renamed->bookmark, ridge);
+    EXPECT_EQ(renamed->name, "summit");
+}
+
+TEST_F(PanelsTest, TheSpeedHasASlider) {
+    content.speed = 1.0;
+    show_places();
+    const auto set = found_in<SetSpeed>(layout.inspector, 6.0);
+    ASSERT_TRUE(set);
+    EXPECT_GT(set->speed, 0.0);
+}
+
+TEST_F(PanelsTest, TheGalleryGetsItsTechniquesBackOnlyIfTheyChanged) {
+    content.technique.models = {{"box", content.technique.requested}};
+    draw();
+    draw();
+    EXPECT_FALSE(presses(column(200.0), Key::digit0, 6.0));
+    content.technique.is_as_at_start = false;
+    EXPECT_TRUE(presses(column(200.0), Key::digit0, 6.0));
 }
 
 TEST_F(PanelsTest, ASliderChangesAParameterToAnAllowedValue) {
@@ -202,6 +302,10 @@ TEST_F(PanelsTest, MeasuringShowsItsPointsAndProfile) {
     draw();
     draw();
     EXPECT_TRUE(found_in<ClearPoints>(layout.inspector));
+    content.measure.viewshed = true;
+    const auto shown = found_in<ShowViewshed>(layout.inspector, 6.0);
+    ASSERT_TRUE(shown);
+    EXPECT_FALSE(shown->shown);
     const auto saved = found_in<PressKey>(layout.inspector);
     ASSERT_TRUE(saved);
 }

@@ -52,6 +52,22 @@ TEST(Bookmarks, TabsAndLineEndsInNamesHarmNothing) {
     EXPECT_EQ(marks.of("a b.tif")->bookmarks.front().name, "one two three");
 }
 
+TEST(Bookmarks, AreRenamedInTheirPlace) {
+    const test::TemporaryFolder folder;
+    const Bookmarks marks(folder.write(
+        "bookmarks.txt", "# mine\nalps.tif\tRidge\t--camera 46,8,2000,10,-5\r\nhalf\n"));
+    ASSERT_TRUE(marks.add(lake));
+    ASSERT_TRUE(marks.rename(ridge, "Grat\tim Süden"));
+    EXPECT_THAT(marks.of("alps.tif")->bookmarks,
+                testing::ElementsAre(Bookmark{"alps.tif", "Grat im Süden", ridge.camera}, lake));
+    EXPECT_THAT(content_of(marks.file()), testing::StartsWith("# mine\nalps.tif\tGrat im Süden\t"));
+    EXPECT_THAT(content_of(marks.file()), HasSubstr("\nhalf\n"));
+    const std::string before = content_of(marks.file());
+    EXPECT_THAT(marks.rename(ridge, "gone").error().message, HasSubstr("no bookmark 'Ridge'"));
+    EXPECT_THAT(marks.rename(lake, "").error().message, HasSubstr("a name was expected"));
+    EXPECT_EQ(content_of(marks.file()), before);
+}
+
 TEST(Bookmarks, FilesOfOneNameAndNamesLikeCommentsHaveTheirOwn) {
     const test::TemporaryFolder folder;
     folder.write("one/#dem.tif", "");

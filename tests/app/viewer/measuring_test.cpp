@@ -1,6 +1,7 @@
 #include "app/viewer/measuring.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,11 +15,14 @@
 
 #include "app/viewer/paths/path_desk.h"
 #include "app/viewer/paths/path_video.h"
+#include "app/viewer/viewer.h"
 #include "engine/io/formats/flight_file.h"
+#include "engine/scene/streaming/terrain_light.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/measuring/ground_measure.h"
 #include "tests/app/made_hill.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/terrain/made_heightfield.h"
 
 namespace reljef::app {
 namespace {
@@ -169,6 +173,54 @@ TEST(Measuring, ProfileIsSavedAndAViewshedNeedsAPlaceOnEarth) {
     ASSERT_FALSE(viewshed);
     EXPECT_THAT(viewshed.error().message, HasSubstr("no place on Earth"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "none.csv"));
+}
+
+// A ridge from north to south hides the east from a point in the west.
+session::TerrainScene ridge_on_earth() {
+    session::TerrainSource source;
+    source.terrain.name = "ridge";
+    source.terrain.heightfield = test::geographic_heightfield(
+        test::made_heights(33, 33, [](int col, int) { return col == 16 ? 300.0 : 0.0; }), 46.0, 8.0,
+        0.001);
+    session::SceneOptions view;
+    view.max_error = 0.0;
+    return test::make_scene(std::move(source), {}, view).value();
+}
+
+TEST(Measuring, AViewshedColoursTheGroundUntilItIsSwitchedOff) {
+    const test::TemporaryFolder folder;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    session::TerrainScene scene = ridge_on_earth();
+    Viewer viewer(scene, scene::orbit_path(scene.bounds, 10.0), {400, 300});
+    const auto overlay = [&] { return node_of(scene).surface->overlay(); };
+    const auto wait = [&](const auto& is_done) {
+        for (int i = 0; i < 2000 && !is_done(); ++i) {
+            viewer.advance(0.01);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    };
+    const Image plain = scene::albedo_map(*node_of(scene).surface);
+    const auto world = node_of(scene).surface->placement().world_from_sample({8.0, 16.0, 0.0});
+    ASSERT_TRUE(viewer.measuring().pick(session::PickedPlace{world}));
+    ASSERT_TRUE(viewer.begin_viewshed());
+    wait([&] { return overlay() != nullptr; });
+    ASSERT_NE(overlay(), nullptr);
+    EXPECT_TRUE(viewer.shows_viewshed());
+    EXPECT_THAT(viewer.take_output(), HasSubstr("saved reljef-viewshed-0001.tif"));
+    EXPECT_EQ(viewer.measuring().points().size(), 1U) << "the ground is the same";
+    const Image colored = scene::albedo_map(*node_of(scene).surface);
+    const auto green = [](Rgba8 color) { return int{color.g} - int{color.b}; };
+    EXPECT_GT(green(colored(4, 16)), green(plain(4, 16)) + 20) << "it sees the west";
+    EXPECT_LT(green(colored(28, 16)), green(plain(28, 16)) - 5) << "the ridge hides the east";
+    viewer.receive(KeyEvent{.key = Key::f2, .pressed = true});
+    EXPECT_FALSE(viewer.shows_viewshed());
+    wait([&] { return overlay() == nullptr; });
+    EXPECT_EQ(scene::albedo_map(*node_of(scene).surface), plain);
+    viewer.receive(KeyEvent{.key = Key::f2, .pressed = true});
+    wait([&] { return overlay() != nullptr; });
+    EXPECT_EQ(scene::albedo_map(*node_of(scene).surface), colored);
+    std::filesystem::current_path(before);
 }
 
 scene::Camera view_from(double x) {

@@ -16,7 +16,7 @@ namespace reljef::app {
 namespace {
 
 // Remembers its titles.
-class TitledWindow final : public platform::Window {
+class TitledWindow : public platform::Window {
 public:
     platform::Context& context() override { throw std::logic_error("no context is needed"); }
     [[nodiscard]] bool should_close() const override { return false; }
@@ -91,6 +91,44 @@ TEST(Opening, IsEmptyIfItIsStopped) {
     const auto opened = opening.finish(window, session::RayUse::none, 4096, silent, stop);
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_FALSE(*opened);
+}
+
+// Closes itself with Esc after some frames.
+class FailingWindow final : public TitledWindow {
+public:
+    explicit FailingWindow(glm::ivec2 size) : size_(size) {}
+    std::vector<Event> wait_events(std::chrono::milliseconds /*timeout*/) override {
+        return frames < 3 ? std::vector<Event>{}
+                          : std::vector<Event>{KeyEvent{.key = Key::escape, .pressed = true}};
+    }
+    [[nodiscard]] glm::ivec2 framebuffer_size() const override { return size_; }
+    void swap_buffers() override { ++frames; }
+
+    int frames = 0;
+
+private:
+    glm::ivec2 size_;
+};
+
+TEST(ShowFailure, TheSentenceStaysUntilTheUserClosesTheWindow) {
+    Panels panels(Interface::create({.draws = false}).value());
+    FailingWindow window({800, 600});
+    show_failure(window, panels, "alps.tif: no heights found", {});
+    EXPECT_EQ(window.frames, 3);
+    EXPECT_TRUE(panels.is_over_panel({400.0, 5.0})) << "it covers the window";
+    EXPECT_EQ(window.titles, std::vector<std::string>{"reljef - alps.tif: no heights found"});
+}
+
+TEST(ShowFailure, AStoppedOrTinyWindowEndsAtOnce) {
+    Panels panels(Interface::create({.draws = false}).value());
+    FailingWindow tiny({1, 1});
+    show_failure(tiny, panels, "alps.tif: no heights found", {});
+    EXPECT_EQ(tiny.frames, 0);
+    std::stop_source stop;
+    stop.request_stop();
+    FailingWindow stopped({800, 600});
+    show_failure(stopped, panels, "alps.tif: no heights found", stop.get_token());
+    EXPECT_EQ(stopped.frames, 0);
 }
 
 TEST(Opening, EndsInTheMiddleOfReading) {

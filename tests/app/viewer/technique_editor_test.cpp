@@ -1,9 +1,16 @@
 #include "app/viewer/appearance/technique_editor.h"
 
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/app/command_line.h"
 #include "tests/app/made_hill.h"
+#include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
 namespace {
@@ -56,6 +63,43 @@ TEST_F(TechniqueEditorTest, ATechniqueThatIsLeftKeepsItsParameters) {
     EXPECT_EQ(shown().id(), scene::TechniqueId::texture);
     const TechniqueContent content = editor.content();
     EXPECT_EQ(choice_of(content, scene::TechniqueId::relief).technique, relief_with(40));
+}
+
+// A mesh that is seen from both sides, as the curtain is, has other techniques than a box.
+TEST(TechniqueEditor, JudgesATechniqueForTheSelectedModelAlone) {
+    const test::TemporaryFolder folder;
+    session::Log silent;
+    session::SourceOptions source;
+    source.terrain = test::small_terrain(folder, "gallery");
+    session::TerrainScene gallery = session::open_scene(source, {}, silent).value();
+    AppearanceSwitch changes(gallery);
+    TechniqueEditor editor(gallery, changes, gallery.materials().front()->technique);
+    const auto reasons_of_all = [&] {
+        std::vector<std::string> reasons;
+        for (const TechniqueChoice& choice : editor.content().choices) {
+            reasons.push_back(choice.reason);
+        }
+        return reasons;
+    };
+    const auto of_all = reasons_of_all();
+    std::set<std::vector<std::string>> different;
+    for (std::size_t model = 0; model < gallery.models.size(); ++model) {
+        editor.select_model(model);
+        const TechniqueContent content = editor.content();
+        int digit = 0;
+        for (const TechniqueChoice& choice : content.choices) {
+            const auto good =
+                scene::check_technique(scene::make_technique(choice.technique.id()),
+                                       *gallery.models[model]->get<scene::MeshNode>());
+            EXPECT_EQ(choice.reason, good ? "" : good.error().message);
+            EXPECT_EQ(choice.digit.has_value(), good && digit < 9);
+            digit += good ? 1 : 0;
+        }
+        different.insert(reasons_of_all());
+    }
+    EXPECT_GT(different.size(), 1U);
+    editor.select_model({});
+    EXPECT_EQ(reasons_of_all(), of_all);
 }
 
 TEST_F(TechniqueEditorTest, KeysChangeTheSelectedParameter) {

@@ -248,6 +248,12 @@ TEST(FreeFlight, SpeedStaysWithinItsBounds) {
         flight.change_speed(-steps);
         EXPECT_EQ(flight.speed(), 1e-2);
     }
+    flight.set_speed(33.0);
+    EXPECT_EQ(flight.speed(), 33.0);
+    flight.set_speed(std::nan(""));
+    EXPECT_EQ(flight.speed(), 33.0);
+    flight.set_speed(-1.0);
+    EXPECT_EQ(flight.speed(), 1e-2);
 }
 
 TEST(FreeFlight, HeldAgainstTheGroundNothingChanges) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -134,10 +135,16 @@ struct Interface::State {
                            [&](const Area& area) { return area.contains(pixel); });
     }
 
-    // A press and its release in one frame would be none: the second change of a button waits.
+    // A press and its release in one frame would be none: the second change of a button or a key
+    // waits.
     void pass_events(ImGuiIO& io) {
         std::array<bool, 3> has_changed{};
+        std::set<Key> changed_keys;
         while (!events.empty()) {
+            const auto* const key = std::get_if<KeyEvent>(&events.front());
+            if (key != nullptr && !key->repeat && !changed_keys.insert(key->key).second) {
+                return;
+            }
             if (const auto button = button_of(events.front())) {
                 bool& changed = has_changed.at(static_cast<std::size_t>(*button));
                 if (std::exchange(changed, true)) {

@@ -115,6 +115,7 @@ std::size_t tabs(std::span<const char* const> names, std::size_t chosen, std::si
         static_cast<float>(in_a_row);
     std::size_t result = chosen;
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, gap});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0F, ImGui::GetStyle().FramePadding.y});
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (i % in_a_row > 0) {
             ImGui::SameLine();
@@ -124,7 +125,7 @@ std::size_t tabs(std::span<const char* const> names, std::size_t chosen, std::si
         result = ImGui::Button(names[i], {width, 0.0F}) ? i : result;
         ImGui::PopStyleColor();
     }
-    ImGui::PopStyleVar();
+    ImGui::PopStyleVar(2);
     return result;
 }
 

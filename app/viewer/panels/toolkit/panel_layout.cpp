@@ -1,4 +1,4 @@
-#include "app/viewer/panels/panel_layout.h"
+#include "app/viewer/panels/toolkit/panel_layout.h"
 
 #include <algorithm>
 

@@ -1,0 +1,51 @@
+#include "app/viewer/panels/appearance_panel.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace reljef::app {
+namespace {
+
+using testing::HasSubstr;
+
+AppearanceContent at_greenwich() {
+    AppearanceContent appearance;
+    appearance.on_earth = geo::Geodetic{51.48, 0.0, 0.0};
+    return appearance;
+}
+
+TEST(SunAt, TakesEveryYearOfTheFormulaAndNamesTheOthers) {
+    for (const int year : {geo::first_sun_year, 1900, 2000, geo::last_sun_year}) {
+        const auto sun = sun_at({year, 6, 21, 12.0}, at_greenwich());
+        ASSERT_TRUE(sun) << year << sun.error().message;
+        EXPECT_NEAR(sun->altitude, 61.95, 0.3) << year;
+        EXPECT_NEAR(sun->azimuth, 180.0, 2.0) << year;
+    }
+    for (const int year : {-30'000, geo::first_sun_year - 1, geo::last_sun_year + 1, 2'000'000}) {
+        const auto sun = sun_at({.year = year}, at_greenwich());
+        ASSERT_FALSE(sun);
+        EXPECT_THAT(sun.error().message, HasSubstr("1800 to 2200 was expected"));
+    }
+}
+
+TEST(SunAt, HasTwilightAndNamesTheNight) {
+    const auto twilight = sun_at({2026, 3, 20, 18.5}, at_greenwich());
+    ASSERT_TRUE(twilight);
+    EXPECT_LT(twilight->altitude, 0.0);
+    EXPECT_GE(twilight->altitude, lowest_sun);
+    const auto night = sun_at({2026, 12, 21, 0.0}, at_greenwich());
+    ASSERT_FALSE(night);
+    EXPECT_THAT(night.error().message, HasSubstr("below the horizon"));
+    EXPECT_THAT(night.error().message, HasSubstr("at most 18 was expected"));
+}
+
+TEST(SunAt, TurnsWithTheGridOfThePlane) {
+    AppearanceContent turned = at_greenwich();
+    turned.true_north = -10.0;
+    const geo::UniversalTime noon{2026, 6, 21, 12.0};
+    const double azimuth = sun_at(noon, at_greenwich())->azimuth;
+    EXPECT_NEAR(sun_at(noon, turned)->azimuth, azimuth - 10.0, 1e-9);
+}
+
+} // namespace
+} // namespace reljef::app
