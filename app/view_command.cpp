@@ -218,6 +218,9 @@ Error shown_error(const Error& error, const ViewerChoice& choice, platform::Wind
 }
 
 Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
+    if (const auto named = session::describe(choice.terrain.terrain); !named) {
+        return named.error(); // without a window
+    }
     session::limit_software_threads(choice.terrain.threads);
     interrupt.end_after(cli::Interrupt::longest_frame);
     // A path may follow the ground.

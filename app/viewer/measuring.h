@@ -56,6 +56,7 @@ public:
     /// The last viewshed as colours over the ground, see scene::TerrainOptions::overlay; null:
     /// none.
     [[nodiscard]] const std::shared_ptr<const Image>& seen() const { return seen_; }
+    void forget_viewshed() { seen_ = nullptr; }
     /// The label is empty if there is no viewshed.
     [[nodiscard]] session::RelayedLog::TaskProgress progress() const;
 

@@ -188,6 +188,19 @@ bool Viewer::is_moving() const {
            (map_ ? map_->is_steered() : flight_.is_steered() || navigation_.is_moving());
 }
 
+// What was measured is no longer on the ground.
+void Viewer::leave_measured_ground() {
+    if (!measuring_.points().empty()) {
+        notes_.note("the ground has changed: the measured points are removed");
+    }
+    if (shows_viewshed()) {
+        notes_.note("the ground has changed: the colours of the viewshed are removed");
+        surface_switch_.request(std::shared_ptr<const Image>());
+    }
+    measuring_.clear();
+    measuring_.forget_viewshed();
+}
+
 void Viewer::update_appearance() {
     redraw_ = switch_.update() || redraw_;
     redraw_ = comparison_.take_redraw() || redraw_;
@@ -201,9 +214,8 @@ void Viewer::update_appearance() {
         const bool is_same_ground =
             &before->terrain() == &shown.terrain() &&
             before->placement().exaggeration() == shown.placement().exaggeration();
-        if (!is_same_ground && !measuring_.points().empty()) { // they are no longer on the ground
-            measuring_.clear();
-            notes_.note("the ground has changed: the measured points are removed");
+        if (!is_same_ground) {
+            leave_measured_ground();
         }
         show_camera(camera());
         if (!map_) { // the ground may have risen above it

@@ -203,6 +203,7 @@ private:
     static std::span<const Binding> bindings();
 
     bool receive_key(const KeyEvent& event);
+    void leave_measured_ground();
     void update_appearance();
     void move(double step);
     void advance_path(double seconds);

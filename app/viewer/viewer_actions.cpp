@@ -25,6 +25,17 @@ std::vector<scene::Technique> techniques_of(const session::TerrainScene& scene) 
     return techniques;
 }
 
+// "view 1", "view 2" and so on.
+std::string free_name(const std::vector<Bookmark>& bookmarks) {
+    std::string name;
+    std::size_t number = 0;
+    do {
+        name = fmt::format("view {}", ++number);
+    } while (std::any_of(bookmarks.begin(), bookmarks.end(),
+                         [&](const Bookmark& bookmark) { return bookmark.name == name; }));
+    return name;
+}
+
 } // namespace
 
 void Viewer::report(const Result<void>& result) {
@@ -77,9 +88,7 @@ Result<void> Viewer::save_bookmark(const std::string& name) {
     if (!there || !camera) {
         return there ? camera.error() : there.error();
     }
-    const Bookmark bookmark{
-        terrain_, name.empty() ? fmt::format("view {}", there->bookmarks.size() + 1) : name,
-        *camera};
+    const Bookmark bookmark{terrain_, name.empty() ? free_name(there->bookmarks) : name, *camera};
     auto added = bookmarks_->add(bookmark);
     read_bookmarks();
     output_ += added ? fmt::format("saved bookmark {}: {}\n", bookmark.name, bookmark.camera)

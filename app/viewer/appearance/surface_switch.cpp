@@ -86,16 +86,21 @@ bool SurfaceSwitch::is_loaded(glm::ivec2 size) const {
                                made_->shown, size));
 }
 
+bool SurfaceSwitch::has_ground(const Shape& shape) const {
+    return shape.finer == nullptr && shape.factor == surface().placement().exaggeration();
+}
+
 void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                           const scene::Light& light) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
     session::MissingMaps missing;
-    missing.bisection = node.bisection != nullptr; // its errors depend on the heights
+    const bool keeps_ground = has_ground(shape);
+    missing.bisection = !keeps_ground && node.bisection != nullptr;
     missing.cones = shape.finer != nullptr && node.cones != nullptr;
     missing.light = session::light_request(scene_, light, technique, largest_side_);
     preparing_ = std::move(shape);
     work_.emplace([shown = node, technique, rays = scene_.rays, missing = std::move(missing),
-                   shape = preparing_, threads = threads_, source = scene_.source,
+                   shape = preparing_, keeps_ground, threads = threads_, source = scene_.source,
                    this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
         auto changed = surface_of(*shown.surface, shape.finer,
@@ -115,7 +120,7 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
         requested.surface = made.shown.surface;
         scene::TerrainNode changed_node = shown;
         changed_node.surface = made.shown.surface;
-        changed_node.bisection = nullptr;
+        changed_node.bisection = keeps_ground ? shown.bisection : nullptr;
         changed_node.cones = shape.finer != nullptr ? nullptr : shown.cones;
         const auto of_technique = session::missing_maps(changed_node, technique, rays);
         requested.bisection = requested.bisection || of_technique.bisection;
@@ -152,10 +157,10 @@ void SurfaceSwitch::show() {
         next_->finer = nullptr; // it is shown now
     }
     auto& node = *scene_.terrain->get<scene::TerrainNode>();
+    node.bisection = has_ground(preparing_) ? node.bisection : nullptr;
     node.surface = made.shown.surface;
     node.stream = made.shown.stream;
     session::follow_ramp(scene_);
-    node.bisection = nullptr;
     node.cones = preparing_.finer != nullptr ? nullptr : node.cones;
     session::apply_maps(scene_, made.maps);
     session::stand_on(*node.surface, scene_.objects);

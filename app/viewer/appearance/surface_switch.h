@@ -81,6 +81,8 @@ private:
         session::PreparedMaps maps;
     };
     [[nodiscard]] bool is_working() const { return work_.has_value() || made_.has_value(); }
+    // Whether the shown terrain has the same heights.
+    [[nodiscard]] bool has_ground(const Shape& shape) const;
     void begin(Shape shape, const scene::Technique& technique, const scene::Light& light);
     void end();
     [[nodiscard]] bool is_outdated() const;

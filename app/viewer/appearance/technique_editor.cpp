@@ -75,6 +75,16 @@ Result<void> TechniqueEditor::check(const scene::Technique& technique) const {
                   : scene_.check(technique);
 }
 
+bool TechniqueEditor::is_shown(const scene::Technique& technique) const {
+    const std::vector<scene::Material*> materials = scene_.materials();
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (model_.value_or(i) == i && materials[i]->technique != technique) {
+            return false;
+        }
+    }
+    return true;
+}
+
 Result<void> TechniqueEditor::request(const scene::Technique& technique) {
     if (auto good = check(technique); !good) {
         return good;
@@ -83,7 +93,7 @@ Result<void> TechniqueEditor::request(const scene::Technique& technique) {
         return choice.technique.id() == technique.id();
     });
     known->technique = technique;
-    if (technique != edited()) {
+    if (switch_.is_preparing() || !is_shown(technique)) {
         switch_.request(technique, model_);
     }
     return {};

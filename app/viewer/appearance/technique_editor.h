@@ -46,6 +46,8 @@ public:
 private:
     [[nodiscard]] const scene::Technique& edited() const;
     void check_choices();
+    // By all models that are edited.
+    [[nodiscard]] bool is_shown(const scene::Technique& technique) const;
     [[nodiscard]] Result<void> check(const scene::Technique& technique) const;
     [[nodiscard]] std::vector<std::string> option_reasons() const;
 

@@ -32,6 +32,15 @@ template <class Name> void set_name(Name& name, std::string_view text) {
     std::copy_n(text.begin(), size, name.begin());
 }
 
+// Over the last item. Not as its label, where ## would begin an identifier.
+void write_name(std::string_view name) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
+    list.AddText(ImGui::GetItemRectMin(), ImGui::GetColorU32(ImGuiCol_Text), name.data(),
+                 name.data() + name.size());
+    list.PopClipRect();
+}
+
 PanelActions draw_speed(const PanelContent& content) {
     double speed = content.speed;
     row("Speed", length_text(speed) + "/s");
@@ -75,7 +84,7 @@ PanelActions BookmarkPanel::draw_name_field() {
     begins_renaming_ = false;
     PanelActions actions;
     if (is_entered && other_name_.front() != '\0') {
-        actions.emplace_back(RenameBookmark{*renamed_, other_name_.data()});
+        actions.emplace_back(RenameBookmark{renamed_->bookmark, other_name_.data()});
     }
     if (is_entered || is_left) {
         renamed_.reset();
@@ -83,22 +92,22 @@ PanelActions BookmarkPanel::draw_name_field() {
     return actions;
 }
 
-PanelActions BookmarkPanel::draw_row(const Bookmark& bookmark) {
-    if (renamed_ == bookmark) {
+PanelActions BookmarkPanel::draw_row(std::size_t row, const Bookmark& bookmark) {
+    if (renamed_ && renamed_->row == row && renamed_->bookmark == bookmark) {
         return draw_name_field();
     }
     PanelActions actions;
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float buttons = width_of_button(rename_label) + width_of_button(delete_label) + gap;
     const float width = std::max(ImGui::GetContentRegionAvail().x - buttons - gap, 1.0F);
-    const std::string name = bookmark.name + "##go"; // an empty one has a place, too
-    if (ImGui::Selectable(name.c_str(), false, 0, {width, 0.0F})) {
+    if (ImGui::Selectable("##go", false, 0, {width, 0.0F})) {
         actions.emplace_back(GoToBookmark{bookmark});
     }
+    write_name(bookmark.name);
     tip("Fly there: " + bookmark.name + ", " + bookmark.camera);
     ImGui::SameLine();
     if (ImGui::SmallButton(rename_label)) {
-        renamed_ = bookmark;
+        renamed_ = {row, bookmark};
         set_name(other_name_, bookmark.name);
         begins_renaming_ = true;
     }
@@ -117,7 +126,7 @@ PanelActions BookmarkPanel::draw(const PanelContent& content, const Fonts& fonts
     actions += draw_new();
     for (std::size_t i = 0; i < bookmarks.bookmarks.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
-        actions += draw_row(bookmarks.bookmarks[i]);
+        actions += draw_row(i, bookmarks.bookmarks[i]);
         ImGui::PopID();
     }
     if (bookmarks.bookmarks.empty()) {

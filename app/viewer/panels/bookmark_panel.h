@@ -19,11 +19,15 @@ private:
     using Name = std::array<char, 256>; // UTF-8, ends with 0
 
     PanelActions draw_new();
-    PanelActions draw_row(const Bookmark& bookmark);
+    PanelActions draw_row(std::size_t row, const Bookmark& bookmark);
     PanelActions draw_name_field();
 
     Name new_name_{};
-    std::optional<Bookmark> renamed_; // while its name is edited
+    struct Renamed {
+        std::size_t row = 0;
+        Bookmark bookmark;
+    };
+    std::optional<Renamed> renamed_; // while its name is edited
     Name other_name_{};
     bool begins_renaming_ = false; // in the last frame
 };

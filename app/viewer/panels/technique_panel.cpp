@@ -35,7 +35,7 @@ PanelActions draw_models(const TechniqueContent& content) {
         ImGui::EndCombo();
     }
     ImGui::BeginDisabled(content.is_as_at_start);
-    if (wide_button("Techniques of the start  (0)")) {
+    if (wide_button("Initial techniques  (0)")) {
         actions.emplace_back(PressKey{Key::digit0});
     }
     ImGui::EndDisabled();
