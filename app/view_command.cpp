@@ -21,8 +21,12 @@
 #include "app/objects/surface_shader_option.h"
 #include "app/rendering/frame_sink.h"
 #include "app/viewer/opening.h"
+#include "app/viewer/panels/toolkit/gpu_wait.h"
+#include "app/viewer/timing/program_age.h"
+#include "app/viewer/timing/time_report.h"
 #include "app/viewer/viewer.h"
 #include "app/viewer/window_loop.h"
+#include "engine/core/stopwatch.h"
 #include "engine/platform/window.h"
 #include "engine/session/flight_keys.h"
 #include "engine/session/ground.h"
@@ -38,6 +42,8 @@ struct ViewerChoice {
     cli::ViewChoice view;
     bool frames_given = false;
     bool hides_panels = false;
+    bool prints_times = false;
+    bool prints_json = false;
     std::string named_terrain; ///< as on the command line
 };
 
@@ -88,6 +94,24 @@ Result<VideoFile> open_video(const std::filesystem::path& file, glm::ivec2 size,
         }};
 }
 
+// Without the time when the program began, the command's.
+FrameTimer make_timer(const ViewerChoice& choice) {
+    if (!choice.prints_times) {
+        return {};
+    }
+    const auto age = program_age();
+    return FrameTimer(
+        {[age = age ? *age : 0.0, since = Stopwatch()] { return age + since.seconds(); },
+         wait_for_gpu});
+}
+
+void print_times(const ViewerChoice& choice, const FrameTimer& timer) {
+    if (choice.prints_times) {
+        const TimeReport report = timer.times().report();
+        fmt::print("{}", choice.prints_json ? json_of(report) + '\n' : text_of(report));
+    }
+}
+
 // For work in the background after the window was closed.
 constexpr std::chrono::milliseconds longest_background{500};
 
@@ -108,7 +132,7 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
     if (opened.light != nullptr) {
         renderer.add_light(std::exchange(opened.light, nullptr));
     }
-    if (!choice.terrain.quiet) {
+    if (!choice.terrain.quiet && !choice.prints_json) {
         fmt::print("{}", Viewer::keys());
         std::fflush(stdout);
     }
@@ -124,6 +148,11 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                    .bookmarks = bookmark_file()});
     if (!choice.view.path.empty()) {
         viewer.toggle_path();
+        if (viewer.path_desk().path().keys().size() == 1) {
+            log.note(fmt::format("{}: one keyframe found, at least two were expected; the view "
+                                 "rests there",
+                                 choice.view.path));
+        }
     }
     auto panels = make_panels(choice, window);
     if (!panels) {
@@ -131,6 +160,7 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
     } else if (!panels->note().empty()) {
         log.note(panels->note());
     }
+    FrameTimer timer = make_timer(choice);
     auto done = run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
                                 {.frames = choice.frames_given ? choice.view.frames : 0,
                                  .samples = choice.view.samples,
@@ -138,7 +168,9 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                                  .start = start_options(choice),
                                  .make_renderer = renderers.make,
                                  .panels = panels ? &*panels : nullptr,
+                                 .timer = &timer,
                                  .finer = std::move(opened.finer)});
+    print_times(choice, timer);
     std::fflush(stdout);
     interrupt.end_after(longest_background);
     interrupt.request_stop();
@@ -250,6 +282,12 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_index_option(*arguments, choice->terrain, session::IndexUse::existing);
     arguments->add_flag("--no-panels", choice->hides_panels,
                         "hide the panels until Tab shows them");
+    auto* stats = arguments->add_flag(
+        "--stats", choice->prints_times,
+        "when the window closes, print how long the first picture, frames, panels, and answers to "
+        "keys and clicks took; panels are waited for, so frames take a little longer");
+    arguments->add_flag("--json", choice->prints_json, "with --stats: print JSON, not the keys")
+        ->needs(stats);
     arguments->callback([choice] {
         cli::check_view_options(choice->view);
         const glm::ivec2 size = choice->view.size;

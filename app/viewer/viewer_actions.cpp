@@ -322,6 +322,9 @@ Result<void> Viewer::act(const SetSpeed& set) {
 }
 
 Result<void> Viewer::act(const SetExaggeration& set) {
+    if (const std::string obstacle = exaggeration_obstacle(); !obstacle.empty()) {
+        return Error{obstacle};
+    }
     set_exaggeration(set.factor);
     return {};
 }

@@ -179,4 +179,18 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     return content;
 }
 
+ShownState shown_state(const Viewer& viewer, const session::TerrainScene& scene, glm::ivec2 size,
+                       std::optional<int> samples) {
+    const bool has_named_ramp = scene.models.empty() && terrain::named_ramp(viewer.ramp().name);
+    return {.technique = viewer.technique(),
+            .light = viewer.light(),
+            .exaggeration = viewer.exaggeration(),
+            .size = size,
+            .samples = samples,
+            .keeps_techniques = viewer.keeps_techniques(),
+            .ramp = has_named_ramp ? viewer.ramp().name : std::string(),
+            .compare = viewer.comparison().option(),
+            .wipe = viewer.comparison().share()};
+}
+
 } // namespace reljef::app

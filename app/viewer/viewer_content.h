@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/panels/panel_content.h"
+#include "app/viewer/render_command_text.h"
 #include "app/viewer/viewer.h"
 #include "engine/session/ground.h"
 #include "engine/session/scene_setup.h"
@@ -16,6 +17,11 @@ namespace reljef::app {
 /// cursor, which the window has. Leaves the legend empty.
 PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene,
                         glm::ivec2 window);
+
+/// For the command that renders what a window of `size` pixels shows. `samples`: as in
+/// WindowLoopOptions. A ramp of a file keeps the name that it had at the start.
+ShownState shown_state(const Viewer& viewer, const session::TerrainScene& scene, glm::ivec2 size,
+                       std::optional<int> samples);
 
 /// A point of the scene.
 PlaceContent place_of(const session::TerrainScene& scene, const session::PickedPlace& picked);

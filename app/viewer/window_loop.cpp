@@ -14,18 +14,17 @@
 #include "app/viewer/filming.h"
 #include "app/viewer/message_history.h"
 #include "app/viewer/motion_quality.h"
+#include "app/viewer/timing/recent_times.h"
 #include "app/viewer/viewer_content.h"
 #include "engine/core/stopwatch.h"
 #include "engine/io/image/image.h"
 #include "engine/session/streaming.h"
-#include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::app {
 namespace {
 
 constexpr double seconds_between_titles = 0.5;
 constexpr double seconds_between_panels = 0.1; // at rest, while messages or progress change
-constexpr std::size_t plotted_frames = 96;
 // Longest waits for an event.
 constexpr std::chrono::milliseconds no_wait{0};
 constexpr std::chrono::milliseconds still{100};          // nothing moves
@@ -40,7 +39,8 @@ public:
         : window_(window), renderer_(renderer), scene_(scene), viewer_(viewer), messages_(log),
           options_(options), samples_(options.samples), panels_(options.panels),
           compared_(scene, renderer, viewer.comparison(), options.make_renderer),
-          filming_(scene, viewer, log, options.open_video) {}
+          filming_(scene, viewer, log, options.open_video),
+          timer_(options.timer != nullptr ? *options.timer : no_timer_) {}
 
     Result<void> run(const std::stop_token& stop) {
         Stopwatch step;
@@ -52,9 +52,10 @@ public:
                 step.restart();
                 continue;
             }
+            ask_panels();
+            act();
             viewer_.advance(step.restart());
             has_drawn_ = false;
-            act();
             const bool has_new_tiles = session::take_arrivals(scene_.scene);
             if (viewer_.take_redraw() || options_.frames > 0 || has_new_tiles || is_to_sharpen()) {
                 if (auto drawn = draw(); !drawn) {
@@ -71,6 +72,7 @@ public:
             log_raised_path();
             serve_requests();
             show_title();
+            timer_.end_round(open_work());
         }
         return {};
     }
@@ -85,6 +87,13 @@ private:
     [[nodiscard]] bool is_over() const {
         return viewer_.wants_to_close() || window_.should_close() ||
                (options_.frames > 0 && drawn_ == options_.frames);
+    }
+
+    [[nodiscard]] OpenWork open_work() const {
+        return {.is_preparing = viewer_.is_preparing() || options_.finer != nullptr,
+                .is_loading = session::awaits_tiles(scene_.scene),
+                .has_actions = !actions_.empty(),
+                .is_stale = panels_ != nullptr && panels_->is_stale()};
     }
 
     // Whether a view at rest was drawn with reduced quality.
@@ -122,6 +131,7 @@ private:
 
     void receive(const std::vector<Event>& events) {
         for (const Event& event : events) {
+            timer_.receive(event, open_work());
             if (filming_.is_on()) {
                 if (!is_for_panels(event)) {
                     filming_.receive(event);
@@ -189,8 +199,8 @@ private:
             legend_ = legend_of(scene_);
         }
         PanelContent content = content_of(viewer_, scene_, size);
-        content.frame = {stats_,     timing_.last_ms,  timing_.frames_per_second,
-                         recent_ms_, renderer_.size(), size};
+        content.frame = {stats_,           timing_.last_ms,  timing_.frames_per_second,
+                         recent_ms_.all(), renderer_.size(), size};
         content.appearance.samples = samples_;
         if (viewer_.comparison().with() == CompareWith::technique) {
             content.compare.right_ms = compared_.right_ms();
@@ -207,13 +217,27 @@ private:
 
     // Precondition: the picture is in the back buffer.
     void draw_panels(glm::ivec2 size) {
+        FrameTimer::PanelScope timed(timer_);
         if (!shows_panels()) {
             return;
         }
-        if (panels_->is_due(size, since_panels_.seconds())) {
+        const bool is_due = panels_->is_due(size, since_panels_.seconds());
+        timed.set(is_due ? PanelWork::drawn : PanelWork::copied);
+        if (is_due) {
             actions_ += panels_->draw(content(size), size, since_panels_.restart());
         } else {
             panels_->show_again();
+        }
+    }
+
+    // What is done to them takes effect in the next frame, which draws them again over its picture.
+    void ask_panels() {
+        constexpr int max_events = 4; // a press and its release need a frame each
+        const glm::ivec2 size = window_.framebuffer_size();
+        const bool has_frame = drawn_ > 0 && size.x > 0 && size.y > 0;
+        for (int i = 0; has_frame && i < max_events && shows_panels() && panels_->has_input();
+             ++i) {
+            draw_panels(size);
         }
     }
 
@@ -255,10 +279,12 @@ private:
             panels_->draw({}, size, 0.0); // nothing, once
         }
         window_.swap_buffers();
+        timer_.show(open_work());
         return {};
     }
 
     void act() {
+        timer_.act(actions_.size());
         for (const PanelAction& action : std::exchange(actions_, {})) {
             std::visit([this](const auto& chosen) { act_on(chosen); }, action);
         }
@@ -280,23 +306,10 @@ private:
     void act_on(const CopyCommand& /*action*/) { copy_command(); }
     void act_on(const CancelVideo& /*action*/) { filming_.cancel(); }
 
-    // A ramp of a file keeps the name of --ramp.
-    [[nodiscard]] std::string named_ramp() const {
-        const bool is_built_in = scene_.models.empty() && terrain::named_ramp(viewer_.ramp().name);
-        return is_built_in ? viewer_.ramp().name : std::string();
-    }
-
     void copy_command() {
-        const auto command = render_command(options_.start, scene_,
-                                            {.technique = viewer_.technique(),
-                                             .light = viewer_.light(),
-                                             .exaggeration = viewer_.exaggeration(),
-                                             .size = window_.framebuffer_size(),
-                                             .samples = samples_,
-                                             .keeps_techniques = viewer_.keeps_techniques(),
-                                             .ramp = named_ramp(),
-                                             .compare = viewer_.comparison().option(),
-                                             .wipe = viewer_.comparison().share()});
+        const auto command =
+            render_command(options_.start, scene_,
+                           shown_state(viewer_, scene_, window_.framebuffer_size(), samples_));
         if (!command) {
             messages_.note(command.error().message);
             return;
@@ -378,9 +391,10 @@ private:
         timing_.last_ms = watch.milliseconds();
         timing_.divisor = quality.divisor;
         quality_.add_frame(timing_.last_ms);
-        add_time(static_cast<float>(timing_.last_ms));
+        recent_ms_.add(timing_.last_ms);
         draw_panels(size);
         window_.swap_buffers();
+        timer_.show(open_work(), timing_.last_ms, watch.milliseconds());
         has_drawn_ = true;
         ++drawn_;
         ++drawn_since_title_;
@@ -416,13 +430,6 @@ private:
         return {};
     }
 
-    void add_time(float milliseconds) {
-        if (recent_ms_.size() == plotted_frames) {
-            recent_ms_.erase(recent_ms_.begin());
-        }
-        recent_ms_.push_back(milliseconds);
-    }
-
     void show_title() {
         const bool is_first = title_.empty();
         if (!is_first && since_title_.seconds() < seconds_between_titles) {
@@ -452,7 +459,7 @@ private:
     PanelActions actions_; // of the last frame of the panels
     Stopwatch since_panels_;
     glm::dvec2 pointer_{-1.0};
-    std::vector<float> recent_ms_;
+    RecentTimes recent_ms_;
     const scene::TerrainSurface* legend_of_ = nullptr; // whose colours the legend has
     std::vector<LegendStop> legend_;
     MotionQuality quality_;
@@ -468,6 +475,8 @@ private:
     bool raise_logged_ = false;
     ComparedFrames compared_;
     Filming filming_;
+    FrameTimer no_timer_;
+    FrameTimer& timer_;
 };
 
 } // namespace

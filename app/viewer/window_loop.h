@@ -9,6 +9,7 @@
 #include "app/viewer/panels/panels.h"
 #include "app/viewer/paths/path_video.h"
 #include "app/viewer/render_command_text.h"
+#include "app/viewer/timing/frame_timer.h"
 #include "app/viewer/viewer.h"
 #include "engine/core/result.h"
 #include "engine/platform/window.h"
@@ -27,6 +28,8 @@ struct WindowLoopOptions {
     ComparedFrames::MakeRenderer make_renderer = {};
     /// Null: none. Outlives the loop.
     Panels* panels = nullptr;
+    /// Takes the loop's times; null: nothing does. Outlives the loop.
+    FrameTimer* timer = nullptr;
     /// Of the ground that is shown, for the frames after the first; null: it is as fine as it gets.
     std::shared_ptr<const terrain::Terrain> finer = {};
 };

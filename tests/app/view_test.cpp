@@ -7,11 +7,14 @@
 #include "app/viewer/viewer.h"
 #include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
+#include "tests/app/window/driven_window.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::app {
 namespace {
 
+using test::can_drive;
+using test::drive;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -45,43 +48,6 @@ TEST(ViewCommand, ClosesAfterTheFramesAskedForEvenWhereNothingMoves) {
                                       "texture", "--size", "320x240", "--frames", "3"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("fly along the path"));
-}
-
-// What a script does with a window on the terrain, in a folder of its own. `steps` may use
-// "$viewer" (the process), "$window", `titled TEXT` (waits until the title has it) and `pressed
-// KEY`.
-test::ProgramResult drive(const test::TemporaryFolder& folder, const std::string& steps,
-                          const std::string& shown = "--technique texture") {
-    static const test::TemporaryFolder scenes;
-    static const std::string natural = test::small_terrain(scenes, "natural");
-    const std::string script =
-        "until_true() { for _ in $(seq 300); do \"$@\" && return; sleep 0.1; done; echo \"never: "
-        "$*\"; "
-        "kill -9 $viewer 2>/dev/null; wait $viewer; echo \"the viewer ended with $?\"; exit 9; "
-        "}\n"
-        "has_title() { xdotool getwindowname $window | grep -qF -- \"$1\"; }\n"
-        "titled() { until_true has_title \"$1\"; }\n"
-        "pressed() { xdotool key --window $window $1; }\n"
-        "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
-        "env --default-signal=INT '" RELJEF_BINARY "' view '" +
-        natural + "' " + shown +
-        " --size 320x240 & viewer=$!\n"
-        "find_window() { window=$(xdotool search --all --onlyvisible --pid $viewer --name '^reljef "
-        "- "
-        "natural' "
-        "2>/dev/null | head -n 1); [ -n \"$window\" ]; }\n"
-        "until_true find_window\n" +
-        // A key that closes its window may stay down: xdotool ends where it cannot release it.
-        steps + "\nuntil_true ended\nwait $viewer; status=$?\nxdotool keyup Escape\nexit $status\n";
-    test::ProgramOptions options;
-    options.folder = folder.path();
-    options.environment["XDG_DATA_HOME"] = (folder.path() / "data").string();
-    options.timeout = std::chrono::seconds(200);
-    return test::run_program("/bin/bash", {"-c", script}, options);
-}
-
-bool can_drive() {
-    return test::has_display() && std::filesystem::exists("/usr/bin/xdotool");
 }
 
 TEST(ViewCommand, KeysOfARealWindowSwitchSaveResizeAndEnd) {

@@ -27,6 +27,8 @@ public:
     bool receive(const Event& event);
     /// Whether the next frame differs from the last one, whatever the content.
     [[nodiscard]] bool is_stale() const { return is_visible_ ? interface_.is_stale() : is_hiding_; }
+    /// Whether something is done to them that no frame has seen, besides moves of the pointer.
+    [[nodiscard]] bool has_input() const { return is_visible_ && interface_.has_input(); }
     /// Whether a frame `seconds` after the last one of the panels needs them drawn anew. While
     /// nothing is done to them, they are drawn ten times a second.
     [[nodiscard]] bool is_due(glm::ivec2 window, double seconds) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -253,6 +254,17 @@ bool Interface::receive(const Event& event) {
 
 bool Interface::is_stale() const {
     return state_->frames_due > 0 || !state_->events.empty();
+}
+
+bool Interface::has_input() const {
+    ImGui::SetCurrentContext(state_->context);
+    const auto& held = ImGui::GetIO().MouseDown;
+    const bool is_held =
+        std::any_of(std::begin(held), std::end(held), [](bool down) { return down; });
+    return std::any_of(state_->events.begin(), state_->events.end(), [&](const Event& event) {
+        return is_held || std::holds_alternative<KeyEvent>(event) || button_of(event) ||
+               std::holds_alternative<ScrollEvent>(event);
+    });
 }
 
 void Interface::refresh() {

@@ -45,6 +45,8 @@ public:
     bool receive(const Event& event);
     /// Whether received events change what the next frame shows.
     [[nodiscard]] bool is_stale() const;
+    /// Whether keys, buttons or the wheel, or the pointer with a button held, await the next frame.
+    [[nodiscard]] bool has_input() const;
     /// Whether the last frame was kept and can be shown again in a window of that size, pixels.
     [[nodiscard]] bool is_kept(glm::ivec2 size) const;
     /// Copies the kept frame over the window's back buffer. Precondition: is_kept().
