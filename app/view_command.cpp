@@ -223,7 +223,7 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
         return used;
     }
     cli::ConsoleLog console(choice.terrain.quiet);
-    MessageHistory log(console);
+    MessageHistory log(console, choice.prints_json ? stderr : stdout);
     auto opened =
         opening.finish(window, rays, renderer->max_texture_side(), log, interrupt.source());
     if (!opened) {

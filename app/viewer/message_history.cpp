@@ -27,8 +27,8 @@ void MessageHistory::message(session::MessageKind kind, std::string_view sentenc
 }
 
 void MessageHistory::report(std::string_view lines) {
-    fmt::print("{}", lines);
-    std::fflush(stdout);
+    fmt::print(results_, "{}", lines);
+    std::fflush(results_);
     while (!lines.empty()) {
         const std::string_view result = first_result(lines);
         keep(result, false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,15 +18,16 @@ class MessageHistory : public session::Log {
 public:
     static constexpr std::size_t max_messages = 200;
 
-    /// `next` outlives this.
-    explicit MessageHistory(session::Log& next) : next_(next) {}
+    /// `next` outlives this. `results`: where report() writes.
+    explicit MessageHistory(session::Log& next, std::FILE* results = stdout)
+        : next_(next), results_(results) {}
 
     void message(session::MessageKind kind, std::string_view sentence) override;
     [[nodiscard]] std::unique_ptr<session::Task> start(const std::string& label) override {
         return next_.start(label);
     }
-    /// Results of what the user does, as a saved file: writes lines with their ends to standard
-    /// output. A line that begins with a blank continues the one before it.
+    /// Results of what the user does, as a saved file: writes lines with their ends. A line that
+    /// begins with a blank continues the one before it.
     void report(std::string_view lines);
 
     /// Oldest first.
@@ -37,6 +39,7 @@ private:
     void keep(std::string_view sentence, bool is_error);
 
     session::Log& next_;
+    std::FILE* results_;
     Stopwatch clock_;
     std::vector<MessageContent> messages_; // age: seconds on the clock at the arrival
 };

@@ -93,7 +93,8 @@ private:
         return {.is_preparing = viewer_.is_preparing() || options_.finer != nullptr,
                 .is_loading = session::awaits_tiles(scene_.scene),
                 .has_actions = !actions_.empty(),
-                .is_stale = panels_ != nullptr && panels_->is_stale()};
+                .is_stale = panels_ != nullptr && panels_->is_stale(),
+                .is_reduced = is_to_sharpen()};
     }
 
     // Whether a view at rest was drawn with reduced quality.
@@ -163,6 +164,7 @@ private:
                 }
                 draw_panels(shown);
                 window_.swap_buffers();
+                timer_.show(open_work());
             }
             return !session::awaits_tiles(scene_.scene);
         };
@@ -238,6 +240,7 @@ private:
         for (int i = 0; has_frame && i < max_events && shows_panels() && panels_->has_input();
              ++i) {
             draw_panels(size);
+            panels_->refresh(); // the frame shows what they became
         }
     }
 

@@ -23,7 +23,8 @@ void ViewerTimes::act() {
 void ViewerTimes::show(const ShownFrame& frame, const OpenWork& work) {
     frames_.push_back(frame);
     if (frame.picture_ms) {
-        const bool is_complete = !work.is_preparing && !work.is_loading && !work.has_actions;
+        const bool is_complete =
+            !work.is_preparing && !work.is_loading && !work.has_actions && !work.is_reduced;
         first_picture_ = first_picture_.value_or(frame.at);
         complete_picture_ =
             complete_picture_ || !is_complete ? complete_picture_ : std::optional(frame.at);
