@@ -199,6 +199,23 @@ void check_bookmark(KeyedViewer& keyed) {
     EXPECT_THAT(keyed.viewer.take_output(), HasSubstr("bookmark view 1"));
 }
 
+void check_first_techniques(KeyedViewer& keyed) {
+    const scene::Technique first = keyed.viewer.technique();
+    keyed.choose_relief();
+    keyed.settle();
+    EXPECT_NE(keyed.viewer.technique(), first);
+    keyed.press(Key::digit0);
+    keyed.settle();
+    EXPECT_EQ(keyed.viewer.technique(), first);
+}
+
+// See also AViewshedIsSavedFromTheLastPoint.
+void check_viewshed_colours(KeyedViewer& keyed) {
+    keyed.press(Key::f2);
+    EXPECT_FALSE(keyed.viewer.shows_viewshed());
+    EXPECT_THAT(keyed.notes(), HasSubstr("U makes it"));
+}
+
 void check_next_bookmark(KeyedViewer& keyed) {
     const glm::dvec3 marked = keyed.camera().eye;
     keyed.press(Key::b);
@@ -368,6 +385,7 @@ const std::vector<KeyCase>& key_cases() {
                                             {"G", check_follows_ground},
                                             {"O", check_map},
                                             {"T, 1 2 ...", check_techniques},
+                                            {"0", check_first_techniques},
                                             {"]", check_parameter_up},
                                             {"[", check_parameter_down},
                                             {".", check_next_parameter},
@@ -382,6 +400,7 @@ const std::vector<KeyCase>& key_cases() {
                                             {"X", check_measuring},
                                             {"I", check_profile},
                                             {"U", check_viewshed},
+                                            {"F2", check_viewshed_colours},
                                             {"K", check_recording},
                                             {"Insert", check_append},
                                             {"Delete", check_remove},
@@ -445,6 +464,11 @@ TEST(KeyEffects, AViewshedIsSavedFromTheLastPoint) {
     }
     EXPECT_THAT(output, HasSubstr("reljef-viewshed-0001.tif"));
     EXPECT_TRUE(std::filesystem::exists("reljef-viewshed-0001.tif"));
+    EXPECT_TRUE(viewer.shows_viewshed());
+    press(Key::f2);
+    EXPECT_FALSE(viewer.shows_viewshed());
+    press(Key::f2);
+    EXPECT_TRUE(viewer.shows_viewshed());
 }
 
 } // namespace

@@ -67,8 +67,17 @@ struct ActedViewer {
         return albedo(albedo.cols() / 2, albedo.rows() / 2);
     }
 
+    [[nodiscard]] std::vector<Bookmark> bookmarks() const {
+        return content_of(viewer, scene, acted_window).bookmarks.bookmarks;
+    }
+    [[nodiscard]] glm::dvec3 eye() const { return scene.camera->get<scene::Camera>()->eye; }
+
+    test::TemporaryFolder folder;
     session::TerrainScene scene = pictured_hill();
-    Viewer viewer{scene, scene::orbit_path(scene.bounds, 10.0), acted_window};
+    Viewer viewer{scene,
+                  scene::orbit_path(scene.bounds, 10.0),
+                  acted_window,
+                  {.maps = {}, .terrain = "hill.tif", .bookmarks = folder.path() / "marks.txt"}};
 };
 
 void expect_done(ActedViewer& acted, const PanelAction& action) {
@@ -266,6 +275,58 @@ void check_cleared(ActedViewer& acted, const PanelAction& action) {
     EXPECT_TRUE(acted.viewer.measuring().points().empty());
 }
 
+void check_added_bookmark(ActedViewer& acted, const PanelAction& action) {
+    expect_done(acted, action);
+    ASSERT_EQ(acted.bookmarks().size(), 1U);
+    EXPECT_EQ(acted.bookmarks().front().name, std::get<AddBookmark>(action).name);
+}
+
+void check_flight_to_bookmark(ActedViewer& acted, const PanelAction& /*action*/) {
+    const glm::dvec3 marked = acted.eye();
+    expect_done(acted, AddBookmark{"here"});
+    acted.viewer.receive(KeyEvent{.key = Key::e, .pressed = true});
+    acted.viewer.advance(acted_step);
+    acted.viewer.receive(KeyEvent{.key = Key::e, .pressed = false});
+    EXPECT_NE(acted.eye(), marked);
+    expect_done(acted, GoToBookmark{acted.bookmarks().front()});
+    for (int i = 0; i < 20; ++i) {
+        acted.viewer.advance(0.1);
+    }
+    EXPECT_LT(glm::distance(acted.eye(), marked), 1e-3);
+}
+
+void check_renamed_bookmark(ActedViewer& acted, const PanelAction& action) {
+    expect_done(acted, AddBookmark{"here"});
+    const std::string& name = std::get<RenameBookmark>(action).name;
+    expect_done(acted, RenameBookmark{acted.bookmarks().front(), name});
+    ASSERT_EQ(acted.bookmarks().size(), 1U);
+    EXPECT_EQ(acted.bookmarks().front().name, name);
+}
+
+// A name that was free again is not given twice.
+void check_removed_bookmark(ActedViewer& acted, const PanelAction& /*action*/) {
+    expect_done(acted, AddBookmark{});
+    expect_done(acted, AddBookmark{});
+    expect_done(acted, RemoveBookmark{acted.bookmarks().front()});
+    ASSERT_EQ(acted.bookmarks().size(), 1U);
+    EXPECT_EQ(acted.bookmarks().front().name, "view 2");
+    expect_done(acted, AddBookmark{});
+    EXPECT_EQ(acted.bookmarks().back().name, "view 1");
+}
+
+void check_speed(ActedViewer& acted, const PanelAction& action) {
+    expect_done(acted, action);
+    EXPECT_EQ(content_of(acted.viewer, acted.scene, acted_window).speed,
+              std::get<SetSpeed>(action).speed);
+}
+
+// See KeyEffects.AViewshedIsSavedFromTheLastPoint.
+void check_viewshed_off(ActedViewer& acted, const PanelAction& action) {
+    expect_done(acted, action);
+    EXPECT_FALSE(acted.viewer.shows_viewshed());
+    EXPECT_FALSE(acted.viewer.act(ShowViewshed{true})) << "there is none";
+}
+
 std::vector<ActionCase> action_cases() {
     return {{ChooseTechnique{scene::Technique{scene::Texture{}}, {}}, check_technique},
             {SelectModel{}, check_model},
@@ -290,7 +351,13 @@ std::vector<ActionCase> action_cases() {
             {RetimePathKey{1, 2.0}, check_retime},
             {RemovePathKey{1}, check_removed},
             {SetPathDuration{12.0}, check_duration},
-            {ClearPoints{}, check_cleared}};
+            {ClearPoints{}, check_cleared},
+            {AddBookmark{"summit"}, check_added_bookmark},
+            {GoToBookmark{}, check_flight_to_bookmark},
+            {RenameBookmark{{}, "saddle"}, check_renamed_bookmark},
+            {RemoveBookmark{}, check_removed_bookmark},
+            {SetSpeed{7.0}, check_speed},
+            {ShowViewshed{false}, check_viewshed_off}};
 }
 
 TEST(PanelEffects, EachActionHasItsEffect) {

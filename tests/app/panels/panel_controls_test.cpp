@@ -63,11 +63,11 @@ struct PanelControls : testing::Test {
         actions += draw();
         return actions;
     }
-    void open_tab(double column, double row) { // of three columns and two rows
+    void open_tab(double column, double row) { // of four columns and two rows
         draw();
         draw();
         const double width = layout.inspector.size().x;
-        click(layout.inspector.low + glm::dvec2((column + 0.5) / 3.0 * width, 20.0 + 27.0 * row));
+        click(layout.inspector.low + glm::dvec2((column + 0.5) / 4.0 * width, 20.0 + 27.0 * row));
         draw();
     }
     // A list that opens takes all clicks.
