@@ -57,8 +57,8 @@ TEST(GroundOverlay, BlendsByItsAlphaAndStaysWithOtherHeights) {
     const auto half =
         with(*plain, std::make_shared<const Image>(Image(2, 2, Rgba8{255, 0, 0, 128})));
     const Rgba8 after = albedo_map(*half)(5, 5);
-    EXPECT_NEAR(after.r, (before.r + 255) / 2, 2);
-    EXPECT_NEAR(after.g, before.g / 2, 2);
+    EXPECT_NEAR(after.r, 0.5 * (before.r + 255), 2.0);
+    EXPECT_NEAR(after.g, 0.5 * before.g, 2.0);
     EXPECT_EQ(half->exaggerated(2.0)->overlay(), half->overlay());
 }
 
