@@ -178,7 +178,17 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
     return session::SceneRenderer::create(options);
 }
 
-Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
+// Those of the scene file, unless an option names some. Its errors are those of opening it.
+std::optional<int> samples_of(const ViewerChoice& choice) {
+    if (choice.view.samples) {
+        return choice.view.samples;
+    }
+    const auto description = session::describe(choice.terrain.terrain);
+    return description ? description->samples : std::nullopt;
+}
+
+Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt) {
+    choice.view.samples = samples_of(choice);
     session::limit_software_threads(choice.terrain.threads);
     interrupt.end_after(cli::Interrupt::longest_frame);
     // A path may follow the ground.

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
 #include "app/viewer/panels/panel_content.h"
 #include "app/viewer/viewer.h"
 #include "engine/session/ground.h"
+#include "engine/session/picture/scene_marks.h"
 #include "engine/session/scene_setup.h"
 
 namespace reljef::app {
@@ -20,7 +20,6 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
 /// A point of the scene.
 PlaceContent place_of(const session::TerrainScene& scene, const session::PickedPlace& picked);
 
-/// The colours of the heights, upwards; empty if the scene shows none: images or models cover them.
-std::vector<LegendStop> legend_of(const session::TerrainScene& scene);
+using session::legend_of;
 
 } // namespace reljef::app
