@@ -52,14 +52,6 @@ vec3 sky_color(vec3 direction) {
 }
 #endif
 
-// Spreads the error of 8 bits over neighbouring pixels (interleaved gradient noise, Jimenez 2014). 2.1 times
-// the root is nearly the derivative of linear light by its sRGB value.
-vec3 dithered(vec3 linear) {
-    vec2 place = mod(floor(gl_FragCoord.xy) + pixel_share.zw, 64.0);
-    float noise = fract(52.9829189 * fract(dot(place, vec2(0.06711056, 0.00583715))));
-    return linear + (noise - 0.5) / 255.0 * 2.1 * sqrt(max(linear, 0.0));
-}
-
 void main() {
     vec3 direction = normalize(ray);
     float fall = -dot(direction, air_up.xyz);

@@ -138,9 +138,10 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
         const auto start_of = [&](const BlockJob& job)
                                   HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
-        const TrueLook shown =
-            look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
-        store(ints, bytes_of(shown.look.color), col, row, pixels.rgba.data());
+        const PixelOffsets offsets = offsets_of(col, row);
+        const TrueLook shown = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values);
+        store(ints, dithered_bytes(paint, offsets, shown.look.color), col, row,
+              pixels.rgba.data());
         if (paint.needs_nearness) {
             store(floats, nearness_of(paint, shown.look.t), col, row, pixels.nearness.data());
         }
@@ -236,8 +237,22 @@ HWY_INLINE SampleIndex add_samples(const Color& color, const SampledPixels& samp
     return index;
 }
 
-HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
-                            BlockPixels& pixels) {
+// The middles of sampled pixels.
+HWY_INLINE PixelOffsets middles_from(const SampledPixels& sampled, int first) {
+    constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
+    alignas(64) LaneFloats right;
+    alignas(64) LaneFloats down;
+    for (int lane = 0; lane < lane_count; ++lane) {
+        const int last = first + lane < sampled.count ? first + lane : sampled.count - 1;
+        const int pixel = sampled.pixels[static_cast<std::size_t>(last)];
+        right[static_cast<std::size_t>(lane)] = static_cast<float>(pixel % block_side) + middle;
+        down[static_cast<std::size_t>(lane)] = static_cast<float>(pixel / block_side) + middle;
+    }
+    return {hn::Load(floats, right.data()), hn::Load(floats, down.data())};
+}
+
+HWY_INLINE void store_means(const ColorSums& sums, const BlockPaint& paint,
+                            const SampledPixels& sampled, BlockPixels& pixels) {
     const Floats share = all(1.0F / static_cast<float>(sampled.samples));
     for (int first = 0; first < sampled.count; first += lane_count) {
         const Color mean = scaled({hn::Load(floats, sums.r.data() + first),
@@ -245,7 +260,7 @@ HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
                                    hn::Load(floats, sums.b.data() + first)},
                                   share);
         alignas(64) std::array<std::int32_t, static_cast<std::size_t>(lane_count)> bytes;
-        hn::Store(bytes_of(mean), ints, bytes.data());
+        hn::Store(dithered_bytes(paint, middles_from(sampled, first), mean), ints, bytes.data());
         for (int lane = 0; lane < lane_count && first + lane < sampled.count; ++lane) {
             pixels.rgba[sampled.pixels[static_cast<std::size_t>(first + lane)]] =
                 static_cast<std::uint32_t>(bytes[static_cast<std::size_t>(lane)]);
@@ -284,7 +299,7 @@ void sample_all(const BlockJobs& jobs, const BlockPaint& paint, const SampledPix
     } else {
         sample_packets<InMemory>(jobs, paint, sampled, sums);
     }
-    store_means(sums, sampled, pixels);
+    store_means(sums, paint, sampled, pixels);
 }
 
 // Whether three pixels in line are not on a plane.

@@ -53,7 +53,31 @@ HWY_INLINE Ints srgb_byte(Floats linear) {
     return hn::NearestInt(hn::Mul(encoded, all(255.0F)));
 }
 
-HWY_INLINE Ints bytes_of(const Color& color) {
+HWY_INLINE Floats fraction_of(Floats x) {
+    return hn::Sub(x, hn::Floor(x));
+}
+
+// As dithered() of the shaders.
+HWY_INLINE Color dithered(const BlockPaint& paint, const PixelOffsets& pixels, const Color& color) {
+    constexpr float repeat = 64.0F;
+    const auto place_of = [](Floats pixel) HWY_ATTR {
+        return hn::MulSub(fraction_of(hn::Mul(hn::Floor(pixel), all(1.0F / repeat))), all(repeat),
+                          hn::Zero(floats));
+    };
+    const Floats x = place_of(hn::Add(pixels.right, all(paint.from_corner.x)));
+    const Floats y = place_of(hn::Sub(all(paint.from_corner.y), pixels.down));
+    const Floats inner = fraction_of(hn::MulAdd(x, all(0.06711056F), hn::Mul(y, all(0.00583715F))));
+    const Floats noise = fraction_of(hn::Mul(all(52.9829189F), inner));
+    const Floats scale = hn::Mul(hn::Sub(noise, all(0.5F)), all(2.1F / 255.0F));
+    const auto moved = [&](Floats channel) HWY_ATTR {
+        return hn::MulAdd(scale, hn::Sqrt(hn::Max(channel, hn::Zero(floats))), channel);
+    };
+    return {moved(color.r), moved(color.g), moved(color.b)};
+}
+
+HWY_INLINE Ints dithered_bytes(const BlockPaint& paint, const PixelOffsets& pixels,
+                                const Color& linear) {
+    const Color color = dithered(paint, pixels, linear);
     const Ints red_green = hn::Or(srgb_byte(color.r), hn::ShiftLeft<8>(srgb_byte(color.g)));
     const Ints blue = hn::ShiftLeft<16>(srgb_byte(color.b));
     return hn::Or(hn::Or(red_green, blue), hn::ShiftLeft<24>(all(255)));
@@ -164,40 +188,16 @@ HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) 
     return behind_air(paint, angles, all(paint.plane), hn::Div(all(2.0F * paint.plane_air), twice));
 }
 
-HWY_INLINE Floats fraction_of(Floats x) {
-    return hn::Sub(x, hn::Floor(x));
-}
-
-// As in the shader of the sky.
-HWY_INLINE Color dithered(const BlockPaint& paint, const PixelOffsets& pixels, const Color& color) {
-    constexpr float repeat = 64.0F;
-    const auto place_of = [](Floats pixel) HWY_ATTR {
-        return hn::MulSub(fraction_of(hn::Mul(hn::Floor(pixel), all(1.0F / repeat))), all(repeat),
-                          hn::Zero(floats));
-    };
-    const Floats x = place_of(hn::Add(pixels.right, all(paint.from_corner.x)));
-    const Floats y = place_of(hn::Sub(all(paint.from_corner.y), pixels.down));
-    const Floats inner = fraction_of(hn::MulAdd(x, all(0.06711056F), hn::Mul(y, all(0.00583715F))));
-    const Floats noise = fraction_of(hn::Mul(all(52.9829189F), inner));
-    const Floats scale = hn::Mul(hn::Sub(noise, all(0.5F)), all(2.1F / 255.0F));
-    const auto moved = [&](Floats channel) HWY_ATTR {
-        return hn::MulAdd(scale, hn::Sqrt(hn::Max(channel, hn::Zero(floats))), channel);
-    };
-    return {moved(color.r), moved(color.g), moved(color.b)};
-}
-
-HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
-                           const ViewRays& view) {
+HWY_INLINE Color sky_color(const BlockPaint& paint, const ViewRays& view) {
     if (!paint.has_sky) {
         return all(glm::vec3(0.0F));
     }
     const ViewAngles angles = angles_of(paint, view);
     const Lanes below = hn::Lt(angles.climb, hn::Zero(floats));
     if (paint.plane_air <= 0.0F || hn::AllFalse(floats, below)) {
-        return dithered(paint, pixels, above_horizon(paint, view, angles));
+        return above_horizon(paint, view, angles);
     }
-    return dithered(paint, pixels,
-                    chosen(below, plane_color(paint, angles), above_horizon(paint, view, angles)));
+    return chosen(below, plane_color(paint, angles), above_horizon(paint, view, angles));
 }
 
 // How hits lie to their rays.
@@ -438,7 +438,7 @@ HWY_NOINLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
             return look;
         }
     }
-    look.color = chosen(met.found, look.color, sky_color(paint, pixels, view));
+    look.color = chosen(met.found, look.color, sky_color(paint, view));
     return look;
 }
 
