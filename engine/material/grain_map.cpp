@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
@@ -48,6 +50,78 @@ Ground rock_at(glm::vec2 place) {
         ground.height += ridge / static_cast<float>(frequency);
         ground.brightness += ridge + 0.5F * gradient_noise(seed + 10, point, frequency);
         ++seed;
+    }
+    return ground;
+}
+
+// Tufts with dark gaps, in patches of different brightness.
+Ground grass_at(glm::vec2 place) {
+    constexpr std::array tufts{23, 47};
+    Ground ground;
+    std::uint32_t seed = 50;
+    for (const int frequency : tufts) {
+        const float tuft =
+            std::abs(gradient_noise(seed, place * static_cast<float>(frequency), frequency));
+        ground.height += 1.5F * std::sqrt(tuft) / static_cast<float>(frequency);
+        ground.brightness += std::min(tuft, 0.3F) * 3.0F;
+        ++seed;
+    }
+    constexpr std::array patches{5, 11};
+    for (const int frequency : patches) {
+        const float patch =
+            gradient_noise(seed, place * static_cast<float>(frequency), frequency);
+        ground.height += 0.5F * patch / static_cast<float>(frequency);
+        ground.brightness += 0.8F * patch;
+        ++seed;
+    }
+    return ground;
+}
+
+// Flat stones, each with a tilt and a brightness of its own, and dark gaps between them.
+Ground stones_at(std::uint32_t seed, glm::vec2 place, int frequency) {
+    constexpr float jitter = 0.9F;
+    constexpr float gap = 0.12F; // half its width, in squares
+    const VoronoiCell stone =
+        voronoi(seed, place * static_cast<float>(frequency), frequency, jitter);
+    const auto chance = [&](std::uint32_t use) {
+        return unit_hash(seed + use, stone.id.x, stone.id.y) - 0.5F;
+    };
+    const float inside = std::min(stone.to_edge / gap, 1.0F);
+    const glm::vec2 tilt = 1.4F * glm::vec2(chance(1), chance(2));
+    Ground ground;
+    ground.height = (glm::dot(tilt, stone.from_seed) * inside + 0.35F * inside) /
+                    static_cast<float>(frequency);
+    ground.brightness = 1.2F * inside + 1.6F * chance(3);
+    return ground;
+}
+
+// Two fifths of the squares have a large stone; gravel lies between them.
+Ground scree_at(glm::vec2 place) {
+    constexpr int large = 13;
+    constexpr int small = 37;
+    constexpr float share_of_large = 0.4F;
+    const VoronoiCell stone = voronoi(70, place * static_cast<float>(large), large, 0.9F);
+    const bool is_stone = unit_hash(71, stone.id.x, stone.id.y) < share_of_large;
+    Ground ground = is_stone ? stones_at(70, place, large) : stones_at(80, place, small);
+    ground.brightness +=
+        0.4F * gradient_noise(90, place * static_cast<float>(small), small);
+    return ground;
+}
+
+// Ripples of wind across the diagonal, which come and go.
+Ground snow_at(glm::vec2 place) {
+    constexpr std::array waves{glm::vec2(8.0F, 9.0F), glm::vec2(21.0F, 17.0F)};
+    const float bend = gradient_noise(100, 5.0F * place, 5);
+    const float swell = gradient_noise(101, 11.0F * place, 11);
+    const float crests = 0.6F + 0.8F * gradient_noise(102, 5.0F * place, 5);
+    Ground ground;
+    ground.height = 0.4F * swell / 11.0F;
+    ground.brightness = 0.4F * bend + 0.5F * swell;
+    for (const glm::vec2 wave : waves) {
+        const float phase = glm::dot(wave, place) + 1.1F * bend + 0.35F * swell;
+        const float crest = std::sin(2.0F * std::numbers::pi_v<float> * phase);
+        ground.height += std::max(crests, 0.0F) * crest / glm::length(wave);
+        ground.brightness += 0.3F * crest;
     }
     return ground;
 }
@@ -132,6 +206,9 @@ GrainMap::GrainMap() {
     texels_.reserve(layer_count * grain_layer_texels);
     append_levels(pattern_of(soil_at), texels_);
     append_levels(pattern_of(rock_at), texels_);
+    append_levels(pattern_of(grass_at), texels_);
+    append_levels(pattern_of(scree_at), texels_);
+    append_levels(pattern_of(snow_at), texels_);
 }
 
 std::span<const std::uint32_t> GrainMap::level(Layer layer, int level) const {

@@ -11,8 +11,9 @@
 namespace reljef::material {
 
 /// Fine structure of ground, which elevation data do not have: square patterns that repeat, one for
-/// soil and one for rock, as mip levels. Each is noise of four octaves with waves of 1/5 to 1/47 of
-/// the side, whose heights have the same slopes in each octave.
+/// each kind of ground, as mip levels. Their waves are 1/5 to 1/47 of the side. Soil and rock are
+/// noise of four octaves whose heights have the same slopes in each octave; grass is tufts, scree
+/// stones on gravel, and snow ripples of wind.
 ///
 /// A texel is three times 10 bits: the slopes of heights along x and y, and a change of the
 /// brightness, each 2 · bits / 1023 - 1, with the mean 0 and the standard deviation `deviation`.
@@ -21,7 +22,7 @@ public:
     static constexpr int side = 256;
     static constexpr int level_count = 8; ///< to 2 by 2 texels
     static constexpr float deviation = 0.25F;
-    enum Layer { soil, rock, layer_count };
+    enum Layer { soil, rock, grass, scree, snow, layer_count };
 
     GrainMap();
 

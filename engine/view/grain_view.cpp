@@ -10,6 +10,7 @@
 #include "engine/geo/georeference.h"
 #include "engine/material/grain_map.h"
 #include "engine/scene/streaming/tile_stream.h"
+#include "engine/terrain/field/color_ramp.h"
 
 namespace reljef::view {
 namespace {
@@ -56,6 +57,22 @@ glm::dmat3 metres_per_sample(const terrain::Placement& placement, glm::dvec3 sam
     return metres;
 }
 
+bool shows_ramp(const scene::TerrainNode& terrain) {
+    const bool has_images =
+        !terrain.surface->terrain().color.empty() ||
+        (terrain.stream != nullptr && terrain.stream->maker().has_images());
+    return !has_images || terrain.surface->imagery_share() < 1.0;
+}
+
+// GrainView::snow. `north`: at the eye, in the world.
+glm::vec4 snow_of(const scene::TerrainNode& terrain, glm::dvec3 north) {
+    if (!terrain.surface->ramp().has_cover || !shows_ramp(terrain)) {
+        return GrainView().snow;
+    }
+    const terrain::SnowCover cover = terrain::snow_cover(terrain.surface->heightfield());
+    return {glm::vec3(cover.poleward * turned(north)), cover.height};
+}
+
 } // namespace
 
 glm::dvec3 turned(glm::dvec3 world) {
@@ -88,6 +105,7 @@ GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
     for (int axis = 0; axis < 3; ++axis) {
         view.metres_per_sample[axis] = turned(view.metres_per_sample[axis]);
     }
+    view.snow = snow_of(terrain, directions * placement.north(local_eye));
     double width = first_width(terrain);
     double copies = GrainView::copies;
     do {

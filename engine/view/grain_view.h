@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -32,6 +33,9 @@ struct GrainView {
     /// Metres along the turned axes per column, row (of the terrain's surface) and metre of height,
     /// near the eye.
     glm::dmat3 metres_per_sample{1.0};
+    /// Where the ramp draws snow. xyz: along the turned axes to the nearer pole, a unit vector;
+    /// w: height of the line, metres; infinite: nowhere.
+    glm::vec4 snow{0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity()};
 };
 
 /// Along the turned axes.

@@ -1,7 +1,7 @@
 // Fine structure of near ground. A software renderer has no branches where pixels differ, only loops: a pattern is one
 // fetch, of one layer in one plane.
 
-// Layers of soil and rock. Slopes along u and v, change of the brightness: 2 · texel - 1.
+// The layers of material::GrainMap. Slopes along u and v, change of the brightness: 2 · texel - 1.
 layout(binding = grain_layers_unit) uniform sampler2DArray grain_layers;
 
 // A sine of amplitude 1 and period 1, but of parabolas.
@@ -46,29 +46,51 @@ float steepened(float level) {
     return whole + clamp((level - whole - 0.5) * level_steepness + 0.5, 0.0, 1.0);
 }
 
+// Shares of snow, by the ramp or as the brightest ground, and of grass, which is green in any daylight.
+vec2 shares_of_cover(vec3 lit, GroundPlace place, float height) {
+    float cosine = max(dot(place.normal, place.up), 0.1);
+    float line = grain_snow.w - snow_turn * clamp(dot(grain_snow.xyz, place.normal) / cosine, -1.0, 1.0);
+    float high = smoothstep(line - snow_reach, line + snow_reach, height);
+    high *= 1.0 - 0.9 * smoothstep(-snow_steep_begin, -snow_steep_end, -cosine);
+    float bright = smoothstep(snow_begin, snow_end, dot(lit, vec3(0.2126, 0.7152, 0.0722)));
+    float green = (2.0 * lit.g - lit.r - lit.b) / max(lit.r + lit.g + lit.b, 1e-6);
+    return vec2(max(high, bright), smoothstep(grass_begin, grass_end, green));
+}
+
+// The layer of a narrow pattern, and how far it is from others: snow, grass, scree beside rock, or soil. Wide patterns
+// are of rock or soil: their stones would be as large as houses.
+vec2 kind_of_ground(float rock, vec2 cover, vec3 noise) {
+    vec2 chosen = cover - 0.5 - clamp(noise.xy, -widest_wander, widest_wander);
+    float scree = rock + scree_share;
+    vec2 kind = scree > 0.0 ? vec2(3.0, scree) : vec2(0.0, -scree);
+    kind = chosen.y > 0.0 ? vec2(2.0, chosen.y) : vec2(kind.x, min(kind.y, -chosen.y));
+    kind = chosen.x > 0.0 ? vec2(4.0, chosen.x) : vec2(kind.x, min(kind.y, -chosen.x));
+    return rock > 0.0 ? vec2(1.0, rock) : vec2(kind.x, min(kind.y, -rock));
+}
+
 // The change of the cosine of the angle to the sun, and of the brightness.
 struct Look {
     vec2 look;
     vec3 noise; // for the choices of the next pattern
 };
 
-// `at`: in widths of the pattern; `wander`: of its level. Grain fades at the lines between looks.
-Look pattern_at(vec3 at, float level, vec3 chosen, float wander, bool is_bent) {
+// `at`: in widths of the pattern; `kind`: see kind_of_ground(); `wander`: of its level. Grain fades at the lines between
+// looks.
+Look pattern_at(vec3 at, float level, vec3 chosen, vec2 kind, float wander, bool is_bent) {
     bool is_flat = chosen.y > 0.0;
     bool by_y = !is_flat && chosen.z > 0.0;
     vec2 place = vec2(by_y ? at.y : at.x, is_flat ? at.y : at.z);
     vec2 sun = vec2(by_y ? grain_sun.y : grain_sun.x, is_flat ? grain_sun.y : grain_sun.z);
-    float layer = chosen.x > 0.0 ? 1.0 : 0.0;
-    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer);
+    vec3 in_layer = vec3(is_bent ? bent(place) : place, kind.x);
     vec3 grain = 2.0 * textureLod(grain_layers, in_layer, steepened(max(level + wander, 0.0))).rgb - 1.0;
-    vec3 clear = min(abs(chosen) / choice_border, 1.0);
+    vec3 clear = min(vec3(kind.y, abs(chosen.yz)) / choice_border, 1.0);
     float seen = clamp(last_seen_level + 1.0 - level, 0.0, 1.0);
     float strength = seen * clear.x * clear.y * (is_flat ? 1.0 : clear.z);
     return Look(strength * vec2(-dot(grain.xy, sun), grain.z), grain);
 }
 
 // The sum of the visible patterns.
-vec2 grain_at(GroundPlace place) {
+vec2 grain_at(GroundPlace place, vec2 cover) {
     float longer = 1.0 / max(abs(dot(place.normal, place.view)), flattest_facing);
     float pixel = place.pixel * sqrt(longer) * sqrt(sqrt(longer)); // between its width and its length
     float texels = pixel * float(textureSize(grain_layers, 0).x);
@@ -81,7 +103,9 @@ vec2 grain_at(GroundPlace place) {
     vec2 sum = vec2(0.0);
     int i = 0;
     do {
-        Look look = pattern_at(at, level, choices(shares, noise), wander, i == 0);
+        vec3 chosen = choices(shares, noise);
+        vec2 kind = i == 0 ? vec2(chosen.x > 0.0 ? 1.0 : 0.0, abs(chosen.x)) : kind_of_ground(chosen.x, cover, noise);
+        Look look = pattern_at(at, level, chosen, kind, wander, i == 0);
         sum += look.look;
         noise = look.noise;
         ++i;
@@ -92,19 +116,20 @@ vec2 grain_at(GroundPlace place) {
     return sum;
 }
 
-// Snow, the brightest ground, is smoother, and level water has no grain.
-float strength_on(vec3 lit, GroundPlace place) {
-    float luminance = dot(lit, vec3(0.2126, 0.7152, 0.0722));
-    float rough = 1.0 - snow_smoothness * smoothstep(snow_begin, snow_end, luminance);
+// Snow is smoother, and level water has no grain.
+float strength_on(vec3 lit, GroundPlace place, float snow) {
+    float rough = 1.0 - snow_smoothness * snow;
     bool is_level = dot(place.normal, place.up) > level_cosine;
     return is_level && lit.b > blue_of_water * lit.r ? 0.0 : grain_up.w * rough;
 }
 
 // Ground with its grain: slopes change the share of the sun's light, and the brightness changes all light. Ground that
 // the sun hardly reaches is as grainy as if it did: else the steps of normals from cell to cell would show.
-vec3 with_grain(vec3 lit, GroundPlace place) {
-    vec2 grain = grain_at(place);
-    float strength = strength_on(lit, place);
+// `height`: true metres.
+vec3 with_grain(vec3 lit, GroundPlace place, float height) {
+    vec2 cover = shares_of_cover(lit, place, height);
+    vec2 grain = grain_at(place, cover);
+    float strength = strength_on(lit, place, cover.x);
     float to_sun = max(dot(place.normal, grain_sun.xyz), grain_grazing);
     float grainy = to_sun + strength * grain_slope_scale * grain.x;
     float light = (max(grainy, 0.0) + grain_sky_share) / (to_sun + grain_sky_share);

@@ -47,7 +47,7 @@ vec3 along_world_axes(vec3 turned) {
 // `at`: sample; `height`: true metres. `has_slope`: the height changes.
 vec3 overlaid(vec3 lit, GroundPlace place, vec2 at, float height, bool has_slope) {
     if (grain_up.w > 0.0) {
-        lit = with_grain(lit, place);
+        lit = with_grain(lit, place, height);
     }
 #ifdef POINT_LIGHTS
     else {

@@ -181,6 +181,11 @@ HWY_INLINE Grain widest_noise(const std::array<Floats, 3>& at) {
     return {noise(first, second), noise(second, third), noise(third, first)};
 }
 
+HWY_INLINE Floats off_line(Floats share, Floats noise) {
+    const Floats wander = hn::Min(hn::Max(noise, all(-widest_wander)), all(widest_wander));
+    return hn::Sub(hn::Sub(share, all(0.5F)), wander);
+}
+
 // One of two looks, which a pattern shows, and its strength beside the line between them. The line
 // wanders with the noise.
 struct Choice {
@@ -189,10 +194,60 @@ struct Choice {
 };
 
 HWY_INLINE Choice choice(Floats share, Floats noise) {
-    const Floats wander = hn::Min(hn::Max(noise, all(-widest_wander)), all(widest_wander));
-    const Floats off = hn::Sub(hn::Sub(share, all(0.5F)), wander);
+    const Floats off = off_line(share, noise);
     return {hn::Gt(off, hn::Zero(floats)),
             hn::Min(hn::Mul(hn::Abs(off), all(1.0F / choice_border)), all(1.0F))};
+}
+
+// Shares of snow, by the ramp or as the brightest ground, and of grass, which is green in any
+// daylight.
+struct ShareOfCover {
+    Floats snow;
+    Floats grass;
+};
+
+HWY_INLINE ShareOfCover shares_of_cover(const GrainPaint& grain,
+                                        const std::array<Floats, 3>& normal, const Color& lit,
+                                        Floats height) {
+    const Floats one = all(1.0F);
+    const Floats cosine = hn::Max(dot(normal, all_of(grain.up)), all(0.1F));
+    const Floats slope = hn::Div(dot(normal, all_of(glm::vec3(grain.snow))), cosine);
+    const Floats poleward = hn::Min(hn::Max(slope, all(-1.0F)), one);
+    const Floats above = hn::Sub(hn::MulAdd(poleward, all(snow_turn), height), all(grain.snow.w));
+    const Floats steep = smooth_step(snow_steep_begin, snow_steep_end, cosine);
+    const Floats high = hn::Mul(smooth_step(-snow_reach, snow_reach, above),
+                                hn::NegMulAdd(all(0.9F), steep, one));
+    const Floats luminance = hn::MulAdd(
+        lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
+    const Floats others = hn::Add(lit.r, lit.b);
+    const Floats green = hn::Div(hn::MulSub(all(2.0F), lit.g, others),
+                                 hn::Max(hn::Add(lit.g, others), all(1e-6F)));
+    return {hn::Max(high, smooth_step(snow_begin, snow_end, luminance)),
+            smooth_step(grass_begin, grass_end, green)};
+}
+
+// The layer of a narrow pattern: snow, grass, scree beside rock, or soil. Wide patterns are of rock
+// or soil: their stones would be as large as houses.
+struct Kind {
+    Ints layer;
+    Floats off; // from others, as a share
+};
+
+HWY_INLINE Kind chosen(Floats off, int layer, const Kind& other) {
+    const Lanes is_it = hn::Gt(off, hn::Zero(floats));
+    return {hn::IfThenElse(hn::RebindMask(ints, is_it), all(std::int32_t{layer}), other.layer),
+            hn::IfThenElse(is_it, off, hn::Min(other.off, hn::Neg(off)))};
+}
+
+HWY_INLINE Kind rock_or_soil(Floats rock) {
+    return chosen(rock, 1, {hn::Zero(ints), all(1.0F)});
+}
+
+HWY_INLINE Kind kind_of_ground(Floats rock, const ShareOfCover& cover, const Grain& noise) {
+    const Kind soil{hn::Zero(ints), all(1.0F)};
+    const Kind stones = chosen(hn::Add(rock, all(scree_share)), 3, soil);
+    const Kind grassy = chosen(off_line(cover.grass, noise.v), 2, stones);
+    return chosen(rock, 1, chosen(off_line(cover.snow, noise.u), 4, grassy));
 }
 
 // Shares of the first look of each choice.
@@ -234,12 +289,13 @@ HWY_INLINE PatternView pattern_view(const glm::vec4& pattern, const std::array<F
             hn::Min(hn::Sub(all(last_seen_level + 1.0F), level), all(1.0F))};
 }
 
-// Adds a pattern: one layer in one plane. `noise`: what its choices follow; then what those of the
-// next one do.
+// Adds a pattern: one layer in one plane. `cover`: null for the widest pattern. `noise`: what its
+// choices follow; then what those of the next one do.
 HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
-                            const ShareOfChoices& shares, bool is_bent, Grain& noise,
+                            const ShareOfChoices& shares, const ShareOfCover* cover, Grain& noise,
                             GrainLook& sum) {
-    const Choice rock = choice(shares.rock, noise.brightness);
+    const Floats rock = off_line(shares.rock, noise.brightness);
+    const Kind kind = cover == nullptr ? rock_or_soil(rock) : kind_of_ground(rock, *cover, noise);
     const Choice flat = choice(shares.flat, noise.u);
     const Choice by_y = choice(shares.by_y, noise.v);
     const Lanes is_y = hn::AndNot(flat.is_first, by_y.is_first);
@@ -249,11 +305,11 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
     };
     const PatternPlace place = in_plane(view.at);
     const PatternPlace sun = in_plane(all_of(grain.to_sun));
-    const Ints layer = hn::IfThenElseZero(hn::RebindMask(ints, rock.is_first), all(1));
-    noise = grain_between(grain, layer, is_bent ? bent(place) : place, view.level);
+    noise = grain_between(grain, kind.layer, cover == nullptr ? bent(place) : place, view.level);
+    const Floats of_kind = hn::Min(hn::Mul(kind.off, all(1.0F / choice_border)), all(1.0F));
     const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
     const Floats strength =
-        hn::Mul(hn::Mul(view.seen, rock.strength), hn::Mul(flat.strength, of_plane));
+        hn::Mul(hn::Mul(view.seen, of_kind), hn::Mul(flat.strength, of_plane));
     const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
     sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
     sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
@@ -261,7 +317,8 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
 
 // The sum of the visible patterns.
 HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
-                              const std::array<Floats, 3>& normal, Lanes found) {
+                              const std::array<Floats, 3>& normal, const ShareOfCover& cover,
+                              Lanes found) {
     const Floats zero = hn::Zero(floats);
     const Floats facing =
         hn::Div(hn::Abs(dot(normal, turned(grain.turn, place.view))), place.view_length);
@@ -287,18 +344,15 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
             wander = noise.brightness;
         }
         view.level = hn::Max(hn::Add(view.level, wander), zero);
-        add_pattern(grain, view, shares, i == 0, noise, sum);
+        add_pattern(grain, view, shares, i == 0 ? nullptr : &cover, noise, sum);
     }
     return sum;
 }
 
-// The strength of grain. Snow, the brightest ground, is smoother, and level water has none.
+// The strength of grain. Snow is smoother, and level water has none.
 HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 3>& normal,
-                              const Color& lit) {
-    const Floats luminance = hn::MulAdd(
-        lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
-    const Floats rough = hn::NegMulAdd(all(snow_smoothness),
-                                       smooth_step(snow_begin, snow_end, luminance), all(1.0F));
+                              const Color& lit, Floats snow) {
+    const Floats rough = hn::NegMulAdd(all(snow_smoothness), snow, all(1.0F));
     const Lanes is_level = hn::Gt(dot(normal, all_of(grain.up)), all(level_cosine));
     const Lanes is_water = hn::And(is_level, hn::Gt(lit.b, hn::Mul(all(blue_of_water), lit.r)));
     return hn::IfThenZeroElse(is_water, hn::Mul(all(grain.strength), rough));
@@ -307,15 +361,16 @@ HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 
 // By which grain changes the light of ground: slopes change the share of the sun's light, and the
 // brightness changes all light. Ground that the sun hardly reaches is as grainy as if it did: else
 // the steps of normals from cell to cell would show.
-// `lit`: by the sun and the sky.
+// `lit`: by the sun and the sky; `height`: true metres.
 HWY_INLINE Floats light_of_grain(const BlockPaint& paint, const TilePaint& tile,
                                  const GroundPlace& place, const PacketHits& hits,
-                                 const Color& lit) {
+                                 const Color& lit, Floats height) {
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
     const std::array<Floats, 3> normal = grain_normal(tile, hits);
-    const GrainLook look = grain_at(grain, place, normal, hits.found);
-    const Floats strength = strength_on(grain, normal, lit);
+    const ShareOfCover cover = shares_of_cover(grain, normal, lit, height);
+    const GrainLook look = grain_at(grain, place, normal, cover, hits.found);
+    const Floats strength = strength_on(grain, normal, lit, cover.snow);
     const Floats to_sun = hn::Max(dot(normal, all_of(grain.to_sun)), all(grain_grazing));
     const Floats grainy =
         hn::MulAdd(look.to_sun, hn::Mul(strength, all(grain_slope_scale)), to_sun);

@@ -319,11 +319,11 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
         lit = added(lit, reflected_from_points(job, paint, place.from_eye, hits, level));
     }
+    const Floats height = hn::Add(hits.height, all(job.rays.base_height));
     if (!Mode::counts && paint.grain != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = scaled(lit, light_of_grain(paint, *job.paint, place, hits, by_sun));
+        lit = scaled(lit, light_of_grain(paint, *job.paint, place, hits, by_sun, height));
     }
-    const Floats height = hn::Add(hits.height, all(job.rays.base_height));
     if (!Mode::counts && paint.facades != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
         lit = with_facades(job, paint, place, hits, height, lit, without_shadow);

@@ -1,5 +1,7 @@
 #include "engine/render/passes/overlay_pass.h"
 
+#include <algorithm>
+
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -36,6 +38,7 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
             .contours = glm::vec4(0.0F),
             .facade_sun = glm::vec4(0.0F),
             .facade_sky = glm::vec4(0.0F),
+            .grain_snow = glm::vec4(glm::vec3(view.snow), std::min(view.snow.w, 1e9F)),
             .grain_normal_from_slopes = glm::mat4(glm::mat3(glm::transpose(glm::inverse(metres))))};
 }
 

@@ -278,10 +278,14 @@ double snow_line(double latitude) {
                      (place - lower.first) / (upper->first - lower.first));
 }
 
+SnowCover snow_cover(const Heightfield& heightfield) {
+    const double latitude = latitude_of(heightfield);
+    return {snow_line(latitude), latitude < 0.0 ? -1.0 : 1.0};
+}
+
 RampColors::RampColors(const ColorRamp& ramp, const Heightfield& heightfield)
-    : has_cover_(ramp.has_cover), snow_height_(snow_line(latitude_of(heightfield))),
-      poleward_(latitude_of(heightfield) < 0.0 ? -1.0 : 1.0) {
-    stops_ = in_metres(ramp, heightfield, snow_height_);
+    : has_cover_(ramp.has_cover), snow_(snow_cover(heightfield)) {
+    stops_ = in_metres(ramp, heightfield, snow_.height);
 }
 
 glm::vec3 RampColors::at(double height) const {
@@ -307,13 +311,13 @@ glm::vec3 RampColors::at(double height, glm::vec2 gradient) const {
     }
     // Rise over run. Soil holds to about 35 degrees, snow to about 50 degrees.
     const double slope = glm::length(gradient);
-    const double height_share = height / std::max(snow_height_, 1.0);
+    const double height_share = height / std::max(snow_.height, 1.0);
     const float rocky = smooth(0.5, 1.0, slope + 0.25 * (height_share - 0.7)) * 0.75F;
-    // Snow reaches 200 m deeper on slopes to the pole than on those to the equator.
-    const double poleward = std::clamp(-poleward_ * static_cast<double>(gradient.y), -1.0, 1.0);
-    const double line = snow_height_ - 200.0 * poleward;
+    const double poleward =
+        std::clamp(-snow_.poleward * static_cast<double>(gradient.y), -1.0, 1.0);
+    const double line = snow_.height - snow_turn * poleward;
     const float snowy =
-        smooth(line - 250.0, line + 250.0, height) * (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
+        smooth(line - snow_reach, line + snow_reach, height) * (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
     return glm::mix(glm::mix(plain, rock, rocky), snow, snowy);
 }
 

@@ -53,6 +53,15 @@ std::vector<std::string_view> ramp_names();
 /// for the look of mountains from the equator to the poles; climates differ by hundreds of metres.
 double snow_line(double latitude);
 
+/// Where ramps with cover draw snow on a terrain.
+struct SnowCover {
+    double height = 0.0;   ///< of the line on ground that faces neither pole, metres
+    double poleward = 1.0; ///< 1 in the north, -1 in the south
+};
+SnowCover snow_cover(const Heightfield& heightfield);
+inline constexpr double snow_turn = 200.0; ///< metres by which it is lower on poleward slopes
+inline constexpr double snow_reach = 250.0; ///< metres below the line, from where snow begins
+
 /// The nearest 8-bit colour of one in 0..255; opaque.
 Rgba8 rgba8(glm::vec3 color);
 
@@ -65,13 +74,12 @@ public:
     [[nodiscard]] glm::vec3 at(double height) const;
     /// With rock and snow. `gradient`: ∂z/∂x, ∂z/∂y, metres per metre.
     [[nodiscard]] glm::vec3 at(double height, glm::vec2 gradient) const;
-    [[nodiscard]] double snow_height() const { return snow_height_; } ///< metres
+    [[nodiscard]] double snow_height() const { return snow_.height; } ///< metres
 
 private:
     std::vector<RampStop> stops_; // in metres
     bool has_cover_;
-    double snow_height_;
-    double poleward_; // 1 in the north, -1 in the south
+    SnowCover snow_;
 };
 
 } // namespace reljef::terrain
