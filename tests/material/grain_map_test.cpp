@@ -11,7 +11,8 @@ namespace reljef::material {
 namespace {
 
 constexpr int side = GrainMap::side;
-constexpr std::array layers{GrainMap::soil, GrainMap::rock};
+constexpr std::array layers{GrainMap::soil, GrainMap::rock, GrainMap::grass, GrainMap::scree,
+                            GrainMap::snow};
 
 const GrainMap& grain_map() {
     static const GrainMap map;

@@ -1,10 +1,15 @@
 #include "engine/view/grain_view.h"
 
+#include <memory>
+#include <utility>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/scene/streaming/terrain_surface.h"
+#include "engine/terrain/field/color_ramp.h"
 #include "tests/render/made_scene.h"
 #include "tests/terrain/chance.h"
 
@@ -109,6 +114,28 @@ TEST(GrainView, KnowsTheMetresOfASample) {
         }
         EXPECT_EQ(view.up, glm::vec3(0.0F, 0.0F, 1.0F));
     }
+}
+
+// As the ramp: 2800 m in the Alps, where terrains without a place are taken to be.
+TEST(GrainView, HasSnowWhereTheRampHas) {
+    const auto snow_line = [](const char* ramp, bool has_image) {
+        scene::Scene scene;
+        terrain::Terrain terrain;
+        terrain.heightfield = test::plane_heightfield(test::hills(65, 33, 20.0), {3.0, 2.0});
+        if (has_image) {
+            terrain.color = Image(65, 33, {90, 120, 60, 255});
+        }
+        scene::TerrainOptions options;
+        options.ramp = terrain::named_ramp(ramp).value();
+        const auto surface = scene::TerrainSurface::create(
+            std::make_shared<const terrain::Terrain>(std::move(terrain)), options);
+        scene::TerrainNode node;
+        node.surface = std::make_shared<const scene::TerrainSurface>(surface.value());
+        return grain_view(DrawList(), node, glm::dmat4(1.0)).snow.w;
+    };
+    EXPECT_EQ(snow_line("relief", false), 2800.0F);
+    EXPECT_GT(snow_line("desert", false), 1e9F);
+    EXPECT_GT(snow_line("relief", true), 1e9F);
 }
 
 } // namespace

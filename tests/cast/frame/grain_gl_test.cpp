@@ -49,6 +49,25 @@ TEST_F(GrainGlTest, RaysAndShadersShowTheSame) {
     }
 }
 
+// Grass is low, snow high; stones lie beside rock.
+TEST_F(GrainGlTest, RaysAndShadersShowTheSameKindsOfGround) {
+    for (const float lift : {300.0F, 2300.0F, 3200.0F}) {
+        Grid<float> heights = test::hills(151, 129, 90.0);
+        for (float& height : heights.samples()) {
+            height += lift;
+        }
+        OverlayStage stage(std::move(heights), {8.0, 8.0});
+        stage.set_grain(1.0F);
+        stage.look_from(scene::Pose::low);
+        const Image rays = stage.drawn();
+        const Image shaders = stage.drawn_by_opengl("exact");
+        const auto errors = truth::image_errors(rays, shaders);
+        ASSERT_TRUE(errors);
+        EXPECT_LE(errors->rmse, 0.02) << lift;
+        EXPECT_LE(test::share_of_others(rays, shaders, 6), 0.02) << lift;
+    }
+}
+
 // They have another shader.
 TEST_F(GrainGlTest, FarTilesLoseNone) {
     Grid<float> heights = test::hills(301, 259, 30.0);
