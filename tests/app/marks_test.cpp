@@ -1,5 +1,5 @@
-#include <algorithm>
-#include <cstring>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -48,7 +48,8 @@ int changed_pixels(const Image& a, const Image& b, glm::ivec2 low, glm::ivec2 hi
 TEST_F(Marks, AreDrawnAlikeByAllContexts) {
     std::vector<Image> drawn;
     for (const char* context : {"cpu", "osmesa"}) {
-        const Words map{"--projection", "orthographic", "--context", context};
+        const Words map{"--projection",    "orthographic", "--context", context,
+                        "--imagery-share", "0.5"};
         Words marked = map;
         marked.insert(marked.end(), {"--marks", "legend,scale,north"});
         const Image plain = render(map);
@@ -73,17 +74,16 @@ TEST_F(Marks, AreDrawnAlikeByAllContexts) {
 
 TEST_F(Marks, HitsAndFiguresAreWithoutThem) {
     const auto hits = [&](const Words& options) {
-        const auto file = (folder_.path() / "hit.exr").string();
-        Words all{"--hit", file};
+        const auto file = folder_.path() / "hit.exr";
+        Words all{"--hit", file.string()};
         all.insert(all.end(), options.begin(), options.end());
         render(all);
-        return io::read_hits(file).value();
+        std::ifstream stream(file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
     };
-    const auto plain = hits({});
-    const auto marked = hits({"--marks", "legend,scale,north"});
-    EXPECT_TRUE(std::ranges::equal(plain.samples(), marked.samples(), [](const Hit& a, const Hit& b) {
-        return std::memcmp(&a, &b, sizeof(Hit)) == 0;
-    }));
+    const std::string plain = hits({});
+    EXPECT_FALSE(plain.empty());
+    EXPECT_TRUE(hits({"--marks", "legend,scale,north"}) == plain);
     render({"--compare", "truth"});
     const std::string figures = result_.out;
     EXPECT_FALSE(figures.empty());

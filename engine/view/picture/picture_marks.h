@@ -23,7 +23,7 @@ struct PictureMarks {
         bool is_everywhere = true; ///< false: at the picture's middle alone, where a mark is drawn
     };
 
-    std::vector<LegendStop> legend; ///< upwards, at least two; empty: none
+    std::vector<LegendStop> legend; ///< upwards, at least two heights; empty: none
     std::optional<Scale> scale;
     std::optional<double> north; ///< degrees clockwise from up in the picture
 

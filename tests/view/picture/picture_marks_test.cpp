@@ -69,9 +69,8 @@ TEST(PictureMarks, TheBarIsAsLongAsItSays) {
         const glm::dvec2 begin = begin_of_scale_bar(usual);
         const int row = static_cast<int>(begin.y); // along the bar
         const InkBox ink = ink_of(picture, {0, row}, {usual.x, row + 1});
-        // Half of the line lies beyond each end.
-        const double length = ink.high.x - ink.low.x + 1;
-        EXPECT_NEAR(length, bar.pixels + 2.0, 1.5) << metres_per_pixel;
+        const double length = ink.high.x - ink.low.x; // between the middles of both ticks
+        EXPECT_NEAR(length, bar.pixels, 1.0) << metres_per_pixel;
         EXPECT_NEAR(0.5 * (ink.low.x + ink.high.x + 1), begin.x + 0.5 * bar.pixels, 1.0);
     }
 }
@@ -115,12 +114,12 @@ TEST(PictureMarks, TheLegendGoesUpThroughAllColours) {
 TEST(PictureMarks, LegendsOfAnyRangeHaveLabels) {
     for (const auto& [low, high] :
          {std::pair(-11000.0, 8848.0), std::pair(1.0, 1.001), std::pair(-3.0, -1.0),
-          std::pair(8000.0, 8300.0), std::pair(0.0, 1e6), std::pair(5.0, 5.0)}) {
+          std::pair(8000.0, 8300.0), std::pair(0.0, 1e6)}) {
         PictureMarks marks;
         marks.legend = {{low, {200, 0, 0, 255}}, {high, {0, 0, 200, 255}}};
         const Image picture = drawn(marks);
         const InkBox ink = ink_of(picture, {usual.x - 60, 0}, usual);
-        EXPECT_EQ(ink.high.x >= 0, low < high) << low;
+        EXPECT_GE(ink.high.x, 0) << low;
         EXPECT_LT(ink.high.x, usual.x - 4);
     }
 }
