@@ -68,8 +68,7 @@ Ground grass_at(glm::vec2 place) {
     }
     constexpr std::array patches{5, 11};
     for (const int frequency : patches) {
-        const float patch =
-            gradient_noise(seed, place * static_cast<float>(frequency), frequency);
+        const float patch = gradient_noise(seed, place * static_cast<float>(frequency), frequency);
         ground.height += 0.5F * patch / static_cast<float>(frequency);
         ground.brightness += 0.8F * patch;
         ++seed;
@@ -89,8 +88,8 @@ Ground stones_at(std::uint32_t seed, glm::vec2 place, int frequency) {
     const float inside = std::min(stone.to_edge / gap, 1.0F);
     const glm::vec2 tilt = 1.4F * glm::vec2(chance(1), chance(2));
     Ground ground;
-    ground.height = (glm::dot(tilt, stone.from_seed) * inside + 0.35F * inside) /
-                    static_cast<float>(frequency);
+    ground.height =
+        (glm::dot(tilt, stone.from_seed) * inside + 0.35F * inside) / static_cast<float>(frequency);
     ground.brightness = 1.2F * inside + 1.6F * chance(3);
     return ground;
 }
@@ -103,8 +102,7 @@ Ground scree_at(glm::vec2 place) {
     const VoronoiCell stone = voronoi(70, place * static_cast<float>(large), large, 0.9F);
     const bool is_stone = unit_hash(71, stone.id.x, stone.id.y) < share_of_large;
     Ground ground = is_stone ? stones_at(70, place, large) : stones_at(80, place, small);
-    ground.brightness +=
-        0.4F * gradient_noise(90, place * static_cast<float>(small), small);
+    ground.brightness += 0.4F * gradient_noise(90, place * static_cast<float>(small), small);
     return ground;
 }
 

@@ -58,9 +58,8 @@ glm::dmat3 metres_per_sample(const terrain::Placement& placement, glm::dvec3 sam
 }
 
 bool shows_ramp(const scene::TerrainNode& terrain) {
-    const bool has_images =
-        !terrain.surface->terrain().color.empty() ||
-        (terrain.stream != nullptr && terrain.stream->maker().has_images());
+    const bool has_images = !terrain.surface->terrain().color.empty() ||
+                            (terrain.stream != nullptr && terrain.stream->maker().has_images());
     return !has_images || terrain.surface->imagery_share() < 1.0;
 }
 

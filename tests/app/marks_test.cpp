@@ -22,8 +22,10 @@ class Marks : public testing::Test {
 protected:
     Image render(const Words& options, const std::string& terrain = {}) {
         const auto file = (folder_.path() / "marks.png").string();
-        Words arguments{"render", terrain.empty() ? natural_ : terrain, "--size", "320x240",
-                        "--grain", "0", "-o", file};
+        Words arguments{"render",  terrain.empty() ? natural_ : terrain,
+                        "--size",  "320x240",
+                        "--grain", "0",
+                        "-o",      file};
         arguments.insert(arguments.end(), options.begin(), options.end());
         result_ = test::reljef(arguments);
         EXPECT_EQ(result_.exit_code, 0) << result_.err;
@@ -48,8 +50,8 @@ int changed_pixels(const Image& a, const Image& b, glm::ivec2 low, glm::ivec2 hi
 TEST_F(Marks, AreDrawnAlikeByAllContexts) {
     std::vector<Image> drawn;
     for (const char* context : {"cpu", "osmesa"}) {
-        const Words map{"--projection",    "orthographic", "--context", context,
-                        "--imagery-share", "0.5"};
+        const Words map{"--projection", "orthographic",    "--context",
+                        context,        "--imagery-share", "0.5"};
         Words marked = map;
         marked.insert(marked.end(), {"--marks", "legend,scale,north"});
         const Image plain = render(map);

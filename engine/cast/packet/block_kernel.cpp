@@ -140,8 +140,7 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
         const PixelOffsets offsets = offsets_of(col, row);
         const TrueLook shown = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values);
-        store(ints, dithered_bytes(paint, offsets, shown.look.color), col, row,
-              pixels.rgba.data());
+        store(ints, dithered_bytes(paint, offsets, shown.look.color), col, row, pixels.rgba.data());
         if (paint.needs_nearness) {
             store(floats, nearness_of(paint, shown.look.t), col, row, pixels.nearness.data());
         }

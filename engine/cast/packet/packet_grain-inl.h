@@ -215,13 +215,13 @@ HWY_INLINE ShareOfCover shares_of_cover(const GrainPaint& grain,
     const Floats poleward = hn::Min(hn::Max(slope, all(-1.0F)), one);
     const Floats above = hn::Sub(hn::MulAdd(poleward, all(snow_turn), height), all(grain.snow.w));
     const Floats steep = smooth_step(snow_steep_begin, snow_steep_end, cosine);
-    const Floats high = hn::Mul(smooth_step(-snow_reach, snow_reach, above),
-                                hn::NegMulAdd(all(0.9F), steep, one));
+    const Floats high =
+        hn::Mul(smooth_step(-snow_reach, snow_reach, above), hn::NegMulAdd(all(0.9F), steep, one));
     const Floats luminance = hn::MulAdd(
         lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
     const Floats others = hn::Add(lit.r, lit.b);
-    const Floats green = hn::Div(hn::MulSub(all(2.0F), lit.g, others),
-                                 hn::Max(hn::Add(lit.g, others), all(1e-6F)));
+    const Floats green =
+        hn::Div(hn::MulSub(all(2.0F), lit.g, others), hn::Max(hn::Add(lit.g, others), all(1e-6F)));
     return {hn::Max(high, smooth_step(snow_begin, snow_end, luminance)),
             smooth_step(grass_begin, grass_end, green)};
 }
@@ -308,8 +308,7 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
     noise = grain_between(grain, kind.layer, cover == nullptr ? bent(place) : place, view.level);
     const Floats of_kind = hn::Min(hn::Mul(kind.off, all(1.0F / choice_border)), all(1.0F));
     const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
-    const Floats strength =
-        hn::Mul(hn::Mul(view.seen, of_kind), hn::Mul(flat.strength, of_plane));
+    const Floats strength = hn::Mul(hn::Mul(view.seen, of_kind), hn::Mul(flat.strength, of_plane));
     const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
     sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
     sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
@@ -363,8 +362,8 @@ HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 
 // the steps of normals from cell to cell would show.
 // `lit`: by the sun and the sky; `height`: true metres.
 HWY_INLINE Floats light_of_grain(const BlockPaint& paint, const TilePaint& tile,
-                                 const GroundPlace& place, const PacketHits& hits,
-                                 const Color& lit, Floats height) {
+                                 const GroundPlace& place, const PacketHits& hits, const Color& lit,
+                                 Floats height) {
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
     const std::array<Floats, 3> normal = grain_normal(tile, hits);

@@ -76,7 +76,7 @@ HWY_INLINE Color dithered(const BlockPaint& paint, const PixelOffsets& pixels, c
 }
 
 HWY_INLINE Ints dithered_bytes(const BlockPaint& paint, const PixelOffsets& pixels,
-                                const Color& linear) {
+                               const Color& linear) {
     const Color color = dithered(paint, pixels, linear);
     const Ints red_green = hn::Or(srgb_byte(color.r), hn::ShiftLeft<8>(srgb_byte(color.g)));
     const Ints blue = hn::ShiftLeft<16>(srgb_byte(color.b));

@@ -304,8 +304,8 @@ void read_picture_keys(TomlTable& table, SceneDescription& scene) {
     int samples = counts.front();
     table.read("samples", samples, range);
     if (std::find(counts.begin(), counts.end(), samples) == counts.end()) {
-        table.fail("samples", fmt::format("is {}, one of {} was expected", samples,
-                                          fmt::join(counts, ", ")));
+        table.fail("samples",
+                   fmt::format("is {}, one of {} was expected", samples, fmt::join(counts, ", ")));
     } else if (table.has("samples")) {
         scene.samples = samples;
     }

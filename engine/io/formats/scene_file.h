@@ -93,7 +93,8 @@ struct MarksDescription {
 };
 /// "legend,scale,north" or some of these, or "none"; empty: it is neither.
 std::optional<MarksDescription> marks_from_text(std::string_view text);
-inline constexpr const char* expected_marks = "some of legend, scale, north as legend,scale, or none";
+inline constexpr const char* expected_marks =
+    "some of legend, scale, north as legend,scale, or none";
 
 /// [[footprints]]: buildings on outlines. Either `height` or `surface` is given.
 struct FootprintsDescription {

@@ -92,8 +92,7 @@ SceneMarks marks_of(const TerrainScene& scene, const io::MarksDescription& chose
     if (chosen.scale) {
         const auto metres = metres_per_pixel(marked_terrain(scene), camera, size.y);
         if (metres && *metres > 0.0) {
-            found.marks.scale = {*metres,
-                                 camera.projection == scene::ProjectionKind::orthographic};
+            found.marks.scale = {*metres, camera.projection == scene::ProjectionKind::orthographic};
         } else {
             found.notes.emplace_back("no scale bar is drawn: in perspective it holds in the "
                                      "picture's middle, which shows no ground");

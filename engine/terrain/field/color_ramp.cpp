@@ -316,8 +316,8 @@ glm::vec3 RampColors::at(double height, glm::vec2 gradient) const {
     const double poleward =
         std::clamp(-snow_.poleward * static_cast<double>(gradient.y), -1.0, 1.0);
     const double line = snow_.height - snow_turn * poleward;
-    const float snowy =
-        smooth(line - snow_reach, line + snow_reach, height) * (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
+    const float snowy = smooth(line - snow_reach, line + snow_reach, height) *
+                        (1.0F - smooth(0.75, 1.5, slope) * 0.9F);
     return glm::mix(glm::mix(plain, rock, rocky), snow, snowy);
 }
 

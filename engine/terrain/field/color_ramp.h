@@ -59,7 +59,7 @@ struct SnowCover {
     double poleward = 1.0; ///< 1 in the north, -1 in the south
 };
 SnowCover snow_cover(const Heightfield& heightfield);
-inline constexpr double snow_turn = 200.0; ///< metres by which it is lower on poleward slopes
+inline constexpr double snow_turn = 200.0;  ///< metres by which it is lower on poleward slopes
 inline constexpr double snow_reach = 250.0; ///< metres below the line, from where snow begins
 
 /// The nearest 8-bit colour of one in 0..255; opaque.

@@ -113,8 +113,8 @@ public:
         }
         const Area area = area_of(box, part_, part_ + part_size_);
         first_ = area.low;
-        distances_ = Grid<float>(area.size().x, area.size().y,
-                                 std::numeric_limits<float>::infinity());
+        distances_ =
+            Grid<float>(area.size().x, area.size().y, std::numeric_limits<float>::infinity());
         for (const Segment& segment : drawing.segments_) {
             add(segment);
         }

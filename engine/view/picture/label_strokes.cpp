@@ -110,7 +110,8 @@ Character character_of(char letter) {
                  {{0.47, x_height}, {0.47, 0.0}}},
                 0.52};
     case 'k':
-        return {{{{0.05, 1.0}, {0.05, 0.0}}, {{0.43, x_height}, {0.05, 0.28}},
+        return {{{{0.05, 1.0}, {0.05, 0.0}},
+                 {{0.43, x_height}, {0.05, 0.28}},
                  {{0.19, 0.42}, {0.46, 0.0}}},
                 0.50};
     case 'm':
@@ -120,9 +121,8 @@ Character character_of(char letter) {
                  {{0.01, x_height}, {0.33, x_height}}},
                 0.36};
     default:
-        return letter >= '0' && letter <= '9'
-                   ? Character{lines_of_digit(letter - '0'), digit_width}
-                   : Character{};
+        return letter >= '0' && letter <= '9' ? Character{lines_of_digit(letter - '0'), digit_width}
+                                              : Character{};
     }
 }
 

@@ -55,7 +55,8 @@ std::vector<LegendLabel> legend_labels(const std::vector<LegendStop>& stops, dou
 
 Rgba8 legend_color(const std::vector<LegendStop>& stops, double share) {
     const double place = share * static_cast<double>(stops.size() - 1);
-    const auto below = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(stops.size() - 2)));
+    const auto below =
+        static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(stops.size() - 2)));
     const Rgba8 high = stops[below + 1].color;
     return blended(stops[below].color, glm::dvec3(high.r, high.g, high.b),
                    std::clamp(place - static_cast<double>(below), 0.0, 1.0));
@@ -66,9 +67,7 @@ struct LegendRamp {
     glm::ivec2 low;
     glm::ivec2 high;
 
-    [[nodiscard]] double height_at(double share) const {
-        return high.y - share * (high.y - low.y);
-    }
+    [[nodiscard]] double height_at(double share) const { return high.y - share * (high.y - low.y); }
 };
 
 void fill_ramp(const std::vector<LegendStop>& stops, const LegendRamp& ramp, GridView<Rgba8> part,
@@ -175,8 +174,8 @@ void draw_north_mark(double north, glm::ivec2 size, GridView<Rgba8> part, glm::i
     ink.add_area({tip, notch, left_corner});
     ink.add_line({tip, right_corner, notch, left_corner, tip, notch}, line_radius_of(digits));
     const std::string letter = "N";
-    ink.add_text(letter, at(radius + to_letter, 0.0) -
-                             glm::dvec2(0.5 * text_width(letter, digits), 0.0));
+    ink.add_text(letter,
+                 at(radius + to_letter, 0.0) - glm::dvec2(0.5 * text_width(letter, digits), 0.0));
     ink.draw(part, first);
 }
 

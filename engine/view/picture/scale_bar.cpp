@@ -32,9 +32,9 @@ ScaleBar scale_bar(double metres_per_pixel, double max_pixels) {
 double round_step(double min) {
     const double power = power_of_ten(min);
     constexpr std::array steps{1.0, 2.0, largest_step};
-    const auto* const step =
-        std::find_if(steps.begin(), steps.end(),
-                     [&](double factor) { return factor * power * rounding >= min; });
+    const auto* const step = std::find_if(steps.begin(), steps.end(), [&](double factor) {
+        return factor * power * rounding >= min;
+    });
     return power * (step == steps.end() ? 10.0 : *step);
 }
 

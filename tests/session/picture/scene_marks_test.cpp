@@ -72,8 +72,9 @@ TEST(SceneMarks, InPerspectiveTheScaleIsThatOfTheMiddle) {
     EXPECT_FALSE(found.marks.scale->is_everywhere);
     const auto& camera = *scene.camera->get<scene::Camera>();
     const glm::dvec3 middle(0.0, -60.0, 10.0); // level ground
-    const double pixels = scene::project(camera, picture_size, middle + glm::dvec3(1, 0, 0)).pixel.x -
-                          scene::project(camera, picture_size, middle).pixel.x;
+    const double pixels =
+        scene::project(camera, picture_size, middle + glm::dvec3(1, 0, 0)).pixel.x -
+        scene::project(camera, picture_size, middle).pixel.x;
     EXPECT_NEAR(found.marks.scale->metres_per_pixel * pixels, 1.0, 1e-3);
 }
 

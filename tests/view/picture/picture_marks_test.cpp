@@ -17,8 +17,8 @@ constexpr glm::ivec2 usual(640, 480);
 
 PictureMarks all_marks() {
     PictureMarks marks;
-    marks.legend = {{0.0, {0, 90, 0, 255}}, {500.0, {200, 180, 90, 255}},
-                    {1000.0, {250, 250, 255, 255}}};
+    marks.legend = {
+        {0.0, {0, 90, 0, 255}}, {500.0, {200, 180, 90, 255}}, {1000.0, {250, 250, 255, 255}}};
     marks.scale = {12.5, false};
     marks.north = 30.0;
     return marks;
