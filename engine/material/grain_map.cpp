@@ -56,13 +56,13 @@ Ground rock_at(glm::vec2 place) {
 
 // Tufts with dark gaps, in patches of different brightness.
 Ground grass_at(glm::vec2 place) {
-    constexpr std::array tufts{23, 47};
+    constexpr std::array tufts{29, 67};
     Ground ground;
     std::uint32_t seed = 50;
     for (const int frequency : tufts) {
         const float tuft =
             std::abs(gradient_noise(seed, place * static_cast<float>(frequency), frequency));
-        ground.height += 1.5F * std::sqrt(tuft) / static_cast<float>(frequency);
+        ground.height += 2.0F * std::min(tuft, 0.5F) / static_cast<float>(frequency);
         ground.brightness += std::min(tuft, 0.3F) * 3.0F;
         ++seed;
     }
@@ -79,7 +79,7 @@ Ground grass_at(glm::vec2 place) {
 // Flat stones, each with a tilt and a brightness of its own, and dark gaps between them.
 Ground stones_at(std::uint32_t seed, glm::vec2 place, int frequency) {
     constexpr float jitter = 0.9F;
-    constexpr float gap = 0.12F; // half its width, in squares
+    constexpr float gap = 0.2F; // half its width, in squares
     const VoronoiCell stone =
         voronoi(seed, place * static_cast<float>(frequency), frequency, jitter);
     const auto chance = [&](std::uint32_t use) {
@@ -89,7 +89,7 @@ Ground stones_at(std::uint32_t seed, glm::vec2 place, int frequency) {
     const glm::vec2 tilt = 1.4F * glm::vec2(chance(1), chance(2));
     Ground ground;
     ground.height =
-        (glm::dot(tilt, stone.from_seed) * inside + 0.35F * inside) / static_cast<float>(frequency);
+        (glm::dot(tilt, stone.from_seed) * inside + 0.2F * inside) / static_cast<float>(frequency);
     ground.brightness = 1.2F * inside + 1.6F * chance(3);
     return ground;
 }

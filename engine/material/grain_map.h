@@ -11,7 +11,7 @@
 namespace reljef::material {
 
 /// Fine structure of ground, which elevation data do not have: square patterns that repeat, one for
-/// each kind of ground, as mip levels. Their waves are 1/5 to 1/47 of the side. Soil and rock are
+/// each kind of ground, as mip levels. Their waves are 1/5 to 1/67 of the side. Soil and rock are
 /// noise of four octaves whose heights have the same slopes in each octave; grass is tufts, scree
 /// stones on gravel, and snow ripples of wind.
 ///

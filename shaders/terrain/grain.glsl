@@ -46,15 +46,14 @@ float steepened(float level) {
     return whole + clamp((level - whole - 0.5) * level_steepness + 0.5, 0.0, 1.0);
 }
 
-// Shares of snow, by the ramp or as the brightest ground, and of grass, which is green in any daylight.
+// Shares of the ramp's snow, and of grass, which is green in any daylight.
 vec2 shares_of_cover(vec3 lit, GroundPlace place, float height) {
     float cosine = max(dot(place.normal, place.up), 0.1);
     float line = grain_snow.w - snow_turn * clamp(dot(grain_snow.xyz, place.normal) / cosine, -1.0, 1.0);
     float high = smoothstep(line - snow_reach, line + snow_reach, height);
     high *= 1.0 - 0.9 * smoothstep(-snow_steep_begin, -snow_steep_end, -cosine);
-    float bright = smoothstep(snow_begin, snow_end, dot(lit, vec3(0.2126, 0.7152, 0.0722)));
     float green = (2.0 * lit.g - lit.r - lit.b) / max(lit.r + lit.g + lit.b, 1e-6);
-    return vec2(max(high, bright), smoothstep(grass_begin, grass_end, green));
+    return vec2(high, smoothstep(grass_begin, grass_end, green));
 }
 
 // The layer of a narrow pattern, and how far it is from others: snow, grass, scree beside rock, or soil. Wide patterns
@@ -116,9 +115,10 @@ vec2 grain_at(GroundPlace place, vec2 cover) {
     return sum;
 }
 
-// Snow is smoother, and level water has no grain.
+// Snow, of the ramp or as the brightest ground, is smoother, and level water has no grain.
 float strength_on(vec3 lit, GroundPlace place, float snow) {
-    float rough = 1.0 - snow_smoothness * snow;
+    float bright = smoothstep(snow_begin, snow_end, dot(lit, vec3(0.2126, 0.7152, 0.0722)));
+    float rough = 1.0 - snow_smoothness * max(snow, bright);
     bool is_level = dot(place.normal, place.up) > level_cosine;
     return is_level && lit.b > blue_of_water * lit.r ? 0.0 : grain_up.w * rough;
 }

@@ -199,8 +199,7 @@ HWY_INLINE Choice choice(Floats share, Floats noise) {
             hn::Min(hn::Mul(hn::Abs(off), all(1.0F / choice_border)), all(1.0F))};
 }
 
-// Shares of snow, by the ramp or as the brightest ground, and of grass, which is green in any
-// daylight.
+// Shares of the ramp's snow, and of grass, which is green in any daylight.
 struct ShareOfCover {
     Floats snow;
     Floats grass;
@@ -217,13 +216,10 @@ HWY_INLINE ShareOfCover shares_of_cover(const GrainPaint& grain,
     const Floats steep = smooth_step(snow_steep_begin, snow_steep_end, cosine);
     const Floats high =
         hn::Mul(smooth_step(-snow_reach, snow_reach, above), hn::NegMulAdd(all(0.9F), steep, one));
-    const Floats luminance = hn::MulAdd(
-        lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
     const Floats others = hn::Add(lit.r, lit.b);
     const Floats green =
         hn::Div(hn::MulSub(all(2.0F), lit.g, others), hn::Max(hn::Add(lit.g, others), all(1e-6F)));
-    return {hn::Max(high, smooth_step(snow_begin, snow_end, luminance)),
-            smooth_step(grass_begin, grass_end, green)};
+    return {high, smooth_step(grass_begin, grass_end, green)};
 }
 
 // The layer of a narrow pattern: snow, grass, scree beside rock, or soil. Wide patterns are of rock
@@ -348,10 +344,14 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
     return sum;
 }
 
-// The strength of grain. Snow is smoother, and level water has none.
+// The strength of grain. Snow, of the ramp or as the brightest ground, is smoother, and level water
+// has none.
 HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 3>& normal,
                               const Color& lit, Floats snow) {
-    const Floats rough = hn::NegMulAdd(all(snow_smoothness), snow, all(1.0F));
+    const Floats luminance = hn::MulAdd(
+        lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
+    const Floats smooth = hn::Max(snow, smooth_step(snow_begin, snow_end, luminance));
+    const Floats rough = hn::NegMulAdd(all(snow_smoothness), smooth, all(1.0F));
     const Lanes is_level = hn::Gt(dot(normal, all_of(grain.up)), all(level_cosine));
     const Lanes is_water = hn::And(is_level, hn::Gt(lit.b, hn::Mul(all(blue_of_water), lit.r)));
     return hn::IfThenZeroElse(is_water, hn::Mul(all(grain.strength), rough));

@@ -147,7 +147,7 @@ void draw_scale_mark(const PictureMarks::Scale& scale, glm::ivec2 size, GridView
     const glm::dvec2 left = begin - glm::dvec2(0.0, text_above * digits);
     ink.add_text(text, left);
     if (!scale.is_everywhere) {
-        constexpr double gap = 1.1;
+        constexpr double gap = 1.35;
         add_target(ink, left + glm::dvec2(text_width(text, digits) + gap * digits, 0.0), digits);
         add_target(ink, 0.5 * glm::dvec2(size), digits);
     }

@@ -12,7 +12,7 @@
 namespace reljef::view {
 namespace {
 
-constexpr Rgba8 meadow{90, 120, 60, 255};
+constexpr Rgba8 grass_color{90, 120, 60, 255};
 constexpr glm::ivec2 usual(640, 480);
 
 PictureMarks all_marks() {
@@ -25,7 +25,7 @@ PictureMarks all_marks() {
 }
 
 Image drawn(const PictureMarks& marks, glm::ivec2 size = usual) {
-    Image picture(size.x, size.y, meadow);
+    Image picture(size.x, size.y, grass_color);
     draw_marks(marks, size, picture.view());
     return picture;
 }
@@ -54,7 +54,7 @@ InkBox ink_of(const Image& picture, glm::ivec2 low, glm::ivec2 high) {
 }
 
 TEST(PictureMarks, WithoutAnyThePictureStays) {
-    EXPECT_EQ(drawn({}), Image(usual.x, usual.y, meadow));
+    EXPECT_EQ(drawn({}), Image(usual.x, usual.y, grass_color));
     EXPECT_TRUE(PictureMarks().empty());
     EXPECT_FALSE(all_marks().empty());
 }
@@ -141,7 +141,7 @@ TEST(PictureMarks, TheArrowPointsNorth) {
 TEST(PictureMarks, PartsContinueEachOther) {
     const PictureMarks marks = all_marks();
     const Image whole = drawn(marks);
-    Image parts(usual.x, usual.y, meadow);
+    Image parts(usual.x, usual.y, grass_color);
     for (int row = 0; row < usual.y; row += 37) {
         for (int col = 0; col < usual.x; col += 101) {
             const glm::ivec2 size = glm::min(usual - glm::ivec2(col, row), glm::ivec2(101, 37));
@@ -159,12 +159,12 @@ TEST(PictureMarks, LieWithinPicturesOfAnyShape) {
         marks.north = 225.0;
         const Image picture = drawn(marks, size);
         for (int col = 0; col < size.x; ++col) {
-            EXPECT_EQ(picture(col, 0), meadow);
-            EXPECT_EQ(picture(col, size.y - 1), meadow);
+            EXPECT_EQ(picture(col, 0), grass_color);
+            EXPECT_EQ(picture(col, size.y - 1), grass_color);
         }
         for (int row = 0; row < size.y; ++row) {
-            EXPECT_EQ(picture(0, row), meadow);
-            EXPECT_EQ(picture(size.x - 1, row), meadow);
+            EXPECT_EQ(picture(0, row), grass_color);
+            EXPECT_EQ(picture(size.x - 1, row), grass_color);
         }
     }
 }
