@@ -54,16 +54,15 @@ Ground rock_at(glm::vec2 place) {
     return ground;
 }
 
-// Tufts with dark gaps, in patches of different brightness.
+// Soft tufts, finer than soil, in patches of different brightness.
 Ground grass_at(glm::vec2 place) {
     constexpr std::array tufts{29, 67};
     Ground ground;
     std::uint32_t seed = 50;
     for (const int frequency : tufts) {
-        const float tuft =
-            std::abs(gradient_noise(seed, place * static_cast<float>(frequency), frequency));
-        ground.height += 2.0F * std::min(tuft, 0.5F) / static_cast<float>(frequency);
-        ground.brightness += std::min(tuft, 0.3F) * 3.0F;
+        const float tuft = gradient_noise(seed, place * static_cast<float>(frequency), frequency);
+        ground.height += tuft / static_cast<float>(frequency);
+        ground.brightness += tuft;
         ++seed;
     }
     constexpr std::array patches{5, 11};

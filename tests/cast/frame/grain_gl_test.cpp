@@ -167,5 +167,32 @@ TEST_F(GrainGlTest, EveryInstructionSetPaintsIt) {
     }
 }
 
+class DitherGlTest : public test::GlTest {};
+
+// Smooth ground in haze has no bands: neighbours take turns between two levels.
+TEST_F(DitherGlTest, SmoothGroundHasNoBands) {
+    OverlayStage stage(Grid<float>(151, 129, 0.0F), {8.0, 8.0});
+    stage.scene.set_sky({.visibility = 4000.0, .plane = {}});
+    stage.look_from(scene::Pose::low);
+    const HitBuffer hits = stage.hits();
+    for (const Image& picture : {stage.drawn(), stage.drawn_by_opengl("polygons")}) {
+        int pairs = 0;
+        int changes = 0;
+        for (int row = 0; row < picture.rows(); ++row) {
+            for (int col = 1; col < picture.cols(); ++col) {
+                if (hits(col - 1, row).is_sky() || hits(col, row).is_sky()) {
+                    continue;
+                }
+                const int step = std::abs(picture(col, row).r - picture(col - 1, row).r);
+                EXPECT_LE(step, 2) << col << ' ' << row;
+                ++pairs;
+                changes += step > 0 ? 1 : 0;
+            }
+        }
+        ASSERT_GT(pairs, 1000);
+        EXPECT_GT(changes, pairs / 8);
+    }
+}
+
 } // namespace
 } // namespace reljef::cast
