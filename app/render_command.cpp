@@ -69,7 +69,13 @@ void set_usual_look(session::SceneOptions& view, const RenderChoice& choice, boo
     }
 }
 
-Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt) {
+// Keys of a scene file that options come before.
+void add_keys_of_file(RenderChoice& choice, const io::SceneDescription& description) {
+    choice.view.marks = choice.view.marks.value_or(description.marks);
+    choice.view.samples = choice.view.samples ? choice.view.samples : description.samples;
+}
+
+Result<void> render(RenderChoice choice, const cli::Interrupt& interrupt) {
     interrupt.end_after(cli::Interrupt::longest_frame, "reljef: interrupted\n");
     if (auto good = check_targets(choice); !good) {
         return good;
@@ -85,6 +91,7 @@ Result<void> render(const RenderChoice& choice, const cli::Interrupt& interrupt)
                                        choice.truth ? "--truth" : "--compare",
                                        choice.terrain.terrain));
     }
+    add_keys_of_file(choice, *description);
     auto inputs = cli::input_files(choice.terrain, choice.view);
     for (const auto& [what, file] : io::named_files(*description)) {
         inputs.push_back({what, file});
@@ -135,6 +142,18 @@ void check_truth(const cli::ViewChoice& view) {
     }
 }
 
+void add_scene_options(CLI::App& arguments, RenderChoice& choice) {
+    cli::add_terrain_options(arguments, choice.terrain);
+    cli::add_view_options(arguments, choice.view);
+    add_object_options(arguments, choice.view.objects, choice.view.footprints);
+    add_light_option(arguments, choice.view.lights);
+    add_point_light_option(arguments, choice.view.point_lights);
+    add_surface_shader_option(arguments, choice.view.surface_shader);
+    cli::add_samples_option(arguments, choice.view);
+    cli::add_marks_option(arguments, choice.view);
+    cli::add_index_option(arguments, choice.terrain, session::IndexUse::made);
+}
+
 constexpr const char* examples =
     "Examples:\n"
     "  reljef render N45E006.hgt -o alps.png\n"
@@ -144,7 +163,8 @@ constexpr const char* examples =
     "  reljef render natural --path flyover --frames 250 -o flight.mp4\n"
     "  reljef render alps.tif --path flight.toml --frames 9000 -o 'frames/%04d.png' --shard "
     "slurm --resume\n"
-    "  reljef render dem.tif --projection orthographic --size 2048x2048 -o map.png\n"
+    "  reljef render dem.tif --projection orthographic --size 2048x2048 --marks "
+    "legend,scale,north -o map.png\n"
     "  reljef render N45E006.hgt --object house.glb:at=45.5,6.5 --hit hit.exr\n"
     "  reljef render urban --pose low --sun 0,-5 --point-light 3,-120:intensity=60 -o night.png\n"
     "  reljef render alps.tif --sun 265,12 --light 85,40:intensity=0.15,color=#88aaff -o dusk.png\n"
@@ -158,14 +178,7 @@ constexpr const char* examples =
 cli::Command add_render_command(CLI::App& program, cli::Interrupt& interrupt) {
     auto* arguments = program.add_subcommand("render", "draw pictures without a window");
     auto choice = std::make_shared<RenderChoice>();
-    cli::add_terrain_options(*arguments, choice->terrain);
-    cli::add_view_options(*arguments, choice->view);
-    add_object_options(*arguments, choice->view.objects, choice->view.footprints);
-    add_light_option(*arguments, choice->view.lights);
-    add_point_light_option(*arguments, choice->view.point_lights);
-    add_surface_shader_option(*arguments, choice->view.surface_shader);
-    cli::add_samples_option(*arguments, choice->view);
-    cli::add_index_option(*arguments, choice->terrain, session::IndexUse::made);
+    add_scene_options(*arguments, *choice);
     arguments
         ->add_option("-o,--output", choice->output,
                      "picture (out.png; - for PNG to standard output), numbered pictures "

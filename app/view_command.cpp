@@ -249,9 +249,13 @@ Error shown_error(const Error& error, const ViewerChoice& choice, platform::Wind
     return {{}, error.kind};
 }
 
-Result<void> view(const ViewerChoice& choice, const cli::Interrupt& interrupt) {
-    if (const auto named = session::describe(choice.terrain.terrain); !named) {
-        return named.error(); // without a window
+Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt) {
+    const auto description = session::describe(choice.terrain.terrain);
+    if (!description) {
+        return description.error(); // without a window
+    }
+    if (!choice.view.samples) {
+        choice.view.samples = description->samples;
     }
     session::limit_software_threads(choice.terrain.threads);
     interrupt.end_after(cli::Interrupt::longest_frame);

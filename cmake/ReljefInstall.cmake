@@ -50,7 +50,7 @@ install(FILES ${PROJECT_BINARY_DIR}/reljefConfig.cmake ${PROJECT_BINARY_DIR}/rel
 
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md SECURITY.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT docs)
-install(FILES docs/findings.md docs/irrlicht.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT docs)
+install(FILES docs/findings.md docs/irrlicht.md docs/scene_files.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT docs)
 install(DIRECTORY docs/techniques docs/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs
   COMPONENT docs FILES_MATCHING PATTERN "*.md" PATTERN "*.jpg" PATTERN "*.png" PATTERN "*.svg")
 install(DIRECTORY terrains/pictures DESTINATION ${CMAKE_INSTALL_DOCDIR}/terrains COMPONENT docs)

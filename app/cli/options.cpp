@@ -428,6 +428,20 @@ void add_samples_option(CLI::App& command, ViewChoice& choice) {
         "N");
 }
 
+void add_marks_option(CLI::App& command, ViewChoice& choice) {
+    const auto parse = [](const std::string& text) -> Result<io::MarksDescription> {
+        const auto marks = io::marks_from_text(text);
+        return marks ? Result<io::MarksDescription>(*marks)
+                     : Error{fmt::format("--marks: '{}' found, {} was expected", text,
+                                         io::expected_marks)};
+    };
+    add_parsed(command, "--marks", choice.marks, parse,
+               "drawn over the finished picture: legend of the colours by height, scale bar (in "
+               "perspective right on the ground in the picture's middle, which gets a mark), north "
+               "arrow (up: ahead), as legend,scale,north; hits and errors are without them (none)",
+               "LIST|none");
+}
+
 void add_view_options(CLI::App& command, ViewChoice& choice) {
     add_picture_options(command, choice);
     add_appearance_options(command, choice);

@@ -47,6 +47,7 @@ void add_index_option(CLI::App& command, TerrainChoice& choice, session::IndexUs
 void add_gaps_option(CLI::App& command, TerrainChoice& choice);
 void add_view_options(CLI::App& command, ViewChoice& choice);
 void add_samples_option(CLI::App& command, ViewChoice& choice);
+void add_marks_option(CLI::App& command, ViewChoice& choice);
 /// The option or file that places the camera.
 std::string camera_source(const ViewChoice& view, const TerrainChoice& terrain);
 /// Throws CLI::ParseError if options contradict each other. For the command's callback.

@@ -12,6 +12,7 @@
 #include "engine/io/image/image.h"
 #include "engine/io/image/picture_writer.h"
 #include "engine/session/flight_keys.h"
+#include "engine/session/picture/scene_marks.h"
 #include "engine/session/streaming.h"
 
 namespace reljef::app {
@@ -69,11 +70,33 @@ Result<Image> compared_frame(const Rendering& run, const Image& frame) {
     return std::move(compared->picture);
 }
 
-// One frame, divided by --compare. `progress` gets the part of it that is drawn.
-Result<Image> draw_frame(const Rendering& run, const std::function<void(double)>& progress) {
+// Of the view that the scene's camera has.
+view::PictureMarks marks_of(const Rendering& run, bool tells_notes) {
+    const auto chosen = run.choice.view.marks.value_or(io::MarksDescription());
+    auto found = session::marks_of(run.scene, chosen, run.choice.view.size);
+    for (const std::string& note : found.notes) {
+        if (tells_notes) {
+            run.log.note(note);
+        }
+    }
+    return std::move(found.marks);
+}
+
+void draw_marks(const view::PictureMarks& marks, GridView<Rgba8> picture) {
+    if (!marks.empty()) {
+        view::draw_marks(marks, {picture.cols(), picture.rows()}, picture);
+    }
+}
+
+// One frame, divided by --compare, with its marks. `progress` gets the part of it that is drawn.
+Result<Image> draw_frame(const Rendering& run, bool is_first,
+                         const std::function<void(double)>& progress) {
     auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
     if (picture && run.choice.compare.request && !run.interrupt.requested()) {
         picture = compared_frame(run, *picture);
+    }
+    if (picture) {
+        draw_marks(marks_of(run, is_first), picture->view());
     }
     return run.interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
 }
@@ -106,7 +129,7 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
         if (path) {
             lifted.add(fly(run, *path, index, frames));
         }
-        auto picture = draw_frame(run, [&](double part) {
+        auto picture = draw_frame(run, drawn == 0, [&](double part) {
             line.update((static_cast<double>(i) + part) / static_cast<double>(own.size()));
         });
         if (!picture) {
@@ -130,8 +153,15 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
 // As draw_frames().
 Result<void> draw_large(const Rendering& run, std::vector<AtomicFile>& outputs) {
     cli::ProgressLine line("drawing", run.choice.terrain.quiet);
-    auto drawn = session::draw_large_picture({run.choice.output, parts_of(run.choice)}, run.scene,
-                                             run.maker, frame_options(run, line.callback()));
+    session::LargePicture picture{run.choice.output, parts_of(run.choice)};
+    if (const auto marks = marks_of(run, true); !marks.empty()) {
+        picture.paint_over = [marks, size = run.choice.view.size](GridView<Rgba8> rows,
+                                                                  glm::ivec2 first) {
+            view::draw_marks(marks, size, rows, first);
+        };
+    }
+    auto drawn = session::draw_large_picture(picture, run.scene, run.maker,
+                                             frame_options(run, line.callback()));
     print_stats(run, drawn ? 1 : 0);
     return add_output(std::move(drawn), outputs);
 }

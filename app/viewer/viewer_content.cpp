@@ -8,13 +8,10 @@
 #include "engine/session/ground.h"
 #include "engine/session/scene_daylight.h"
 #include "engine/terrain/field/color_ramp.h"
-#include "engine/terrain/field/tint.h"
 #include "engine/terrain/measure/profile.h"
 
 namespace reljef::app {
 namespace {
-
-constexpr int legend_stops = 33;
 
 const scene::TerrainNode& terrain_of(const session::TerrainScene& scene) {
     return *scene.terrain->get<scene::TerrainNode>();
@@ -132,24 +129,6 @@ PlaceContent place_of(const session::TerrainScene& scene, const session::PickedP
     place.object = picked.object;
     place.in_crs = sample ? crs_place(surface, *sample) : std::nullopt;
     return place;
-}
-
-std::vector<LegendStop> legend_of(const session::TerrainScene& scene) {
-    const scene::TerrainSurface& surface = *terrain_of(scene).surface;
-    const terrain::Terrain& terrain = surface.terrain();
-    const bool has_images =
-        !terrain.color.empty() || (scene.source != nullptr && scene.source->imagery != nullptr);
-    const terrain::HeightRange range = terrain.heightfield.range;
-    if (has_images || !scene.models.empty() || !(range.low < range.high)) {
-        return {};
-    }
-    const terrain::HeightTint tint(surface.ramp(), terrain.heightfield);
-    std::vector<LegendStop> stops;
-    for (int i = 0; i < legend_stops; ++i) {
-        const double height = range.low + (range.high - range.low) * i / (legend_stops - 1);
-        stops.push_back({height, tint.at(height, glm::vec2(0.0F))});
-    }
-    return stops;
 }
 
 PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene,

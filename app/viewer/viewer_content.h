@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -9,6 +8,7 @@
 #include "app/viewer/render_command_text.h"
 #include "app/viewer/viewer.h"
 #include "engine/session/ground.h"
+#include "engine/session/picture/scene_marks.h"
 #include "engine/session/scene_setup.h"
 
 namespace reljef::app {
@@ -26,7 +26,6 @@ ShownState shown_state(const Viewer& viewer, const session::TerrainScene& scene,
 /// A point of the scene.
 PlaceContent place_of(const session::TerrainScene& scene, const session::PickedPlace& picked);
 
-/// The colours of the heights, upwards; empty if the scene shows none: images or models cover them.
-std::vector<LegendStop> legend_of(const session::TerrainScene& scene);
+using session::legend_of;
 
 } // namespace reljef::app

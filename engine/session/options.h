@@ -128,6 +128,8 @@ struct SceneOptions {
     /// TerrainNode::grain; absent: the scene file's, else default_grain, or none on one colour.
     std::optional<double> grain;
     double default_grain = 0.0;
+    /// Of the pictures that `reljef render` writes; absent: the scene file's, else none.
+    std::optional<io::MarksDescription> marks;
     std::optional<double> contours; ///< TerrainNode::contours; absent: the scene file's, else none
     std::vector<io::ObjectDescription> objects;          ///< besides the scene file's
     std::vector<io::FootprintsDescription> footprints;   ///< besides the scene file's

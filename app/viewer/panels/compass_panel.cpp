@@ -11,7 +11,6 @@
 namespace reljef::app {
 namespace {
 
-constexpr double largest_step = 5.0;
 constexpr float rose_radius = 23.0F; // units of text
 constexpr float max_bar = 128.0F;
 
@@ -57,16 +56,6 @@ void draw_bar(const ScaleBar& bar) {
 }
 
 } // namespace
-
-ScaleBar scale_bar(double metres_per_pixel, double max_pixels) {
-    const double longest = metres_per_pixel * max_pixels;
-    const double power = std::pow(10.0, std::floor(std::log10(longest)));
-    double metres = power;
-    for (const double step : {2.0, largest_step}) {
-        metres = step * power <= longest ? step * power : metres;
-    }
-    return {metres, metres / metres_per_pixel};
-}
 
 void draw_compass(const PanelContent& content, const Area& area, const Fonts& fonts) {
     const Card card("compass", area);

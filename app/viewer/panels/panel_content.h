@@ -13,6 +13,7 @@
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/view/frame_stats.h"
+#include "engine/view/picture/picture_marks.h"
 
 namespace reljef::app {
 
@@ -70,10 +71,7 @@ struct AppearanceContent {
     bool follows_ground = false;
 };
 
-struct LegendStop {
-    double height = 0.0; ///< true metres
-    Rgba8 color;
-};
+using view::LegendStop;
 
 /// What the right part of the window shows.
 enum class CompareWith { nothing, truth, errors, technique };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/core/atomic_file.h"
 #include "engine/io/formats/toml_reader.h"
@@ -297,6 +298,26 @@ void read_sun_keys(TomlTable& table, SceneDescription& scene) {
     scene.sun_time = *time;
 }
 
+void read_picture_keys(TomlTable& table, SceneDescription& scene) {
+    constexpr std::array counts{1, 2, 4, 8, 16};
+    constexpr NumberRange range{1.0, 16.0, false};
+    int samples = counts.front();
+    table.read("samples", samples, range);
+    if (std::find(counts.begin(), counts.end(), samples) == counts.end()) {
+        table.fail("samples",
+                   fmt::format("is {}, one of {} was expected", samples, fmt::join(counts, ", ")));
+    } else if (table.has("samples")) {
+        scene.samples = samples;
+    }
+    std::string words;
+    table.read("marks", words);
+    const auto marks = marks_from_text(words);
+    if (!words.empty() && !marks) {
+        table.fail("marks", fmt::format("is \"{}\", {} was expected", words, expected_marks));
+    }
+    scene.marks = marks.value_or(MarksDescription());
+}
+
 // [[KEY]], each by `read`.
 template <class Read>
 Result<void> read_each(TomlTable& root, std::string_view key, std::size_t max, const Read& read) {
@@ -330,6 +351,29 @@ Result<void> read_arrays(TomlTable& root, const std::filesystem::path& folder,
 }
 
 } // namespace
+
+std::optional<MarksDescription> marks_from_text(std::string_view text) {
+    MarksDescription marks;
+    if (text == "none") {
+        return marks;
+    }
+    while (true) {
+        const std::string_view word = text.substr(0, text.find(','));
+        if (word == "legend") {
+            marks.legend = true;
+        } else if (word == "scale") {
+            marks.scale = true;
+        } else if (word == "north") {
+            marks.north = true;
+        } else {
+            return std::nullopt;
+        }
+        if (word.size() == text.size()) {
+            return marks;
+        }
+        text.remove_prefix(word.size() + 1);
+    }
+}
 
 std::optional<Rgba8> color_from_hex(std::string_view text) {
     std::uint32_t bits = 0;
@@ -370,6 +414,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     TomlTable detail = root.table("detail");
     TomlTable sun = root.table("sun");
     TomlTable air = root.table("air");
+    TomlTable picture = root.table("picture");
     TomlTable camera = root.table("camera");
     read_terrain_keys(terrain, folder, scene);
     read_area_keys(area, scene);
@@ -384,6 +429,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
     if (air.has("sky_turn") && !air.has("sky")) {
         air.fail("sky_turn", "stands alone, sky was expected, too");
     }
+    read_picture_keys(picture, scene);
     read_camera_keys(camera, scene);
     if (auto good = read_arrays(root, folder, scene); !good) {
         return good.error();
@@ -392,7 +438,7 @@ Result<SceneDescription> parse_scene(std::string_view text, const std::string& n
         return good.error();
     }
     for (const TomlTable* table :
-         {&root, &terrain, &area, &gallery, &detail, &sun, &air, &camera}) {
+         {&root, &terrain, &area, &gallery, &detail, &sun, &air, &picture, &camera}) {
         if (auto good = table->finish(); !good) {
             return good.error();
         }

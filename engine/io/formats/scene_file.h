@@ -83,6 +83,19 @@ std::string to_hex(Rgba8 color);
 /// Metres; by default to where the light would be 1 % of white.
 double range_of(const PointLightDescription& light);
 
+/// [picture] marks: what explains a picture, drawn over it.
+struct MarksDescription {
+    bool legend = false; ///< of the colours by height
+    bool scale = false;  ///< a bar of a round length
+    bool north = false;  ///< an arrow
+
+    friend bool operator==(const MarksDescription&, const MarksDescription&) = default;
+};
+/// "legend,scale,north" or some of these, or "none"; empty: it is neither.
+std::optional<MarksDescription> marks_from_text(std::string_view text);
+inline constexpr const char* expected_marks =
+    "some of legend, scale, north as legend,scale, or none";
+
 /// [[footprints]]: buildings on outlines. Either `height` or `surface` is given.
 struct FootprintsDescription {
     std::filesystem::path file; ///< vector file (engine/io/footprints); relative to the scene file
@@ -94,7 +107,7 @@ struct FootprintsDescription {
 inline constexpr std::size_t max_footprint_files = 100;
 
 /// Content of a scene file (TOML). Only the source of the heights is required.
-/// terrains/natural.toml, urban.toml and gallery.toml show every key.
+/// docs/scene_files.md lists the keys; each is in a file of the folder terrains.
 struct SceneDescription {
     std::string name;
 
@@ -149,6 +162,10 @@ struct SceneDescription {
     double eye_dome =
         0.0; ///< how much pixels behind their surroundings lose of their light, [0, 1]
     bool hides_sky = true; ///< whether terrain keeps the sky's light from itself
+
+    // [picture]
+    std::optional<int> samples; ///< per pixel: 1, 2, 4, 8 or 16; absent: the program's
+    MarksDescription marks;     ///< of pictures from `reljef render`
 
     // [camera]: scene metres; absent: all of the terrain is seen
     std::optional<glm::dvec3> eye;

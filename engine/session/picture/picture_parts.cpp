@@ -107,6 +107,9 @@ Result<AtomicFile> draw_large_picture(const LargePicture& picture, TerrainScene&
                 parallel.progress(++drawn_parts / parts);
             }
         }
+        if (picture.paint_over) {
+            picture.paint_over(rows.view(), {0, first_row});
+        }
         if (auto written = writer->write(rows); !written) {
             return written.error();
         }

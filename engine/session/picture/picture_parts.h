@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/atomic_file.h"
+#include "engine/core/color.h"
 #include "engine/core/parallel_for.h"
 #include "engine/core/result.h"
 #include "engine/session/frame_maker.h"
@@ -37,6 +38,8 @@ PictureParts parts_of(glm::ivec2 picture, int memory_megabytes);
 struct LargePicture {
     std::filesystem::path file; ///< .png, .tif
     PictureParts parts;
+    /// Draws over finished rows of the picture; absent: nothing. `first`: the pixel at rows(0, 0).
+    std::function<void(GridView<Rgba8> rows, glm::ivec2 first)> paint_over = {};
 };
 
 /// Draws the camera's view in parts, and writes each row of parts before the next one is drawn; the

@@ -6,38 +6,17 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
+#include "engine/view/picture/ink.h"
 #include "engine/view/picture/label_strokes.h"
 
 namespace reljef::view {
 namespace {
 
-constexpr glm::dvec3 ink{38.0, 31.0, 25.0}; // encoded
-constexpr glm::dvec3 paper{246.0, 243.0, 235.0};
-constexpr double paper_opacity = 0.8;
-// Half widths, in heights of a digit and in pixels.
-constexpr double pen = 0.068;
-constexpr double min_pen = 0.6;
-constexpr double border = 0.24;
-
-double pen_radius(double digit_height) {
-    return std::max(pen * digit_height, min_pen);
-}
-
 // Pixels from the text's middle to where its border ends, along it and across.
 glm::dvec2 reach(const TextStrokes& text, double digit_height) {
-    const double around = pen_radius(digit_height) + border * digit_height + 1.0;
+    const double around = pen_radius(digit_height) + border_width(digit_height) + 1.0;
     return 0.5 * digit_height * glm::dvec2(text.width, 1.0) + around;
-}
-
-double distance_to_segment(glm::dvec2 place, glm::dvec2 from, glm::dvec2 to) {
-    const glm::dvec2 along = to - from;
-    const double length_squared = glm::dot(along, along);
-    const double share = length_squared > 0.0
-                             ? std::clamp(glm::dot(place - from, along) / length_squared, 0.0, 1.0)
-                             : 0.0;
-    return glm::distance(place, from + share * along);
 }
 
 // All in heights of a digit. Infinite where no character is nearer than `max`.
@@ -54,18 +33,6 @@ double distance_to_text(const TextStrokes& text, glm::dvec2 place, double max) {
         }
     }
     return nearest;
-}
-
-// Share of a pixel that a line of half width `radius` covers.
-double coverage(double distance, double radius) {
-    return std::clamp(0.5 + radius - distance, 0.0, 1.0);
-}
-
-Rgba8 blended(Rgba8 color, glm::dvec3 over, double opacity) {
-    const auto channel = [opacity](std::uint8_t below, double above) {
-        return static_cast<std::uint8_t>(std::lround(glm::mix(double(below), above, opacity)));
-    };
-    return {channel(color.r, over.x), channel(color.g, over.y), channel(color.b, over.z), color.a};
 }
 
 } // namespace
@@ -87,7 +54,7 @@ void draw_label(const ContourLabel& label, double digit_height, GridView<Rgba8> 
     const glm::dvec2 half = reach(text, digit_height);
     const glm::dvec2 down(-label.along.y, label.along.x);
     const double radius = pen_radius(digit_height);
-    const double border_radius = radius + border * digit_height;
+    const double border_radius = radius + border_width(digit_height);
     for (int row = 0; row < part.rows(); ++row) {
         for (int col = 0; col < part.cols(); ++col) {
             const glm::dvec2 from_middle =
@@ -101,9 +68,9 @@ void draw_label(const ContourLabel& label, double digit_height, GridView<Rgba8> 
             const double distance =
                 digit_height * distance_to_text(text, place, (border_radius + 1.0) / digit_height);
             Rgba8& color = part(col, row);
-            color = blended(color, paper,
+            color = blended(color, paper_color,
                             paper_opacity * label.opacity * coverage(distance, border_radius));
-            color = blended(color, ink, label.opacity * coverage(distance, radius));
+            color = blended(color, ink_color, label.opacity * coverage(distance, radius));
         }
     }
 }

@@ -82,19 +82,48 @@ struct Character {
     double width = 0.0;
 };
 
+constexpr double x_height = 0.7; // of small letters
+
+Character small_m() {
+    constexpr glm::dvec2 radii(0.19, 0.24);
+    const auto arch = [&](double left) {
+        const Ellipse bow{{left + radii.x, x_height - radii.y}, radii};
+        return arc(bow, 180.0, 0.0) + Line{{left + 2.0 * radii.x, 0.0}};
+    };
+    constexpr double stem = 0.05;
+    return {{{{stem, x_height}, {stem, 0.0}}, arch(stem), arch(stem + 2.0 * radii.x)},
+            2.0 * stem + 4.0 * radii.x};
+}
+
 Character character_of(char letter) {
-    constexpr double minus_width = 0.42;
-    constexpr double point_width = 0.10;
-    if (letter >= '0' && letter <= '9') {
-        return {lines_of_digit(letter - '0'), digit_width};
+    switch (letter) {
+    case '-':
+        return {{{{0.02, 0.46}, {0.40, 0.46}}}, 0.42};
+    case '.':
+        return {{{{0.05, 0.0}, {0.05, 0.01}}}, 0.10};
+    case ' ':
+        return {{}, 0.16};
+    case 'N':
+        return {{{{0.05, 0.0}, {0.05, 1.0}, {0.57, 0.0}, {0.57, 1.0}}}, 0.62};
+    case 'a':
+        return {{arc({{0.26, 0.5 * x_height}, {0.21, 0.5 * x_height}}, 0.0, 360.0),
+                 {{0.47, x_height}, {0.47, 0.0}}},
+                0.52};
+    case 'k':
+        return {{{{0.05, 1.0}, {0.05, 0.0}},
+                 {{0.43, x_height}, {0.05, 0.28}},
+                 {{0.19, 0.42}, {0.46, 0.0}}},
+                0.50};
+    case 'm':
+        return small_m();
+    case 't':
+        return {{Line{{0.15, 0.95}, {0.15, 0.18}} + arc({{0.33, 0.18}, {0.18, 0.18}}, 180.0, 270.0),
+                 {{0.01, x_height}, {0.33, x_height}}},
+                0.36};
+    default:
+        return letter >= '0' && letter <= '9' ? Character{lines_of_digit(letter - '0'), digit_width}
+                                              : Character{};
     }
-    if (letter == '-') {
-        return {{{{0.02, 0.46}, {minus_width - 0.02, 0.46}}}, minus_width};
-    }
-    if (letter == '.') {
-        return {{{{0.05, 0.0}, {0.05, 0.01}}}, point_width};
-    }
-    return {};
 }
 
 } // namespace
@@ -104,7 +133,7 @@ TextStrokes text_strokes(std::string_view text) {
     double x = 0.0;
     for (const char letter : text) {
         Character character = character_of(letter);
-        if (character.lines.empty()) {
+        if (character.width <= 0.0) {
             continue;
         }
         for (Line& line : character.lines) {

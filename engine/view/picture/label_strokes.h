@@ -20,7 +20,8 @@ struct TextStrokes {
     double width = 0.0;
 };
 
-/// Of digits, minus and point; other characters are left out.
+/// Of digits, minus, point, space, and the letters of "N", "m", "km" and "at"; other characters are
+/// left out.
 TextStrokes text_strokes(std::string_view text);
 
 } // namespace reljef::view

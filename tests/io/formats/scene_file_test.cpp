@@ -186,7 +186,7 @@ TEST(SceneFile, UnknownKeysAreRefusedWithTheKnownOnes) {
         HasSubstr("scene.toml:3: [terrain] siez is unknown, one of heights, generator, size"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sea]\nlevel = 1\n"),
                 HasSubstr("sea is unknown, one of name, terrain, area, gallery, detail, sun, air, "
-                          "camera"));
+                          "picture, camera"));
     EXPECT_THAT(error_of("[terrain]\ngenerator = \"urban\"\n[sun]\nheight = 3\n"),
                 HasSubstr("[sun] height is unknown, one of azimuth, altitude"));
 }

@@ -31,7 +31,21 @@ TEST(LabelStrokes, CharactersStandSideBySide) {
     }
     EXPECT_EQ(text.width, end);
     EXPECT_EQ(text_strokes("").width, 0.0);
-    EXPECT_EQ(text_strokes("m").characters.size(), 0U);
+    EXPECT_EQ(text_strokes("x?").characters.size(), 0U);
+}
+
+TEST(LabelStrokes, LettersAreNoHigherThanDigits) {
+    const TextStrokes text = text_strokes("20 km at N");
+    ASSERT_EQ(text.characters.size(), 10U);
+    for (const CharacterStrokes& character : text.characters) {
+        for (const auto& line : character.lines) {
+            for (const glm::dvec2 point : line) {
+                EXPECT_GE(point.x, character.begin - 1e-9);
+                EXPECT_LE(point.x, character.end + 1e-9);
+                EXPECT_LE(std::abs(point.y), 0.5 + 1e-9);
+            }
+        }
+    }
 }
 
 // A digit upside down is another one, or itself.
