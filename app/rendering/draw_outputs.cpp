@@ -1,6 +1,8 @@
 #include "app/rendering/draw_outputs.h"
 
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -70,14 +72,27 @@ Result<Image> compared_frame(const Rendering& run, const Image& frame) {
     return std::move(compared->picture);
 }
 
+// Tells each note once in all frames.
+class FirstNotes {
+public:
+    explicit FirstNotes(session::Log& log) : log_(log) {}
+    void note(const std::string& sentence) {
+        if (told_.insert(sentence).second) {
+            log_.note(sentence);
+        }
+    }
+
+private:
+    session::Log& log_;
+    std::set<std::string> told_;
+};
+
 // Of the view that the scene's camera has.
-view::PictureMarks marks_of(const Rendering& run, bool tells_notes) {
+view::PictureMarks marks_of(const Rendering& run, FirstNotes& notes) {
     const auto chosen = run.choice.view.marks.value_or(io::MarksDescription());
     auto found = session::marks_of(run.scene, chosen, run.choice.view.size);
     for (const std::string& note : found.notes) {
-        if (tells_notes) {
-            run.log.note(note);
-        }
+        notes.note(note);
     }
     return std::move(found.marks);
 }
@@ -89,14 +104,14 @@ void draw_marks(const view::PictureMarks& marks, GridView<Rgba8> picture) {
 }
 
 // One frame, divided by --compare, with its marks. `progress` gets the part of it that is drawn.
-Result<Image> draw_frame(const Rendering& run, bool is_first,
+Result<Image> draw_frame(const Rendering& run, FirstNotes& notes,
                          const std::function<void(double)>& progress) {
     auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
     if (picture && run.choice.compare.request && !run.interrupt.requested()) {
         picture = compared_frame(run, *picture);
     }
     if (picture) {
-        draw_marks(marks_of(run, is_first), picture->view());
+        draw_marks(marks_of(run, notes), picture->view());
     }
     return run.interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
 }
@@ -117,6 +132,7 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     cli::LiftedFrames lifted;
+    FirstNotes notes(run.log);
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     const std::vector<int> own = frames_of(choice.shard, frames);
     int drawn = 0;
@@ -129,7 +145,7 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
         if (path) {
             lifted.add(fly(run, *path, index, frames));
         }
-        auto picture = draw_frame(run, drawn == 0, [&](double part) {
+        auto picture = draw_frame(run, notes, [&](double part) {
             line.update((static_cast<double>(i) + part) / static_cast<double>(own.size()));
         });
         if (!picture) {
@@ -154,7 +170,8 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
 Result<void> draw_large(const Rendering& run, std::vector<AtomicFile>& outputs) {
     cli::ProgressLine line("drawing", run.choice.terrain.quiet);
     session::LargePicture picture{run.choice.output, parts_of(run.choice)};
-    if (const auto marks = marks_of(run, true); !marks.empty()) {
+    FirstNotes notes(run.log);
+    if (const auto marks = marks_of(run, notes); !marks.empty()) {
         picture.paint_over = [marks, size = run.choice.view.size](GridView<Rgba8> rows,
                                                                   glm::ivec2 first) {
             view::draw_marks(marks, size, rows, first);

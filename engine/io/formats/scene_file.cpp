@@ -312,7 +312,7 @@ void read_picture_keys(TomlTable& table, SceneDescription& scene) {
     std::string words;
     table.read("marks", words);
     const auto marks = marks_from_text(words);
-    if (!words.empty() && !marks) {
+    if (table.has("marks") && !marks) {
         table.fail("marks", fmt::format("is \"{}\", {} was expected", words, expected_marks));
     }
     scene.marks = marks.value_or(MarksDescription());
