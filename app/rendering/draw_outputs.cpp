@@ -77,14 +77,14 @@ class FirstNotes {
 public:
     explicit FirstNotes(session::Log& log) : log_(log) {}
     void note(const std::string& sentence) {
-        if (told_.insert(sentence).second) {
+        if (seen_.insert(sentence).second) {
             log_.note(sentence);
         }
     }
 
 private:
     session::Log& log_;
-    std::set<std::string> told_;
+    std::set<std::string> seen_;
 };
 
 // Of the view that the scene's camera has.

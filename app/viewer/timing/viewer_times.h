@@ -17,7 +17,7 @@ struct OpenWork {
     bool is_loading = false;   ///< waits for tiles
     bool has_actions = false;  ///< of controls, which take effect before the next frame
     bool is_stale = false;     ///< the panels have events that no frame shows
-    bool is_reduced = false;   ///< the last picture has fewer pixels or samples than are asked for
+    bool is_reduced = false;   ///< the last picture has fewer pixels or samples than requested
 };
 
 /// A frame that the window has shown.
