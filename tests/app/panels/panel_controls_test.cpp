@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "app/viewer/panels/toolkit/panel_layout.h"
 #include "app/viewer/panels/panels.h"
+#include "app/viewer/panels/toolkit/panel_layout.h"
 #include "engine/geo/sun_position.h"
 #include "engine/terrain/field/color_ramp.h"
 
