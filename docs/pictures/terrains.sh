@@ -24,7 +24,7 @@ draw kauai "$nature/srtm3/N22W160v2.3a.hgt.zip" --camera 22.32,-159.62,2600,165,
 draw mont-blanc "$nature/srtm3/N45E006.hgt" --camera 45.74,6.78,3600,50,-5 --sun 250,14
 draw normandy "$nature/srtm3/N49E001.hgt" --camera 49.93,1.25,700,215,-10 --exaggeration 3 --sun 300,12
 draw natural natural --pose low
-draw map "$nature/srtm3/N45E006.hgt" --projection orthographic --eye 20000,10000,9000 --look 20000,10000,0 --ramp swiss --sun 315,30 --contours 100
+draw map "$nature/srtm3/N45E006.hgt" --projection orthographic --eye 20000,10000,9000 --look 20000,10000,0 --ramp swiss --sun 315,30 --contours 100 --marks legend,scale,north
 draw clay "$nature/srtm3/N45E006.hgt" --ramp clay --base solid --sun 300,18
 draw urban urban --eye=-180,-200,60 --look 0,0,0 --technique exact:shadow=hard --sun 250,35
 draw delft "$cities/delft/tud-dsm-5m.tif" --camera 51.9935,4.363,140,25,-10 --ramp clay --sun 245,18
