@@ -230,7 +230,11 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
         return opened.error();
     }
     const Renderers renderers{*renderer, [&] { return make_renderer(choice, window, rays); }};
-    return *opened ? fly(window, renderers, **opened, choice, log, interrupt) : Result<void>();
+    if (!*opened) {
+        print_times(choice, {});
+        return {};
+    }
+    return fly(window, renderers, **opened, choice, log, interrupt);
 }
 
 // The error stands on stderr at once, and in the window until the user closes it. Returns what is

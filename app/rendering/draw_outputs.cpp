@@ -1,7 +1,7 @@
 #include "app/rendering/draw_outputs.h"
 
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -72,27 +72,28 @@ Result<Image> compared_frame(const Rendering& run, const Image& frame) {
     return std::move(compared->picture);
 }
 
-// Tells each note once in all frames.
-class FirstNotes {
+// Notes on pictures, each once, with the number of the pictures if it is not true of all.
+class PictureNotes {
 public:
-    explicit FirstNotes(session::Log& log) : log_(log) {}
-    void note(const std::string& sentence) {
-        if (seen_.insert(sentence).second) {
-            log_.note(sentence);
+    void add(const std::string& sentence) { ++pictures_[sentence]; }
+    void pass_to(session::Log& log, int pictures) const {
+        for (const auto& [sentence, count] : pictures_) {
+            log.note(count == pictures
+                         ? sentence
+                         : fmt::format("{} ({} of {} pictures)", sentence, count, pictures));
         }
     }
 
 private:
-    session::Log& log_;
-    std::set<std::string> seen_;
+    std::map<std::string, int> pictures_;
 };
 
 // Of the view that the scene's camera has.
-view::PictureMarks marks_of(const Rendering& run, FirstNotes& notes) {
+view::PictureMarks marks_of(const Rendering& run, PictureNotes& notes) {
     const auto chosen = run.choice.view.marks.value_or(io::MarksDescription());
     auto found = session::marks_of(run.scene, chosen, run.choice.view.size);
     for (const std::string& note : found.notes) {
-        notes.note(note);
+        notes.add(note);
     }
     return std::move(found.marks);
 }
@@ -104,7 +105,7 @@ void draw_marks(const view::PictureMarks& marks, GridView<Rgba8> picture) {
 }
 
 // One frame, divided by --compare, with its marks. `progress` gets the part of it that is drawn.
-Result<Image> draw_frame(const Rendering& run, FirstNotes& notes,
+Result<Image> draw_frame(const Rendering& run, PictureNotes& notes,
                          const std::function<void(double)>& progress) {
     auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
     if (picture && run.choice.compare.request && !run.interrupt.requested()) {
@@ -132,7 +133,7 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
     }
     SheetPictures sheet(!choice.contact_sheet.empty(), frames);
     cli::LiftedFrames lifted;
-    FirstNotes notes(run.log);
+    PictureNotes notes;
     cli::ProgressLine line("drawing", choice.terrain.quiet);
     const std::vector<int> own = frames_of(choice.shard, frames);
     int drawn = 0;
@@ -161,6 +162,7 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
     if (auto finished = (*sink)->finish(outputs); !finished) {
         return finished.error();
     }
+    notes.pass_to(run.log, drawn);
     print_stats(run, drawn);
     const auto prepared = sheet.prepare(choice.contact_sheet, outputs);
     return prepared ? Result<cli::LiftedFrames>(lifted) : prepared.error();
@@ -170,8 +172,10 @@ Result<cli::LiftedFrames> draw_frames(const Rendering& run,
 Result<void> draw_large(const Rendering& run, std::vector<AtomicFile>& outputs) {
     cli::ProgressLine line("drawing", run.choice.terrain.quiet);
     session::LargePicture picture{run.choice.output, parts_of(run.choice)};
-    FirstNotes notes(run.log);
-    if (const auto marks = marks_of(run, notes); !marks.empty()) {
+    PictureNotes notes;
+    const auto marks = marks_of(run, notes);
+    notes.pass_to(run.log, 1);
+    if (!marks.empty()) {
         picture.paint_over = [marks, size = run.choice.view.size](GridView<Rgba8> rows,
                                                                   glm::ivec2 first) {
             view::draw_marks(marks, size, rows, first);

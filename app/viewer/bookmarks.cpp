@@ -1,10 +1,14 @@
 #include "app/viewer/bookmarks.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <string_view>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 
 #include "engine/core/atomic_file.h"
 
@@ -76,6 +80,16 @@ std::string terrain_key(const std::string& terrain) {
     return without_separators(failed ? terrain : whole.string());
 }
 
+// Other windows wait until this one has changed the file: it is read and written anew.
+Result<Descriptor> lock_of(const fs::path& folder) {
+    Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!opened || ::flock(opened.number(), LOCK_EX) != 0) {
+        return Error{fmt::format("{}: the folder cannot be locked: {}", folder.string(),
+                                 std::strerror(errno))};
+    }
+    return opened;
+}
+
 std::optional<fs::path> absolute_path_in(const char* variable) {
     const char* const value = std::getenv(variable);
     return value != nullptr && fs::path(value).is_absolute() ? std::optional(fs::path(value))
@@ -104,23 +118,26 @@ Result<BookmarkContent> Bookmarks::of(const std::string& terrain) const {
         }
     }
     if (damaged > 0) {
-        list.note = fmt::format("{}: {} lines are no bookmarks, the first is line {}; they are "
-                                "kept, the others are used",
-                                file_.string(), damaged, first_damaged);
+        list.note =
+            fmt::format("{}: {} found that {} no bookmark, the first is line {}; other lines "
+                        "are used, and all are kept",
+                        file_.string(), damaged == 1 ? "a line" : fmt::format("{} lines", damaged),
+                        damaged == 1 ? "is" : "are", first_damaged);
     }
     return list;
 }
 
 Result<void> Bookmarks::add(Bookmark bookmark) const {
-    auto text = text_of(file_);
-    if (!text) {
-        return text.error();
-    }
     std::error_code failed;
     fs::create_directories(file_.parent_path(), failed);
     if (failed) {
         return Error{fmt::format("{}: the folder cannot be made: {}", file_.parent_path().string(),
                                  failed.message())};
+    }
+    const auto lock = lock_of(file_.parent_path());
+    auto text = lock ? text_of(file_) : lock.error();
+    if (!text) {
+        return text.error();
     }
     if (text->empty()) {
         *text = heading;
@@ -146,7 +163,8 @@ Result<void> Bookmarks::rename(const Bookmark& bookmark, const std::string& name
 
 Result<void> Bookmarks::replace(const Bookmark& bookmark,
                                 const std::optional<Bookmark>& other) const {
-    const auto text = text_of(file_);
+    const auto lock = lock_of(file_.parent_path());
+    const auto text = lock ? text_of(file_) : lock.error();
     if (!text) {
         return text.error();
     }

@@ -363,8 +363,14 @@ void Viewer::toggle_mouse_look() {
 }
 
 void Viewer::leave() {
+    const bool makes_viewshed = !measuring_.progress().label.empty();
     if (mouse_look_) {
         toggle_mouse_look();
+    } else if (desk_.is_recording()) {
+        toggle_recording();
+    } else if (makes_viewshed && !leaves_viewshed_) {
+        notes_.note("a viewshed is being made: Esc again closes the window without it");
+        leaves_viewshed_ = true;
     } else {
         close_ = true;
     }

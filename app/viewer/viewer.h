@@ -294,6 +294,7 @@ private:
     bool command_ = false;
     bool help_ = false;
     bool close_ = false;
+    bool leaves_viewshed_ = false; // the user was asked
 };
 
 /// The first name STEM-0001, STEM-0002, … in `folder` that is free with each of the extensions.

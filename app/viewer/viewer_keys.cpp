@@ -72,7 +72,8 @@ std::span<const Viewer::Binding> Viewer::bindings() {
          {Key::z, Key::unknown, &Viewer::ask_for_command, "Z",
           "copy the command that renders this view"},
          {Key::h, Key::f1, &Viewer::ask_for_help, "H, F1", "show the keys, or hide them"},
-         {Key::escape, Key::unknown, &Viewer::leave, "Esc", "release the mouse, or quit"}}};
+         {Key::escape, Key::unknown, &Viewer::leave, "Esc",
+          "release the mouse, end and save a recording, or quit"}}};
     return all;
 }
 

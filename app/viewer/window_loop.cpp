@@ -351,7 +351,7 @@ private:
         if (panels_ != nullptr && panels_->has_room(window_.framebuffer_size())) {
             panels_->toggle_help();
         } else {
-            fmt::print("{}", Viewer::keys());
+            messages_.report(Viewer::keys());
         }
     }
 

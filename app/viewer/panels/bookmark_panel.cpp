@@ -32,12 +32,12 @@ template <class Name> void set_name(Name& name, std::string_view text) {
     std::copy_n(text.begin(), size, name.begin());
 }
 
-// Over the last item. Not as its label, where ## would begin an identifier.
-void write_name(std::string_view name) {
+// Over the last item, which began at `corner`. Not as its label, where ## would begin an
+// identifier.
+void write_name(const ImVec2& corner, std::string_view name) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.PushClipRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), true);
-    list.AddText(ImGui::GetItemRectMin(), ImGui::GetColorU32(ImGuiCol_Text), name.data(),
-                 name.data() + name.size());
+    list.PushClipRect(corner, ImGui::GetItemRectMax(), true);
+    list.AddText(corner, ImGui::GetColorU32(ImGuiCol_Text), name.data(), name.data() + name.size());
     list.PopClipRect();
 }
 
@@ -100,10 +100,11 @@ PanelActions BookmarkPanel::draw_row(std::size_t row, const Bookmark& bookmark) 
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float buttons = width_of_button(rename_label) + width_of_button(delete_label) + gap;
     const float width = std::max(ImGui::GetContentRegionAvail().x - buttons - gap, 1.0F);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Selectable("##go", false, 0, {width, 0.0F})) {
         actions.emplace_back(GoToBookmark{bookmark});
     }
-    write_name(bookmark.name);
+    write_name(corner, bookmark.name);
     tip("Fly there: " + bookmark.name + ", " + bookmark.camera);
     ImGui::SameLine();
     if (ImGui::SmallButton(rename_label)) {

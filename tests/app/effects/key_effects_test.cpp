@@ -361,6 +361,11 @@ void check_end(KeyedViewer& keyed) {
     keyed.press(Key::m);
     keyed.press(Key::escape);
     EXPECT_FALSE(keyed.viewer.wants_mouse() || keyed.viewer.wants_to_close());
+    keyed.press(Key::k);
+    EXPECT_GT(keyed.way_of(Key::d).x, 0.0);
+    keyed.press(Key::escape);
+    EXPECT_FALSE(keyed.viewer.path_desk().is_recording() || keyed.viewer.wants_to_close());
+    EXPECT_TRUE(KeyedViewer::has_file("reljef-path-0001.toml"));
     keyed.press(Key::escape);
     EXPECT_TRUE(keyed.viewer.wants_to_close());
 }

@@ -3,11 +3,14 @@
 #include <array>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <thread>
 
 #include <glm/geometric.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/cli/message.h"
 #include "app/viewer/camera_text.h"
 #include "engine/scene/motion/camera_gestures.h"
 #include "tests/app/made_hill.h"
@@ -87,7 +90,7 @@ TEST(Bookmarks, DamagedLinesAreKeptAndNamed) {
     const auto found = marks.of("alps.tif");
     ASSERT_TRUE(found);
     EXPECT_THAT(found->bookmarks, testing::ElementsAre(ridge));
-    EXPECT_THAT(found->note, HasSubstr("4 lines are no bookmarks, the first is line 4"));
+    EXPECT_THAT(found->note, HasSubstr("4 lines found that are no bookmark, the first is line 4"));
     ASSERT_TRUE(marks.add(lake));
     EXPECT_THAT(content_of(marks.file()), testing::StartsWith(damaged + "no end\n"));
     EXPECT_THAT(marks.of("alps.tif")->bookmarks, testing::ElementsAre(ridge, lake));
@@ -124,6 +127,35 @@ TEST(CameraText, PlacesBeyondTheWorldAreNoCameras) {
                                    "--camera 0,0,1e300,0,0", "--camera 0,0,0,0,91"}) {
         EXPECT_FALSE(camera_from_text(surface, text, {})) << text;
     }
+}
+
+// Two windows at a time: each has read the file that the other one changes.
+TEST(Bookmarks, OfTwoWindowsAreAllKept) {
+    const test::TemporaryFolder folder;
+    constexpr int count = 25;
+    const auto add_all = [&](const std::string& name) {
+        const Bookmarks bookmarks(folder.path() / "marks.txt");
+        for (int i = 0; i < count; ++i) {
+            const auto added = bookmarks.add({"alps.tif", name + std::to_string(i), ridge.camera});
+            EXPECT_TRUE(added) << added.error().message;
+        }
+    };
+    std::thread second(add_all, "b");
+    add_all("a");
+    second.join();
+    const auto all = Bookmarks(folder.path() / "marks.txt").of("alps.tif");
+    ASSERT_TRUE(all) << all.error().message;
+    EXPECT_EQ(all->bookmarks.size(), 2U * count);
+}
+
+TEST(Printable, EscapesWhatSteersATerminalOrIsNoUtf8) {
+    EXPECT_EQ(cli::printable("Mont Blanc, Žabljak, 岩, 🏔"), "Mont Blanc, Žabljak, 岩, 🏔");
+    EXPECT_EQ(cli::printable("a\x1b[31m\x7f\n"), "a\\x1b[31m\\x7f\\x0a");
+    EXPECT_EQ(cli::printable("\x9b"
+                             "31m\xc2\x9b"
+                             "31m"),
+              "\\x9b31m\\x9b31m");
+    EXPECT_EQ(cli::printable("\xe5\xb2|\xff|\xc3"), "\\xe5\\xb2|\\xff|\\xc3");
 }
 
 TEST(CameraText, OtherTextIsNoCamera) {
