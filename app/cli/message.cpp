@@ -1,6 +1,7 @@
 #include "app/cli/message.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -17,11 +18,11 @@ namespace {
 // Bytes of the character that begins the text in UTF-8; 0: none does.
 std::size_t character_size(std::string_view text) {
     const auto first = static_cast<unsigned char>(text.front());
-    const std::size_t size = first < 0x80U                     ? 1
-                             : first >= 0xC2U && first < 0xE0U ? 2
-                             : first >= 0xE0U && first < 0xF0U ? 3
-                             : first >= 0xF0U && first < 0xF5U ? 4
-                                                               : 0;
+    if (first < 0x80U) {
+        return 1;
+    }
+    const bool is_first = first >= 0xC2U && first < 0xF5U;
+    const std::size_t size = is_first ? static_cast<std::size_t>(std::countl_one(first)) : 0;
     const std::string_view rest = text.substr(1, size > 0 ? size - 1 : 0);
     const bool is_whole =
         rest.size() + 1 == size && std::all_of(rest.begin(), rest.end(), [](char c) {

@@ -80,6 +80,16 @@ std::string terrain_key(const std::string& terrain) {
     return without_separators(failed ? terrain : whole.string());
 }
 
+std::string note_on(const fs::path& file, int damaged_lines, int first) {
+    const std::string lines = damaged_lines == 1
+                                  ? "a line found that is"
+                                  : fmt::format("{} lines found that are", damaged_lines);
+    return fmt::format(
+        "{}: {} no bookmark, the first is line {}; other lines are used, and all are "
+        "kept",
+        file.string(), lines, first);
+}
+
 // Other windows wait until this one has changed the file: it is read and written anew.
 Result<Descriptor> lock_of(const fs::path& folder) {
     Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -118,11 +128,7 @@ Result<BookmarkContent> Bookmarks::of(const std::string& terrain) const {
         }
     }
     if (damaged > 0) {
-        list.note =
-            fmt::format("{}: {} found that {} no bookmark, the first is line {}; other lines "
-                        "are used, and all are kept",
-                        file_.string(), damaged == 1 ? "a line" : fmt::format("{} lines", damaged),
-                        damaged == 1 ? "is" : "are", first_damaged);
+        list.note = note_on(file_, damaged, first_damaged);
     }
     return list;
 }

@@ -90,17 +90,28 @@ bool SurfaceSwitch::has_ground(const Shape& shape) const {
     return shape.finer == nullptr && shape.factor == surface().placement().exaggeration();
 }
 
+scene::TerrainNode SurfaceSwitch::kept_for(const Shape& shape) const {
+    scene::TerrainNode node = *scene_.terrain->get<scene::TerrainNode>();
+    if (!has_ground(shape)) {
+        node.bisection = nullptr;
+    }
+    if (shape.finer != nullptr) {
+        node.cones = nullptr;
+    }
+    return node;
+}
+
 void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
                           const scene::Light& light) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
+    const scene::TerrainNode kept = kept_for(shape);
     session::MissingMaps missing;
-    const bool keeps_ground = has_ground(shape);
-    missing.bisection = !keeps_ground && node.bisection != nullptr;
-    missing.cones = shape.finer != nullptr && node.cones != nullptr;
+    missing.bisection = kept.bisection != node.bisection;
+    missing.cones = kept.cones != node.cones;
     missing.light = session::light_request(scene_, light, technique, largest_side_);
     preparing_ = std::move(shape);
-    work_.emplace([shown = node, technique, rays = scene_.rays, missing = std::move(missing),
-                   shape = preparing_, keeps_ground, threads = threads_, source = scene_.source,
+    work_.emplace([shown = kept, technique, rays = scene_.rays, missing = std::move(missing),
+                   shape = preparing_, threads = threads_, source = scene_.source,
                    this](const std::stop_token& stop) -> Result<Made> {
         auto task = shape.finer != nullptr ? log_.start("refining " + shape.finer->name) : nullptr;
         auto changed = surface_of(*shown.surface, shape.finer,
@@ -120,8 +131,6 @@ void SurfaceSwitch::begin(Shape shape, const scene::Technique& technique,
         requested.surface = made.shown.surface;
         scene::TerrainNode changed_node = shown;
         changed_node.surface = made.shown.surface;
-        changed_node.bisection = keeps_ground ? shown.bisection : nullptr;
-        changed_node.cones = shape.finer != nullptr ? nullptr : shown.cones;
         const auto of_technique = session::missing_maps(changed_node, technique, rays);
         requested.bisection = requested.bisection || of_technique.bisection;
         requested.cones = requested.cones || of_technique.cones;

@@ -83,6 +83,8 @@ private:
     [[nodiscard]] bool is_working() const { return work_.has_value() || made_.has_value(); }
     // Whether the shown terrain has the same heights.
     [[nodiscard]] bool has_ground(const Shape& shape) const;
+    // The shown terrain with the maps that stay right.
+    [[nodiscard]] scene::TerrainNode kept_for(const Shape& shape) const;
     void begin(Shape shape, const scene::Technique& technique, const scene::Light& light);
     void end();
     [[nodiscard]] bool is_outdated() const;

@@ -77,6 +77,12 @@ PictureParts parts_of(glm::ivec2 picture, int memory_megabytes) {
     return {picture, {in_units(width, picture.x), rows}};
 }
 
+static void paint_over(const LargePicture& picture, Image& rows, int first_row) {
+    if (picture.paint_over) {
+        picture.paint_over(rows.view(), {0, first_row});
+    }
+}
+
 Result<AtomicFile> draw_large_picture(const LargePicture& picture, TerrainScene& scene,
                                       FrameMaker& maker, const ParallelOptions& parallel) {
     const auto [whole, part] = picture.parts;
@@ -107,9 +113,7 @@ Result<AtomicFile> draw_large_picture(const LargePicture& picture, TerrainScene&
                 parallel.progress(++drawn_parts / parts);
             }
         }
-        if (picture.paint_over) {
-            picture.paint_over(rows.view(), {0, first_row});
-        }
+        paint_over(picture, rows, first_row);
         if (auto written = writer->write(rows); !written) {
             return written.error();
         }
