@@ -132,8 +132,6 @@ TEST(ViewWindow, StatsTellThePicturePanelsAndClicks) {
         EXPECT_GT(json[row]["count"].get<int>(), 0) << row;
     }
     EXPECT_EQ(json["controls"]["max_frames"], 1) << "a click is answered by the next frame";
-    EXPECT_LT(json["panels_hidden"]["median_ms"].get<double>(),
-              json["panels_drawn"]["median_ms"].get<double>());
 }
 
 } // namespace
