@@ -86,7 +86,7 @@ std::vector<ResultsSource> other_sources() {
          "--markdown bench/results/distance.md",
          false},
         {"objects", "The same city as heights and as meshes, by distance, angle and size.",
-         "reljef-bench objects --rounds 5 --context osmesa --json bench/results/objects.json "
+         "reljef-bench objects --rounds 15 --context osmesa --json bench/results/objects.json "
          "--markdown bench/results/objects.md"},
         {"objects-delft", "The same for Delft, from a surface model of 5 m and its outlines.",
          city_command("delft")},
