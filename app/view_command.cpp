@@ -115,14 +115,17 @@ void print_times(const ViewerChoice& choice, const FrameTimer& timer) {
 // For work in the background after the window was closed.
 constexpr std::chrono::milliseconds longest_background{500};
 
-struct Renderers {
-    session::SceneRenderer& shown;
-    ComparedFrames::MakeRenderer make; ///< another one
+struct ShownBy {
+    platform::Window& window;
+    session::SceneRenderer& renderer;
+    ComparedFrames::MakeRenderer make_renderer; ///< another one
+    Panels* panels = nullptr;                   ///< null: none
 };
 
-Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedScene& opened,
-                 const ViewerChoice& choice, MessageHistory& log, const cli::Interrupt& interrupt) {
-    session::SceneRenderer& renderer = renderers.shown;
+Result<void> fly(const ShownBy& shown, OpenedScene& opened, const ViewerChoice& choice,
+                 MessageHistory& log, const cli::Interrupt& interrupt) {
+    platform::Window& window = shown.window;
+    session::SceneRenderer& renderer = shown.renderer;
     session::TerrainScene& scene = opened.scene;
     auto path =
         session::open_path(scene, choice.view.path.empty() ? "flyover" : choice.view.path, log);
@@ -154,20 +157,14 @@ Result<void> fly(platform::Window& window, const Renderers& renderers, OpenedSce
                                  choice.view.path));
         }
     }
-    auto panels = make_panels(choice, window);
-    if (!panels) {
-        log.note(panels.error().message);
-    } else if (!panels->note().empty()) {
-        log.note(panels->note());
-    }
     FrameTimer timer = make_timer(choice);
     auto done = run_window_loop(window, renderer, scene, viewer, log, interrupt.token(),
                                 {.frames = choice.frames_given ? choice.view.frames : 0,
                                  .samples = choice.view.samples,
                                  .open_video = open_video,
                                  .start = start_options(choice),
-                                 .make_renderer = renderers.make,
-                                 .panels = panels ? &*panels : nullptr,
+                                 .make_renderer = shown.make_renderer,
+                                 .panels = shown.panels,
                                  .timer = &timer,
                                  .finer = std::move(opened.finer)});
     print_times(choice, timer);
@@ -224,17 +221,24 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
     }
     cli::ConsoleLog console(choice.terrain.quiet);
     MessageHistory log(console, choice.prints_json ? stderr : stdout);
-    auto opened =
-        opening.finish(window, rays, renderer->max_texture_side(), log, interrupt.source());
+    opening.begin(rays, renderer->max_texture_side());
+    auto panels = make_panels(choice, window); // meanwhile
+    if (!panels) {
+        log.note(panels.error().message);
+    } else if (!panels->note().empty()) {
+        log.note(panels->note());
+    }
+    auto opened = opening.finish(window, log, interrupt.source());
     if (!opened) {
         return opened.error();
     }
-    const Renderers renderers{*renderer, [&] { return make_renderer(choice, window, rays); }};
     if (!*opened) {
         print_times(choice, {});
         return {};
     }
-    return fly(window, renderers, **opened, choice, log, interrupt);
+    return fly({window, *renderer, [&] { return make_renderer(choice, window, rays); },
+                panels ? &*panels : nullptr},
+               **opened, choice, log, interrupt);
 }
 
 // The error stands on stderr at once, and in the window until the user closes it. Returns what is

@@ -100,19 +100,18 @@ Opening::Opening(const session::SourceOptions& terrain, const session::SceneOpti
           return session::open_source(terrain_, view_, relayed_, stop);
       }) {}
 
-Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest_side,
-                                  const std::stop_token& stop) {
+Result<OpenedScene> Opening::open(int largest_side, const std::stop_token& stop) {
     const std::stop_callback stops_reading(stop, [this] { reading_.request_stop(); });
     auto source = reading_.take();
     if (!source) {
         return source.error();
     }
     std::shared_ptr<const terrain::Terrain> finer;
-    if (first_ == FirstSamples::few && can_begin_coarse(*source, view)) {
+    if (first_ == FirstSamples::few && can_begin_coarse(*source, view_)) {
         finer = std::make_shared<const terrain::Terrain>(std::move(source->terrain));
         source->terrain = terrain::coarse_terrain(*finer, first_samples);
     }
-    auto scene = session::open_scene(std::move(*source), terrain_, view, relayed_, stop);
+    auto scene = session::open_scene(std::move(*source), terrain_, view_, relayed_, stop);
     if (!scene) {
         return scene.error();
     }
@@ -127,13 +126,15 @@ Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest
     return opened;
 }
 
-Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, session::RayUse rays,
-                                                   int largest_side, session::Log& log,
+void Opening::begin(session::RayUse rays, int largest_side) {
+    view_.rays = rays;
+    opening_.emplace(
+        [this, largest_side](const std::stop_token& stop) { return open(largest_side, stop); });
+}
+
+Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, session::Log& log,
                                                    std::stop_source stop) {
-    session::SceneOptions view = view_;
-    view.rays = rays;
-    Background<OpenedScene> opening(
-        [&](const std::stop_token& stopped) { return open(view, largest_side, stopped); });
+    Background<OpenedScene>& opening = *opening_;
     ProgressDisplay display(window, log);
     while (!opening.is_done()) {
         if (asks_to_end(window.wait_events(opening_pause)) || window.should_close()) {

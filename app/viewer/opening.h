@@ -38,23 +38,24 @@ public:
     Opening(const session::SourceOptions& terrain, const session::SceneOptions& view,
             FirstSamples first = FirstSamples::few);
 
-    /// Opens the scene in the background while the window shows the progress. Empty if the user
-    /// closes the window, which requests the stop, or when stopped. Fails as session::open_scene.
-    /// Does not make the maps of the technique. `largest_side`: SceneRenderer::max_texture_side().
-    /// Call it once.
-    Result<std::optional<OpenedScene>> finish(platform::Window& window, session::RayUse rays,
-                                              int largest_side, session::Log& log,
+    /// Opens the scene in the background, without the maps of the technique. `largest_side`:
+    /// SceneRenderer::max_texture_side(). Call it once.
+    void begin(session::RayUse rays, int largest_side);
+    /// Waits while the window shows the progress. Empty if the user closes the window, which
+    /// requests the stop, or when stopped. Fails as session::open_scene. Precondition: begun. Call
+    /// it once.
+    Result<std::optional<OpenedScene>> finish(platform::Window& window, session::Log& log,
                                               std::stop_source stop);
 
 private:
-    Result<OpenedScene> open(const session::SceneOptions& view, int largest_side,
-                             const std::stop_token& stop);
+    Result<OpenedScene> open(int largest_side, const std::stop_token& stop);
 
     session::SourceOptions terrain_;
     session::SceneOptions view_;
     FirstSamples first_;
     session::RelayedLog relayed_;
-    Background<session::TerrainSource> reading_; // last: uses all others
+    Background<session::TerrainSource> reading_; // uses all others
+    std::optional<Background<OpenedScene>> opening_;
 };
 
 /// Shows in an open window why there is no scene, until the user closes it (Esc) or `stop`. Returns

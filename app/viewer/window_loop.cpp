@@ -395,7 +395,9 @@ private:
         timing_.divisor = quality.divisor;
         quality_.add_frame(timing_.last_ms);
         recent_ms_.add(timing_.last_ms);
-        draw_panels(size);
+        if (drawn_ > 0) {
+            draw_panels(size);
+        }
         window_.swap_buffers();
         timer_.show(open_work(), timing_.last_ms, watch.milliseconds());
         has_drawn_ = true;

@@ -191,8 +191,17 @@ void Framebuffer::blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glDisable(GL_FRAMEBUFFER_SRGB); // plain bytes, as above
     const glm::ivec2 high = low + size;
-    glBlitNamedFramebuffer(id(), 0, low.x, low.y, high.x, high.y, low.x, low.y, high.x, high.y,
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitNamedFramebuffer(id(), 0, low.x, low.y, high.x, high.y, low.x, size_.y - low.y, high.x,
+                           size_.y - high.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Framebuffer::turn_area_to(const Framebuffer& target, glm::ivec2 low, glm::ivec2 size) const {
+    check(size_ == target.size_ && samples_ == 1 && target.samples_ == 1,
+          "turned to another kind of framebuffer");
+    glDisable(GL_FRAMEBUFFER_SRGB); // plain bytes, as above
+    const glm::ivec2 high = low + size;
+    glBlitNamedFramebuffer(id(), target.id(), low.x, size_.y - low.y, high.x, size_.y - high.y,
+                           low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::resolve_to(const Framebuffer& target) const {

@@ -45,9 +45,13 @@ public:
     void clear_depth(float depth = 0.0F) const;
     /// Copies the encoded bytes onto the window's back buffer; scales when the sizes differ.
     void blit_to_window(glm::ivec2 window_size, FirstRow first = FirstRow::bottom) const;
-    /// The same of a rectangle, without scaling: its lower left corner and size, pixels of both.
+    /// The same of a rectangle of a picture whose first row is on top, to a window of its size:
+    /// upper left corner and size, pixels.
     void blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const;
-    /// Replaces the colours. Preconditions: rgba8 or rgba8_srgb, one sample, equal sizes.
+    /// Copies a rectangle to a picture of the same size upside down: its first row becomes the top.
+    /// Upper left corner and size, pixels. Precondition: one sample.
+    void turn_area_to(const Framebuffer& target, glm::ivec2 low, glm::ivec2 size) const;
+    /// Replaces the colours. Preconditions: 8 bits a colour, one sample, equal sizes.
     void upload(const Grid<Rgba8>& texels) { color_.upload(0, texels); }
 
     /// Copies the colour to `target`: the mean of a pixel's samples, in linear light for

@@ -21,6 +21,15 @@ GLint minification(Filter filter, int levels) {
                                         : GL_LINEAR_MIPMAP_LINEAR;
 }
 
+// GL has no sized format in that order. Mesa chooses it for texels that are given so.
+void allocate_in_order_of_windows(unsigned int texture, glm::ivec2 size) {
+    GLint bound = 0;
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, size.x, size.y, 0, GL_BGRA, GL_UNSIGNED_BYTE, nullptr);
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
+}
+
 } // namespace
 
 glm::ivec2 level_size(glm::ivec2 size, int level) {
@@ -63,6 +72,8 @@ FormatTraits traits(Format format) {
         return {"rgba8_srgb", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::rgba8:
         return {"rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4};
+    case Format::window8:
+        return {"window8", GL_RGBA, GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case Format::r32f:
         return {"r32f", GL_R32F, GL_RED, GL_FLOAT, 4};
     case Format::rg32f:
@@ -91,8 +102,13 @@ Result<Texture2D> Texture2D::create(const TextureOptions& options) {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);
     texture.id_ = UniqueId<delete_texture>(name);
-    glTextureStorage2D(name, texture.levels_, traits(options.format).internal, options.size.x,
-                       options.size.y);
+    if (options.format == Format::window8) {
+        check(texture.levels_ == 1, "a picture for windows has one level");
+        allocate_in_order_of_windows(name, options.size);
+    } else {
+        glTextureStorage2D(name, texture.levels_, traits(options.format).internal, options.size.x,
+                           options.size.y);
+    }
     if (ran_out_of_memory()) {
         return Error{fmt::format("GL texture of {} x {} {} texels: the driver has no memory for it",
                                  options.size.x, options.size.y, traits(options.format).name)};

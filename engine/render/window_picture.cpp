@@ -5,7 +5,8 @@ namespace reljef::render {
 Result<void> WindowPicture::show(const Image& picture, glm::ivec2 window_size) {
     const glm::ivec2 size(picture.cols(), picture.rows());
     if (target_.size() != size) {
-        auto made = gl::Framebuffer::create({.size = size, .depth = false});
+        auto made =
+            gl::Framebuffer::create({.size = size, .color = gl::Format::window8, .depth = false});
         if (!made) {
             return made.error();
         }

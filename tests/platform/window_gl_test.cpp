@@ -150,19 +150,48 @@ TEST_F(WindowGlTest, a_framebuffer_blitted_to_it_keeps_its_bytes) {
     window().swap_buffers();
 }
 
-TEST_F(WindowGlTest, a_picture_of_the_cpu_is_upright) {
-    auto framebuffer = gl::Framebuffer::create({.size = {320, 200}, .depth = false});
-    ASSERT_TRUE(framebuffer) << framebuffer.error().message;
-    Image picture(320, 200);
-    std::fill(picture.row(0).begin(), picture.row(0).end(), Rgba8{255, 0, 0, 255});
-    framebuffer->upload(picture);
-    framebuffer->blit_to_window({320, 200}, gl::FirstRow::top);
+Rgba8 shown_at(int x, int y) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    std::array<unsigned char, 4> pixel{};
-    glReadPixels(10, 199, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
-    EXPECT_EQ(pixel[0], 255);
-    glReadPixels(10, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
-    EXPECT_EQ(pixel[0], 0);
+    Rgba8 pixel{};
+    glReadPixels(x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, &pixel);
+    return pixel;
+}
+
+TEST_F(WindowGlTest, a_picture_of_the_cpu_is_upright_and_keeps_its_colours) {
+    for (const gl::Format format : {gl::Format::rgba8_srgb, gl::Format::window8}) {
+        auto framebuffer =
+            gl::Framebuffer::create({.size = {320, 200}, .color = format, .depth = false});
+        ASSERT_TRUE(framebuffer) << framebuffer.error().message;
+        Image picture(320, 200);
+        std::fill(picture.row(0).begin(), picture.row(0).end(), Rgba8{255, 20, 60, 255});
+        framebuffer->upload(picture);
+        framebuffer->blit_to_window({320, 200}, gl::FirstRow::top);
+        EXPECT_EQ(shown_at(10, 199), (Rgba8{255, 20, 60, 255}));
+        EXPECT_EQ(shown_at(10, 0), Rgba8{});
+        window().swap_buffers();
+    }
+}
+
+TEST_F(WindowGlTest, an_area_is_turned_and_shown_where_it_was_drawn) {
+    const auto drawn =
+        gl::Framebuffer::create({.size = {320, 200}, .color = gl::Format::rgba8, .depth = false});
+    const auto kept =
+        gl::Framebuffer::create({.size = {320, 200}, .color = gl::Format::window8, .depth = false});
+    ASSERT_TRUE(drawn && kept);
+    kept->clear_color({0.0F, 0.0F, 0.0F, 1.0F});
+    drawn->clear_color({1.0F, 0.0F, 0.0F, 1.0F});
+    drawn->turn_area_to(*kept, {100, 20}, {50, 30}); // from the upper left corner
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glClearColor(0.0F, 0.0F, 1.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    kept->blit_area_to_window({90, 10}, {50, 30});
+    constexpr Rgba8 red{255, 0, 0, 255};
+    constexpr Rgba8 blue{0, 0, 255, 255};
+    EXPECT_EQ(shown_at(100, 199 - 20), red);
+    EXPECT_EQ(shown_at(139, 199 - 39), red);
+    EXPECT_EQ(shown_at(95, 199 - 15), Rgba8{}); // kept, but not drawn
+    EXPECT_EQ(shown_at(140, 199 - 30), blue);   // not shown
+    EXPECT_EQ(shown_at(120, 199 - 40), blue);
     window().swap_buffers();
 }
 

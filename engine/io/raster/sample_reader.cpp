@@ -16,8 +16,7 @@ namespace {
 
 constexpr int max_taps = 4; // stored samples per side that are averaged into one
 // Stored values per read: of a whole raster (one thread) and of a window (many threads).
-constexpr int samples_of_raster = 1 << 21;
-constexpr int samples_of_window = 1 << 18;
+constexpr int samples_at_a_time = 1 << 18;
 
 /// A part of the result.
 using Tile = RasterOptions::Window;
@@ -277,7 +276,7 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
         samples.void_count += is_void ? 1 : 0;
     };
     if (auto read =
-            read_plan(dataset, plan, samples_of_raster, *decoder, name, options, messages, store);
+            read_plan(dataset, plan, samples_at_a_time, *decoder, name, options, messages, store);
         !read) {
         return read.error();
     }
@@ -304,7 +303,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
     Grid<double> heights(plan.grid.cols, plan.grid.rows);
     const auto store = [&](int col, int row, double height) { heights(col, row) = height; };
     if (auto read =
-            read_plan(dataset, plan, samples_of_window, *decoder, name, options, messages, store);
+            read_plan(dataset, plan, samples_at_a_time, *decoder, name, options, messages, store);
         !read) {
         return read.error();
     }

@@ -42,8 +42,8 @@ TEST(Opening, SetsNoTitleAgain) {
     session::SourceOptions terrain;
     terrain.terrain = "natural";
     Opening opening(terrain, session::SceneOptions{});
-    const auto opened =
-        opening.finish(window, session::RayUse::none, 4096, silent, std::stop_source());
+    opening.begin(session::RayUse::none, 4096);
+    const auto opened = opening.finish(window, silent, std::stop_source());
     ASSERT_TRUE(opened) << opened.error().message;
     ASSERT_TRUE(opened->has_value());
     ASSERT_FALSE(window.titles.empty());
@@ -67,8 +67,8 @@ TEST(Opening, BeginsWithFewerSamplesOfALargeFile) {
     for (const session::SceneOptions& view : {session::SceneOptions{}, over_a_place}) {
         TitledWindow window;
         Opening opening(terrain, view);
-        const auto opened =
-            opening.finish(window, session::RayUse::none, 4096, silent, std::stop_source());
+        opening.begin(session::RayUse::none, 4096);
+        const auto opened = opening.finish(window, silent, std::stop_source());
         ASSERT_TRUE(opened && opened->has_value());
         const auto& shown = *(*opened)->scene.terrain->get<scene::TerrainNode>()->surface;
         EXPECT_EQ((*opened)->finer != nullptr, !view.geodetic);
@@ -88,7 +88,8 @@ TEST(Opening, IsEmptyIfItIsStopped) {
     std::stop_source stop;
     stop.request_stop();
     session::Log silent;
-    const auto opened = opening.finish(window, session::RayUse::none, 4096, silent, stop);
+    opening.begin(session::RayUse::none, 4096);
+    const auto opened = opening.finish(window, silent, stop);
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_FALSE(*opened);
 }

@@ -18,6 +18,7 @@
 #include <imgui_internal.h> // the areas of windows
 
 #include "app/viewer/panels/toolkit/kept_picture.h"
+#include "app/viewer/panels/toolkit/panel_changes.h"
 #include "engine/gl/texture.h"
 
 namespace reljef::app {
@@ -112,6 +113,7 @@ struct Interface::State {
     int frames_due = frames_after_event;
     std::vector<Area> areas; // of the panels in the last frame
     KeptPicture picture;
+    PanelChanges changes;
     bool is_kept = false; // the last frame, in the picture
     bool types_text = false;
     bool opens_list = false;
@@ -173,15 +175,36 @@ struct Interface::State {
     }
 
     void draw_frame() {
-        ImDrawData* const data = ImGui::GetDrawData();
-        const glm::ivec2 size(static_cast<int>(data->DisplaySize.x),
-                              static_cast<int>(data->DisplaySize.y));
-        const bool has_marks = ImGui::GetBackgroundDrawList()->VtxBuffer.Size > 0;
-        const auto draw = [data] { ImGui_ImplOpenGL3_RenderDrawData(data); };
-        is_kept = !has_marks && picture.draw(size, shown_areas(), draw);
-        if (!is_kept) {
-            draw();
+        ImDrawData panels = *ImGui::GetDrawData();
+        const bool has_marks = draw_marks(panels);
+        const glm::ivec2 size(static_cast<int>(panels.DisplaySize.x),
+                              static_cast<int>(panels.DisplaySize.y));
+        if (!options.keeps_unchanged || !picture.is_of(size)) {
+            changes.forget();
         }
+        if (!picture.is_of(size) && !picture.resize(size)) {
+            is_kept = false;
+            ImGui_ImplOpenGL3_RenderDrawData(&panels);
+            return;
+        }
+        const PixelArea changed = changes.update(panels);
+        clip(panels, changed);
+        picture.draw(shown_areas(), changed,
+                     [&panels] { ImGui_ImplOpenGL3_RenderDrawData(&panels); });
+        is_kept = !has_marks;
+    }
+
+    // Draws what lies under the panels, which follows the view, and takes it out.
+    static bool draw_marks(ImDrawData& panels) {
+        const bool has_marks = ImGui::GetBackgroundDrawList()->VtxBuffer.Size > 0;
+        if (has_marks) {
+            ImDrawData marks = panels;
+            marks.CmdListsCount = 1; // the first one
+            ImGui_ImplOpenGL3_RenderDrawData(&marks);
+            ++panels.CmdLists;
+            --panels.CmdListsCount;
+        }
+        return has_marks;
     }
 
     void read_areas() {
@@ -229,9 +252,8 @@ Result<Interface> Interface::create(const InterfaceOptions& options) {
         }
     };
     state->fonts = apply_theme(static_cast<float>(options.scale));
-    if (!options.draws) {
-        io.Fonts->Build();
-    } else if (!ImGui_ImplOpenGL3_Init(glsl_version)) {
+    io.Fonts->Build(); // takes long, so not in the first frame
+    if (options.draws && !ImGui_ImplOpenGL3_Init(glsl_version)) {
         return Error{"panels: libGL.so.1 cannot be loaded, the package libgl1 was expected"};
     }
     return Interface(std::move(state));

@@ -42,33 +42,35 @@ std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window) {
     return strips;
 }
 
-bool KeptPicture::draw(glm::ivec2 window, std::vector<RoundedArea> areas,
+bool KeptPicture::resize(glm::ivec2 window) {
+    auto drawn =
+        gl::Framebuffer::create({.size = window, .color = gl::Format::rgba8, .depth = false});
+    auto kept =
+        gl::Framebuffer::create({.size = window, .color = gl::Format::window8, .depth = false});
+    const bool is_made = drawn && kept;
+    drawn_ = is_made ? std::move(*drawn) : gl::Framebuffer();
+    kept_ = is_made ? std::move(*kept) : gl::Framebuffer();
+    return is_made;
+}
+
+void KeptPicture::draw(std::vector<RoundedArea> areas, const PixelArea& changed,
                        const std::function<void()>& draw_panels) {
-    if (!is_of(window)) {
-        auto made =
-            gl::Framebuffer::create({.size = window, .color = gl::Format::rgba8, .depth = false});
-        if (!made) {
-            target_ = gl::Framebuffer();
-            return false;
-        }
-        target_ = std::move(*made);
+    if (!changed.is_empty()) {
+        drawn_.bind();
+        draw_panels();
+        drawn_.turn_area_to(kept_, changed.low, changed.size);
     }
-    target_.bind();
-    draw_panels();
     strips_.clear();
     for (const RoundedArea& area : areas) {
-        for (PixelArea strip : strips_of(area, window)) {
-            strip.low.y = window.y - strip.low.y - strip.size.y;
-            strips_.push_back(strip);
-        }
+        const auto strips = strips_of(area, kept_.size());
+        strips_.insert(strips_.end(), strips.begin(), strips.end());
     }
     show();
-    return true;
 }
 
 void KeptPicture::show() const {
     for (const PixelArea& strip : strips_) {
-        target_.blit_area_to_window(strip.low, strip.size);
+        kept_.blit_area_to_window(strip.low, strip.size);
     }
 }
 

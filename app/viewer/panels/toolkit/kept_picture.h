@@ -5,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/viewer/panels/toolkit/pixel_area.h"
 #include "engine/gl/framebuffer.h"
 
 namespace reljef::app {
@@ -16,14 +17,6 @@ struct RoundedArea {
     int radius = 0; ///< of the corners
 };
 
-/// A rectangle, pixels.
-struct PixelArea {
-    glm::ivec2 low{0};
-    glm::ivec2 size{0};
-
-    friend bool operator==(const PixelArea&, const PixelArea&) = default;
-};
-
 /// Rectangles that together cover a rounded area once, within a window of that size.
 std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window);
 
@@ -31,16 +24,21 @@ std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window);
 /// software renderers copy in less time than they blend. Destroy while the context is current.
 class KeptPicture {
 public:
-    /// Draws into the picture. Returns false, and draws nothing, if OpenGL cannot hold it.
-    bool draw(glm::ivec2 window, std::vector<RoundedArea> areas,
+    /// Makes a picture of that size, with undefined content. Returns false if OpenGL cannot hold
+    /// it.
+    bool resize(glm::ivec2 window);
+    /// Draws into the picture, and copies the areas to the window's back buffer. Nothing is drawn
+    /// outside of `changed`.
+    void draw(std::vector<RoundedArea> areas, const PixelArea& changed,
               const std::function<void()>& draw_panels);
     /// Copies the areas to the window's back buffer.
     void show() const;
-    [[nodiscard]] bool is_of(glm::ivec2 window) const { return target_.size() == window; }
+    [[nodiscard]] bool is_of(glm::ivec2 window) const { return kept_.size() == window; }
 
 private:
-    gl::Framebuffer target_;
-    std::vector<PixelArea> strips_; // from the lower left corner
+    gl::Framebuffer drawn_; // first row at the bottom
+    gl::Framebuffer kept_;  // the same as windows have it, first row on top
+    std::vector<PixelArea> strips_;
 };
 
 } // namespace reljef::app
