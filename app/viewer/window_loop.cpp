@@ -377,9 +377,10 @@ private:
             return {}; // minimized
         }
         const Stopwatch watch;
+        const bool is_first = drawn_ == 0; // shown as early as possible, refined by the next one
         const FrameQuality quality =
             samples_ ? FrameQuality()
-                     : quality_.choose(viewer_.is_moving(), renderer_.shows_rays());
+                     : quality_.choose(viewer_.is_moving() || is_first, renderer_.shows_rays());
         if (auto drawn = draw_at(quality); !drawn) {
             return drawn;
         }
@@ -395,7 +396,7 @@ private:
         timing_.divisor = quality.divisor;
         quality_.add_frame(timing_.last_ms);
         recent_ms_.add(timing_.last_ms);
-        if (drawn_ > 0) {
+        if (!is_first) {
             draw_panels(size);
         }
         window_.swap_buffers();
