@@ -310,6 +310,7 @@ std::string number_text(const Figure& figure, const Number& number) {
         return fmt::format("{:.1f}\u00a0ms", value);
     case Quantity::wrong:
     case Quantity::hidden:
+    case Quantity::holes:
     case Quantity::percent:
         return fmt::format("{:.1f}\u00a0%", value);
     case Quantity::error_px:
