@@ -74,7 +74,7 @@ TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentenceAndOtherDistancesAreMeasured
 // From far away, a few samples are smaller than a pixel.
 TEST(DistanceSuite, TerrainsOfFewSamplesLoseOnlyTheDistancesThatCannotBe) {
     const test::TemporaryFolder folder;
-    const std::string head = "xllcorner 0\nyllcorner 0\ncellsize 2\n";
+    const std::string head = "xllcorner 0\nyllcorner 0\ncellsize 10\n";
     DistanceOptions options = options_over(folder.write("tower.asc", tower()).string());
     options.techniques = {{scene::Exact{}}};
     options.distances = {100.0, 20000.0};
