@@ -129,7 +129,8 @@ constexpr const char* driving =
     "has_title() { [[ $(xdotool getwindowname $window) == \"$1, \"* ]]; }\n"
     "titled() { until_true has_title \"$1\"; }\n"
     "pressed() { for _ in $(seq $2); do xdotool key --window $window $1; done; }\n"
-    "pictured() { sleep 0.5; ffmpeg -v error -f x11grab -i \"$DISPLAY\" -frames:v 1 $1.png; }\n"
+    "pictured() { sleep 0.5; ffmpeg -v error -f x11grab -draw_mouse 0 -i \"$DISPLAY\" -frames:v 1 "
+    "$1.png; }\n"
     "until_true is_open\n";
 
 test::ProgramResult drive_example(const test::TemporaryFolder& folder, const std::string& answer,
@@ -164,7 +165,7 @@ double changed_share(const test::TemporaryFolder& folder, const char* before, co
     }
     std::size_t changed = 0;
     for (std::size_t i = 0; i < a->samples().size(); ++i) {
-        changed += a->samples()[i] != b->samples()[i] ? 1 : 0;
+        changed += a->samples()[i] != b->samples()[i] ? 1U : 0U;
     }
     return static_cast<double>(changed) / static_cast<double>(a->samples().size());
 }
@@ -192,15 +193,17 @@ TEST(IrrlichtExample, KeysAndTheMouseChangeParallaxAndTheCamera) {
         GTEST_SKIP() << "no display, no xdotool or no ffmpeg";
     }
     const test::TemporaryFolder folder;
-    const auto result = drive_example(folder, "n\n",
-                                      "titled parallax:offset=-0.5; pictured start\n"
-                                      "pressed w 2; titled parallax:offset=-0.48\n"
-                                      "pressed a 1; pressed s 3; titled parallax:offset=-0.51\n"
-                                      "pressed w 60; titled parallax:offset=0; pictured shifted\n"
-                                      "xdotool keydown --window $window Up; sleep 1\n"
-                                      "xdotool keyup --window $window Up; pictured moved\n"
-                                      "xdotool mousemove_relative 60 0; pictured turned\n"
-                                      "titled parallax:offset=0\n");
+    const auto result =
+        drive_example(folder, "n\n",
+                      "titled parallax:offset=-0.5; pictured start\n"
+                      "pressed w 2; titled parallax:offset=-0.48\n"
+                      "pressed a 1; pressed s 3; titled parallax:offset=-0.51\n"
+                      "pressed w 60; titled parallax:offset=0; pictured shifted\n"
+                      "xdotool keydown --window $window Up; sleep 1\n"
+                      "xdotool keyup --window $window Up; pictured moved\n"
+                      "xdotool mousemove --window $window 400 400; sleep 0.2\n"
+                      "xdotool mousemove --window $window 460 400; pictured turned\n"
+                      "titled parallax:offset=0\n");
     ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
     EXPECT_GT(changed_share(folder, "start.png", "shifted.png"), 0.01);
     EXPECT_GT(changed_share(folder, "shifted.png", "moved.png"), 0.01);
