@@ -226,11 +226,11 @@ Conclusion warped_visibility() {
             .figures = joined(named("hidden", hidden_points("distance-searches.json",
                                                             {scene::Prewarp{}}, at_most(1.0))),
                               holes_of_warping()),
-            .reason = "No holes are left inside the picture. But it ends at the border of its "
-                      "plane, as a plain texture does: what rises over that is cut off, and in "
-                      "pose low the eye is below the plane. Rows move before columns: of two "
-                      "points that meet in a row one is lost, even if the columns would part "
-                      "them."};
+            .reason =
+                "Over terrain, its holes lie at the border of its plane: what rises over that is "
+                "cut off, as with a plain texture. In pose low the eye is below the plane. One "
+                "cause of hidden points: rows move before columns, and of two points that meet in "
+                "a row one is lost, even if the columns would part them."};
 }
 
 std::vector<Conclusion> layers_and_warping() {
