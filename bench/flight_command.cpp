@@ -13,6 +13,7 @@ namespace {
 
 struct FlightChoice {
     FlightOptions options;
+    bool draws_at_once = false;
     OutputChoice outputs;
 };
 
@@ -48,11 +49,12 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         ->description("polygons: at most PX pixels of error, with as few triangles as possible "
                       "(none: every sample of a tile; 1 with --context cpu)");
     arguments->add_flag(
-        "!--no-wait", choice->options.waits_for_tiles,
+        "--no-wait", choice->draws_at_once,
         "draw each frame at once, with the tiles that are there, while others are read");
     add_output_options(*arguments, choice->outputs);
     arguments->callback([choice] {
         cli::check_view_options(choice->options.view);
+        choice->options.waits_for_tiles = !choice->draws_at_once;
         if (choice->options.view.path.empty()) {
             throw CLI::ValidationError("flight: no --path found, one to fly along was expected");
         }
@@ -60,9 +62,8 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->footer(
         "Each frame waits for all its tiles, as in reljef render. Waiting and drawing are timed\n"
         "separately. With --no-wait, frames are drawn as in reljef view, and the kept errors tell\n"
-        "what the missing tiles cost. Memory is that of the process; what it used before the "
-        "terrain was opened is\n"
-        "subtracted.\n"
+        "what the missing tiles cost. Memory is that of the process; what it used before the\n"
+        "terrain was opened is subtracted.\n"
         "Examples:\n"
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
         "flight.json\n"

@@ -32,19 +32,22 @@ Result<void> measure_distance(BenchmarkScene& scene, double distance, session::D
     return {};
 }
 
-Result<void> measure_terrain(const std::string& terrain, session::Device& device,
-                             DistanceResults& results, const std::stop_token& stop) {
+// A distance without a picture costs the others nothing.
+void measure_terrain(const std::string& terrain, session::Device& device, DistanceResults& results,
+                     Problems& problems, const std::stop_token& stop) {
     auto scene = BenchmarkScene::open({terrain}, results.options.suite, stop);
     if (!scene) {
-        return scene.error();
+        return problems.add(scene.error());
     }
     for (const double distance : results.options.distances) {
+        if (stop.stop_requested()) {
+            return;
+        }
         if (auto measured = measure_distance(*scene, distance, device, results, stop); !measured) {
-            return measured;
+            problems.add(measured.error());
         }
     }
     device.renderer().forget_scene();
-    return {};
 }
 
 Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) {
@@ -57,9 +60,7 @@ Result<void> measure_all(DistanceResults& results, const std::stop_token& stop) 
     cli::ProgressLine line("measuring distances", options.suite.quiet);
     Problems problems;
     for (std::size_t i = 0; i < options.terrains.size() && !stop.stop_requested(); ++i) {
-        if (auto done = measure_terrain(options.terrains[i], *device, results, stop); !done) {
-            problems.add(done.error());
-        }
+        measure_terrain(options.terrains[i], *device, results, problems, stop);
         line.update(static_cast<double>(i + 1) / static_cast<double>(options.terrains.size()));
     }
     return problems.end();

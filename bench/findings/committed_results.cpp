@@ -36,6 +36,8 @@ QuantityInfo info_of(Quantity quantity) {
         return {.pointer = "/error/wrong_of_terrain_percent", .high = 100.0};
     case Quantity::hidden:
         return {.pointer = "/error/hidden_percent", .high = 100.0};
+    case Quantity::holes:
+        return {"/error/holes"};
     case Quantity::error_px:
         return {"/error/reprojection_px/rms"};
     case Quantity::flip:
@@ -129,6 +131,24 @@ std::optional<double> pixels_of(const std::string& size) {
     return cols && rows ? std::optional(*cols * *rows) : std::nullopt;
 }
 
+// Rows have the counts of pixels; of a picture without terrain they have holes only.
+Result<std::optional<double>> holes_percent(const json& row) {
+    auto holes = value_at(row, info_of(Quantity::holes));
+    if (!holes || !*holes) {
+        return holes;
+    }
+    double terrain = **holes;
+    for (const char* const pointer :
+         {"/error/reprojection_px/count", "/error/reprojection_px/unbounded"}) {
+        const auto shown = value_at(row, {.pointer = pointer});
+        if (!shown) {
+            return shown;
+        }
+        terrain += shown->value_or(0.0);
+    }
+    return terrain > 0.0 ? std::optional(100.0 * **holes / terrain) : std::nullopt;
+}
+
 // Rows of techniques of earlier versions have the share of the picture and the counts of its
 // pixels.
 Result<std::optional<double>> wrong_of_terrain(const json& row) {
@@ -155,6 +175,9 @@ Result<std::optional<double>> wrong_of_terrain(const json& row) {
 }
 
 Result<std::optional<double>> quantity_of(const json& row, Quantity quantity) {
+    if (quantity == Quantity::holes) {
+        return holes_percent(row);
+    }
     auto value = value_at(row, info_of(quantity));
     return value && !*value && quantity == Quantity::wrong ? wrong_of_terrain(row) : value;
 }

@@ -14,6 +14,7 @@ enum class Quantity {
     ms,        ///< median time of a frame; its uncertainty is the noise floor of the row
     wrong,     ///< pixels that show a wrong point, percent of those that show terrain
     hidden,    ///< pixels that show a point which the terrain hides, percent
+    holes,     ///< pixels of terrain that show no point of it, percent of those that show terrain
     error_px,  ///< root mean square of the reprojection error, pixels
     flip,      ///< mean FLIP of the picture
     ssim,      ///< structural similarity of the picture; more is better

@@ -17,6 +17,7 @@ Chapter parallax_chapter();
 Chapter triangles_chapter();
 Chapter objects_chapter();
 Chapter search_chapter();
+std::vector<Conclusion> ray_searches(); // of the search chapter
 Chapter view_chapter();
 Chapter light_chapter();
 Chapter options_chapter();

@@ -1,6 +1,7 @@
 #include "bench/findings/figures.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -146,6 +147,21 @@ std::vector<Figure> on_gpu(std::vector<Figure> figures) {
 
 std::vector<Figure> and_on_gpu(const std::vector<Figure>& figures) {
     return joined(figures, on_gpu(figures));
+}
+
+std::vector<Figure> hidden_points(const std::string& file, const Technique& technique,
+                                  const Range& range) {
+    std::vector<Figure> figures;
+    for (const auto& [words, scene, distance] : {std::tuple{"city", "urban", "300 m"},
+                                                 {"city", "urban", "3 km"},
+                                                 {"landscape", "natural", "3 km"},
+                                                 {"landscape", "natural", "10 km"}}) {
+        const RowName row{
+            file, {{"scene", scene}, {"at", distance}, {"label", scene::to_string(technique)}}};
+        figures.push_back(
+            plain(fmt::format("{}, {}", words, distance), Quantity::hidden, row, range));
+    }
+    return figures;
 }
 
 ThesisDrop thesis_drop(const std::string& technique, const std::vector<std::string>& tests,

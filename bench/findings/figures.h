@@ -59,6 +59,11 @@ std::vector<Figure> on_gpu(std::vector<Figure> figures);
 /// The figures, and then the same of a machine with a GPU.
 std::vector<Figure> and_on_gpu(const std::vector<Figure>& figures);
 
+/// Pixels over a city and a landscape that show points which nearer ground hides; of a file of
+/// `tables --distances`.
+std::vector<Figure> hidden_points(const std::string& file, const scene::Technique& technique,
+                                  const Range& range);
+
 /// The mean loss of frame rate of a technique in J's own table, percent.
 struct ThesisDrop {
     double mean = 0.0;

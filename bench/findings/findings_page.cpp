@@ -46,7 +46,8 @@ Words such as "much" and "good" have no figure in the sources. Then the rule is 
 says so. Three measures tell how wrong a picture is:
 
 - *Wrong* is the share of the pixels of terrain that show a point more than one texel from the correct one. From afar a
-  texel is smaller than a pixel. Then it also counts what nobody can see.
+  texel is smaller than a pixel. Then it also counts what nobody can see. *Hidden* is the share that shows a point which
+  nearer ground hides, and *holes* are the share that shows no terrain.
 - The error in pixels is the distance between where a point is shown and its true place (root mean square).
 - *FLIP* is the difference from the true picture, as an eye sees it: 0 is none, 1 is all. The true picture has shadows,
   which most techniques do not draw. So even exact rays differ from it.
@@ -310,6 +311,7 @@ std::string number_text(const Figure& figure, const Number& number) {
         return fmt::format("{:.1f}\u00a0ms", value);
     case Quantity::wrong:
     case Quantity::hidden:
+    case Quantity::holes:
     case Quantity::percent:
         return fmt::format("{:.1f}\u00a0%", value);
     case Quantity::error_px:

@@ -85,6 +85,11 @@ std::vector<ResultsSource> other_sources() {
          "reljef-bench tables --distances --context osmesa --json bench/results/distance.json "
          "--markdown bench/results/distance.md",
          false},
+        {"distance-searches", "The same of steep parallax, parallax occlusion mapping and warping.",
+         "reljef-bench tables --distances --context osmesa --technique steep --technique pom "
+         "--technique prewarp --json bench/results/distance-searches.json "
+         "--markdown bench/results/distance-searches.md",
+         false},
         {"objects", "The same city as heights and as meshes, by distance, angle and size.",
          "reljef-bench objects --rounds 15 --context osmesa --json bench/results/objects.json "
          "--markdown bench/results/objects.md"},

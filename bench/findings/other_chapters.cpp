@@ -1,4 +1,5 @@
 // What light alone can show, what options cost, and what data are needed.
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -201,6 +202,37 @@ std::vector<Conclusion> normal_maps() {
     };
 }
 
+// Holes of the warped picture; those of a plain texture lie over the plane, too.
+std::vector<Figure> holes_of_warping() {
+    const Technique prewarp{scene::Prewarp{}};
+    std::vector<Figure> figures;
+    for (const auto& [words, scene, pose] : {std::tuple{"city", "urban", "oblique"},
+                                             {"landscape", "natural", "oblique"},
+                                             {"landscape, low", "natural", "low"},
+                                             {"bricks", "tile brick", "oblique"}}) {
+        figures.push_back(plain(fmt::format("holes, {}", words), Quantity::holes,
+                                seen({"pareto.json", scene, pose}, prewarp), at_most(1.0)));
+    }
+    figures.push_back(plain("of a plain texture, landscape", Quantity::holes,
+                            seen({"pareto.json", "natural", "oblique"}, {scene::Texture{}}), {}));
+    return figures;
+}
+
+Conclusion warped_visibility() {
+    return {.source = "J 2.4",
+            .claim = "Warping settles what hides what, and fills the holes.",
+            .rule = "at most 1 % of its pixels show a point that nearer ground hides, and at most "
+                    "1 % of the pixels of terrain show none (our reading)",
+            .figures = joined(named("hidden", hidden_points("distance-searches.json",
+                                                            {scene::Prewarp{}}, at_most(1.0))),
+                              holes_of_warping()),
+            .reason =
+                "Over terrain, its holes lie at the border of its plane: what rises over that is "
+                "cut off, as with a plain texture. In pose low the eye is below the plane. One "
+                "cause of hidden points: rows move before columns, and of two points that meet in "
+                "a row one is lost, even if the columns would part them."};
+}
+
 std::vector<Conclusion> layers_and_warping() {
     const Technique relief{scene::Relief{}};
     return {
@@ -227,6 +259,7 @@ std::vector<Conclusion> layers_and_warping() {
                       {scene::Relief{.linear_steps = 32, .bisection_steps = 6}}),
                 at_least(1.0))},
          "layers take 32 steps, relief 11 or 32"},
+        warped_visibility(),
         {.source = "J 2.4.5",
          .claim = "Of warping, rebuilding the picture is far more work than moving the points.",
          .rule = "both take at least 3 times the time of moving alone (our reading of \"far\")",

@@ -1,5 +1,5 @@
 // What the steps of a search are worth, and what distance and angle change.
-#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -354,19 +354,6 @@ Figure wrong_of_city(const std::string& distance) {
                  at_most(10.0));
 }
 
-// Pixels that show hidden points.
-std::vector<Figure> hidden_points(const Technique& technique, const Range& range) {
-    std::vector<Figure> figures;
-    for (const auto& [words, scene, distance] : {std::tuple{"city", "urban", "300 m"},
-                                                 {"city", "urban", "3 km"},
-                                                 {"landscape", "natural", "3 km"},
-                                                 {"landscape", "natural", "10 km"}}) {
-        figures.push_back(plain(fmt::format("{}, {}", words, distance), Quantity::hidden,
-                                at_distance(scene, distance, technique), range));
-    }
-    return figures;
-}
-
 std::vector<Conclusion> distances_of_relief() {
     const Technique parallax{scene::Parallax{}};
     const Technique finer{Relief{.bisection_steps = 16}};
@@ -390,10 +377,10 @@ std::vector<Conclusion> distances_of_relief() {
                    "that. The missed walls stay."},
         {"J 2.3; D", "Parallax knows no occlusion.",
          "at least 10 % of its pixels show a point that nearer ground hides (our limit)",
-         hidden_points({scene::Parallax{}}, at_least(10.0))},
+         hidden_points("distance.json", {scene::Parallax{}}, at_least(10.0))},
         {"J 2.4.6", "Relief occludes itself correctly.",
          "at most 1 % of its pixels show a point that nearer ground hides (our reading)",
-         hidden_points({Relief{}}, at_most(1.0)), "",
+         hidden_points("distance.json", {Relief{}}, at_most(1.0)), "",
          "Where a wall or a ridge is thinner than a step, its equal steps pass through it and find "
          "the ground behind."},
         {.source = "J 3",
@@ -446,6 +433,7 @@ Chapter search_chapter() {
           plain("", Quantity::wrong, seen(city, {Relief{}}), {}),
           plain("", Quantity::wrong, seen(city, {Interval{}}), {}),
           plain("", Quantity::wrong, seen(city, {scene::Exact{}}), {})}}};
+    add(chapter, ray_searches());
     add(chapter, linear_search());
     add(chapter, five_steps());
     add(chapter, interval_search());

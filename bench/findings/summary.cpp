@@ -107,8 +107,8 @@ std::string findings_limits() {
 - One graphics card was measured, made for data centres, with an earlier version. Rows without *GPU* say nothing about
   one: bump and normal maps, shadows, edges, layers and objects. Its clock changes within a run, and the noise of its
   times is large.
-- Not measured: relief near and parallax far in one view (J 3); holes that warping leaves (J 2.4); relief seen from
-  behind (M 3.6.8) and beyond the border (M 3.6.11); relief on curved surfaces (J 2.4.6); displacement of few polygons (M 3.1); other curves of lower heights
+- Not measured: relief near and parallax far in one view (J 3); relief seen from behind (M 3.6.8) and beyond the border
+  (M 3.6.11); relief on curved surfaces (J 2.4.6); displacement of few polygons (M 3.1); other curves of lower heights
   and other numbers of steps for shadows (M 3.6.4, 3.6.5); lower heights at cut borders (M 3.6.11); the other way to
   find edges (M 3.6.7); on which surfaces normal maps suffice (M 3.4); tangents along the texture (D).
 - A height map of a city has one colour a sample, and few of them on walls. Buildings as meshes have façades. FLIP sees

@@ -191,9 +191,14 @@ Result<void> BenchmarkScene::look_from(double distance, double down) {
                                  name(), distance, down)};
     }
     camera = looking;
+    distance_ = distance;
     pose_.reset();
     truth_.reset();
     return {};
+}
+
+std::string BenchmarkScene::view_text() const {
+    return pose_ ? std::string(scene::to_string(*pose_)) : fmt::format("from {} m", distance_);
 }
 
 void BenchmarkScene::set_camera(const scene::Camera& camera) {
@@ -296,7 +301,7 @@ Result<MeasuredError> BenchmarkScene::measure_error(const scene::Technique& tech
     if (!truth::has_terrain(*hits) && !truth::has_terrain((*exact)->hits)) {
         return Error{fmt::format("{}, {}: no pixel of terrain found in the picture, some were "
                                  "expected",
-                                 name(), pose_ ? scene::to_string(*pose_) : "from a distance")};
+                                 name(), view_text())};
     }
     auto geometric = errors(*hits, (*exact)->hits);
     if (!geometric) {

@@ -126,6 +126,7 @@ private:
         : name_(std::move(name)), scene_(std::move(scene)), options_(options) {}
     Result<truth::Picture> draw_truth(const ParallelOptions& parallel);
     Result<const TruePicture*> truth(const std::stop_token& stop); // kept for the next call
+    [[nodiscard]] std::string view_text() const;                   // "oblique", "from 300 m"
     [[nodiscard]] truth::SurfaceView surface_view() const;
     [[nodiscard]] Result<truth::GeometricErrors> errors(const HitBuffer& shown,
                                                         const HitBuffer& truth) const;
@@ -134,6 +135,7 @@ private:
     session::TerrainScene scene_;
     SuiteOptions options_;
     std::optional<scene::Pose> pose_ = scene::Pose::overview; // absent: look_from()
+    double distance_ = 0.0;                                   // of the last look_from(), metres
     std::optional<double> visibility_;                        // of the scene's air
     std::optional<double> sun_altitude_;                      // of the scene
     std::optional<truth::SceneCaster> caster_;

@@ -151,7 +151,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     }
     results.times = frames->times();
     results.end = run_end({}, stop, !results.times.drawing_ms.empty());
-    results.failed_files = session::failed_files(scene->scene);
+    results.failed_files = scene->failed_files + session::failed_files(scene->scene);
     results.max_memory =
         std::max({results.max_memory, process_memory().peak, results.times.memory_before});
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;

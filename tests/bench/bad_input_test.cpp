@@ -57,6 +57,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Misuse{{"lod", "--max-error", "1"}, {"--max-error", "--poses"}},
                     Misuse{{"peers", "--rounds", "0"}, {"--rounds", "'0'"}},
                     Misuse{{"peers", "--calibration", "a.json"}, {"--calibration"}},
+                    Misuse{{"tables", "--claims", "--terrain", "natural"},
+                           {"--claims: --terrain found"}},
+                    Misuse{{"flight", "natural"}, {"no --path found"}},
                     Misuse{{"tables", "--terrain"}, {"--terrain"}},
                     Misuse{{"tables", "natural"}, {"natural"}}));
 
@@ -75,8 +78,10 @@ TEST(BenchBadInput, name_that_steers_a_terminal_is_told_in_plain_letters) {
 // Each suite measures the other terrain, writes its file and names the bad ones at its end.
 TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     const test::TemporaryFolder folder;
-    const std::string four = folder.write("four.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\n"
-                                                      "cellsize 1\n1 2\n3 4\n");
+    const std::string head = "xllcenter 0\nyllcenter 0\ncellsize 1\n";
+    const std::string one = folder.write("one.asc", "ncols 1\nnrows 1\n" + head + "1\n");
+    const std::string two = folder.write("two.asc", "ncols 1\nnrows 2\n" + head + "1\n2\n");
+    const std::string four = folder.write("four.asc", "ncols 2\nnrows 2\n" + head + "1 2\n3 4\n");
     std::string text = "ncols 40\nnrows 40\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
     for (int i = 0; i < 1600; ++i) {
         text += std::to_string((i * 7) % 11) + " ";
@@ -85,19 +90,24 @@ TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     const std::string json = (folder.path() / "rows.json").string();
     for (const std::vector<std::string>& suite :
          {std::vector<std::string>{"tables", "--technique", "relief"},
+          {"tables", "--distances", "--technique", "relief"},
           {"lod", "--poses", "4"},
           {"skip", "--kind", "frustum"},
           {"pareto", "--technique", "relief"},
           {"stress", "--only", "grazing-view", "--technique", "relief"}}) {
         std::vector<std::string> arguments = suite;
-        for (const std::string& terrain : {folder.path().string() + "/none.asc", four, good}) {
+        for (const std::string& terrain :
+             {folder.path().string() + "/none.asc", one, two, four, good}) {
             arguments.insert(arguments.end(), {"--terrain", terrain});
         }
         arguments.insert(arguments.end(), {"--context", "osmesa", "--size", "32x24", "--quick",
                                            "--quiet", "--json", json});
         const auto result = test::reljef_bench(arguments);
         EXPECT_EQ(result.exit_code, 1) << suite[0];
-        EXPECT_THAT(result.err, testing::HasSubstr("none.asc")) << suite[0];
+        for (const char* const part :
+             {"none.asc", "one.asc: has 1×1 samples", "two.asc: has 1×2 samples"}) {
+            EXPECT_THAT(result.err, testing::HasSubstr(part)) << suite[0];
+        }
         EXPECT_THAT(result.out, testing::HasSubstr("good")) << suite[0];
         EXPECT_THAT(test::read_bytes(json), testing::HasSubstr("none.asc")) << suite[0];
         std::filesystem::remove(json);

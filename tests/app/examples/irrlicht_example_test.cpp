@@ -1,6 +1,7 @@
 // The programs of docs/irrlicht.md.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -10,7 +11,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/image/image.h"
 #include "tests/app/command_line.h"
+#include "tests/app/window/driven_window.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 
@@ -111,6 +114,100 @@ TEST(IrrlichtExample, DrawsReliefAndParallaxInAWindow) {
         EXPECT_EQ(result.exit_code, 0) << result.err;
         EXPECT_EQ(result.err, "");
     }
+}
+
+// Runs the example's window in `folder`: "$1" is the example, "$2" and "$3" are its pictures.
+// `titled TEXT` waits until the title begins with it, `pressed KEY TIMES` presses a key, `pictured
+// NAME` saves what the window shows.
+constexpr const char* driving =
+    "\"$1\" \"$2\" \"$3\" < answer & example=$!\n"
+    "until_true() { for _ in $(seq 300); do \"$@\" && return; sleep 0.1; done\n"
+    "    echo \"never: $*: $(xdotool getwindowname $window)\"; kill $example; exit 9; }\n"
+    "is_open() {\n"
+    "    window=$(xdotool search --all --onlyvisible --pid $example --name ' per second$' "
+    "2>/dev/null | head -n 1); [ -n \"$window\" ]; }\n"
+    "has_title() { [[ $(xdotool getwindowname $window) == \"$1, \"* ]]; }\n"
+    "titled() { until_true has_title \"$1\"; }\n"
+    "pressed() { for _ in $(seq $2); do xdotool key --window $window $1; done; }\n"
+    "pictured() { sleep 0.5; ffmpeg -v error -f x11grab -draw_mouse 0 -i \"$DISPLAY\" -frames:v 1 "
+    "$1.png; }\n"
+    "until_true is_open\n";
+
+test::ProgramResult drive_example(const test::TemporaryFolder& folder, const std::string& answer,
+                                  const std::string& steps) {
+    std::string waves = "P5\n64 64\n255\n";
+    for (int i = 0; i < 64 * 64; ++i) {
+        waves +=
+            static_cast<char>(128.0 + 100.0 * std::sin(0.3 * (i % 64)) * std::cos(0.2 * i / 64));
+    }
+    test::ProgramOptions options;
+    options.folder = folder.path();
+    folder.write("answer", answer);
+    const auto heights = folder.write("heights.pgm", waves);
+    const auto colors = folder.write("colors.pgm", grey_slope());
+    return test::run_program("/bin/bash",
+                             {"-c", driving + steps + "kill $example; wait $example; exit 0",
+                              "drive", RELJEF_IRRLICHT_EXAMPLE, heights.string(), colors.string()},
+                             options);
+}
+
+bool can_watch() {
+    return test::can_drive() && std::filesystem::exists("/usr/bin/ffmpeg");
+}
+
+// Share of the samples of two pictures that differ; 1 if one cannot be read.
+double changed_share(const test::TemporaryFolder& folder, const char* before, const char* after) {
+    const auto a = io::read_image(folder.path() / before);
+    const auto b = io::read_image(folder.path() / after);
+    if (!a || !b || a->samples().size() != b->samples().size()) {
+        ADD_FAILURE() << before << " and " << after << " cannot be compared";
+        return 1.0;
+    }
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < a->samples().size(); ++i) {
+        changed += a->samples()[i] != b->samples()[i] ? 1U : 0U;
+    }
+    return static_cast<double>(changed) / static_cast<double>(a->samples().size());
+}
+
+TEST(IrrlichtExample, KeysChangeTheStepsOfReliefAndItsPicture) {
+    RELJEF_RELEASE_ONLY("it is built with all tests only");
+    if (!can_watch()) {
+        GTEST_SKIP() << "no display, no xdotool or no ffmpeg";
+    }
+    const test::TemporaryFolder folder;
+    const auto result = drive_example(folder, "y\n",
+                                      "titled relief:n=11,k=8; pictured start; pictured same\n"
+                                      "pressed a 2; titled relief:n=13,k=8\n"
+                                      "pressed w 1; pressed d 1; titled relief:n=12,k=8\n"
+                                      "pressed d 14; titled relief:n=1,k=8; pictured one\n"
+                                      "pressed a 1; titled relief:n=2,k=8\n");
+    ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_EQ(changed_share(folder, "start.png", "same.png"), 0.0);
+    EXPECT_GT(changed_share(folder, "start.png", "one.png"), 0.01);
+}
+
+TEST(IrrlichtExample, KeysAndTheMouseChangeParallaxAndTheCamera) {
+    RELJEF_RELEASE_ONLY("it is built with all tests only");
+    if (!can_watch()) {
+        GTEST_SKIP() << "no display, no xdotool or no ffmpeg";
+    }
+    const test::TemporaryFolder folder;
+    const auto result =
+        drive_example(folder, "n\n",
+                      "titled parallax:offset=-0.5; pictured start\n"
+                      "pressed w 2; titled parallax:offset=-0.48\n"
+                      "pressed a 1; pressed s 3; titled parallax:offset=-0.51\n"
+                      "pressed w 60; titled parallax:offset=0; pictured shifted\n"
+                      "xdotool keydown --window $window Up; sleep 1\n"
+                      "xdotool keyup --window $window Up; pictured moved\n"
+                      "xdotool mousemove --window $window 400 400; sleep 0.2\n"
+                      "xdotool mousemove --window $window 460 400; pictured turned\n"
+                      "titled parallax:offset=0\n");
+    ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
+    EXPECT_GT(changed_share(folder, "start.png", "shifted.png"), 0.01);
+    EXPECT_GT(changed_share(folder, "shifted.png", "moved.png"), 0.01);
+    EXPECT_GT(changed_share(folder, "moved.png", "turned.png"), 0.01);
 }
 
 TEST(IrrlichtExample, WhatMovesIsDrawnWithoutAWindow) {

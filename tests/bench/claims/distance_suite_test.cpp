@@ -1,5 +1,7 @@
 #include "bench/claims/distance_suite.h"
 
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -57,7 +59,7 @@ TEST(DistanceSuite, AnErrorInPixelsShrinksAsTheEyeGoesAwayAndExactHasNone) {
     EXPECT_TRUE(json["rows"][0]["error"]["wrong_percent"].is_number());
 }
 
-TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentence) {
+TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentenceAndOtherDistancesAreMeasured) {
     const test::TemporaryFolder folder;
     std::string wall = "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 100\n";
     wall += "0 0 0\n0 0 0\n900 900 900\n"; // south
@@ -65,6 +67,38 @@ TEST(DistanceSuite, AnEyeBelowTheGroundIsOneSentence) {
     ASSERT_TRUE(results.end.stopped);
     EXPECT_THAT(results.end.stopped->message,
                 testing::HasSubstr("ground found 100 m from its middle"));
+    ASSERT_EQ(results.rows.size(), 2U);
+    EXPECT_EQ(results.rows[0].distance, 1000.0);
+}
+
+// From far away, a few samples are smaller than a pixel.
+TEST(DistanceSuite, TerrainsOfFewSamplesLoseOnlyTheDistancesThatCannotBe) {
+    const test::TemporaryFolder folder;
+    const std::string head = "xllcorner 0\nyllcorner 0\ncellsize 10\n";
+    DistanceOptions options = options_over(folder.write("tower.asc", tower()).string());
+    options.techniques = {{scene::Exact{}}};
+    options.distances = {100.0, 20000.0};
+    for (const auto& [name, text] :
+         {std::pair{"one.asc", "ncols 1\nnrows 1\n" + head + "1\n"},
+          {"two.asc", "ncols 1\nnrows 2\n" + head + "1\n2\n"},
+          {"four.asc", "ncols 2\nnrows 2\n" + head + "1 2\n3 4\n"},
+          {"nine.asc", "ncols 3\nnrows 3\n" + head + "1 2 3\n4 5 6\n7 8 9\n"}}) {
+        options.terrains.insert(options.terrains.begin(), folder.write(name, text).string());
+    }
+    const auto results = run_distances(options, {});
+    ASSERT_TRUE(results.end.stopped);
+    EXPECT_FALSE(results.end.failed);
+    std::vector<std::string> scenes;
+    for (const DistanceRow& row : results.rows) {
+        EXPECT_EQ(row.distance, 100.0);
+        scenes.push_back(row.scene);
+    }
+    EXPECT_THAT(scenes, testing::ElementsAre("nine.asc", "four.asc", "tower.asc"));
+    for (const char* const part :
+         {"one.asc: has 1×1 samples", "two.asc: has 1×2 samples",
+          "nine.asc, from 20000 m: no pixel of terrain found", "tower.asc, from 20000 m"}) {
+        EXPECT_THAT(results.end.stopped->message, testing::HasSubstr(part));
+    }
 }
 
 TEST(DistanceSuite, RefusesWhatItDoesNotUse) {

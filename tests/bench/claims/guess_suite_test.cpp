@@ -1,7 +1,9 @@
 #include "bench/claims/guess_suite.h"
 
 #include <cmath>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -101,6 +103,35 @@ TEST_F(GuessSuite, ATerrainWithoutColoursIsOneSentence) {
     ASSERT_TRUE(results.end.stopped);
     EXPECT_THAT(results.end.stopped->message, testing::HasSubstr("no colours found"));
     EXPECT_TRUE(results.end.failed);
+}
+
+TEST_F(GuessSuite, TerrainsOfFewSamplesCostTheOthersNothing) {
+    ASSERT_EQ(guess(1.0).rows.size(), 3U);
+    GuessOptions options = options_over((folder_.path() / "scene.toml").string());
+    for (const auto& [name, size] : {std::pair{"one", "ncols 1\nnrows 1\n"},
+                                     {"two", "ncols 1\nnrows 2\n"},
+                                     {"four", "ncols 2\nnrows 2\n"},
+                                     {"nine", "ncols 3\nnrows 3\n"}}) {
+        std::string text = std::string(size) + "xllcorner 0\nyllcorner 0\ncellsize 10\n";
+        for (int i = 0; i < 9; ++i) { // samples beyond the size are not read
+            text += std::to_string(i % 4) + "\n";
+        }
+        folder_.write(std::string(name) + ".asc", text);
+        const std::string scene = fmt::format("name = \"{0}\"\n[terrain]\nheights = \"{0}.asc\"\n"
+                                              "imagery = \"grey.pgm\"\n",
+                                              name);
+        options.terrains.insert(options.terrains.begin(),
+                                folder_.write(std::string(name) + ".toml", scene).string());
+    }
+    const GuessResults results = run_guesses(options, {});
+    ASSERT_TRUE(results.end.stopped);
+    EXPECT_FALSE(results.end.failed);
+    EXPECT_THAT(results.end.stopped->message, testing::HasSubstr("one.asc: has 1×1 samples"));
+    EXPECT_THAT(results.end.stopped->message, testing::HasSubstr("two.asc: has 1×2 samples"));
+    ASSERT_EQ(results.rows.size(), 9U);
+    EXPECT_EQ(results.rows[0].scene, "nine");
+    EXPECT_EQ(results.rows[3].scene, "four");
+    EXPECT_EQ(results.rows[6].scene, "bumps");
 }
 
 TEST_F(GuessSuite, RefusesWhatItDoesNotUse) {

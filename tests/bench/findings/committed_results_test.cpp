@@ -129,6 +129,21 @@ TEST_F(ReadCommittedResults, HaveTheWrongPixelsOfTheTerrainNotOfThePicture) {
     EXPECT_DOUBLE_EQ(wrong(R"("reprojection_px": {"count": 0, "unbounded": 0}, "holes": 0)"), -1.0);
 }
 
+TEST_F(ReadCommittedResults, HaveTheHolesOfTheTerrainNotOfThePicture) {
+    const auto holes = [&](const std::string& error) {
+        const auto results =
+            read(with_rows(R"({"label": "a", "size": "100x50", "error": {)" + error + "}}"));
+        const auto number = results->number({"r.json", {{"label", "a"}}}, Quantity::holes);
+        return number && *number ? (*number)->value : -1.0;
+    };
+    EXPECT_DOUBLE_EQ(holes(R"("reprojection_px": {"count": 300, "unbounded": 60}, "holes": 40)"),
+                     10.0);
+    EXPECT_DOUBLE_EQ(holes(R"("reprojection_px": null, "holes": 40)"), 100.0);
+    EXPECT_DOUBLE_EQ(holes(R"("reprojection_px": null, "holes": 0)"), -1.0);
+    EXPECT_DOUBLE_EQ(holes(R"("reprojection_px": {"count": 300, "unbounded": 60})"), -1.0);
+    EXPECT_DOUBLE_EQ(holes(R"("holes": -1)"), -1.0);
+}
+
 TEST_F(ReadCommittedResults, AreAsUncertainAsTheIntervalIfItIsWiderThanTheNoise) {
     const auto uncertainty = [&](const char* const interval) {
         const auto results = read(with_rows(

@@ -1,5 +1,8 @@
 #include "bench/suites/flight_suite.h"
 
+#include <utility>
+
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -80,6 +83,56 @@ TEST(Flight, that_does_not_wait_draws_what_is_there_and_states_its_error) {
         const auto& row = report.at("rows").at(0);
         EXPECT_GE(row.at("kept_error_px"), row.at("median_kept_error_px"));
     }
+}
+
+std::string few_samples(int cols, int rows) {
+    std::string text = fmt::format(
+        "ncols {}\nnrows {}\nxllcenter 7.1\nyllcenter 45.1\ncellsize 0.001\n", cols, rows);
+    for (int i = 0; i < cols * rows; ++i) {
+        text += fmt::format("{}\n", 500 + i);
+    }
+    return text;
+}
+
+TEST(Flight, OverFewSamplesDrawsEachFrameOrIsOneSentence) {
+    const test::TemporaryFolder folder;
+    FlightOptions options = short_flight(folder);
+    for (const auto context : {session::BackendKind::osmesa, session::BackendKind::cpu}) {
+        options.view.context = context;
+        options.view.path = "orbit";
+        for (const auto& [cols, rows] : {std::pair{1, 1}, {1, 2}, {2, 2}, {3, 3}}) {
+            options.terrain.terrain = folder.write("few.asc", few_samples(cols, rows)).string();
+            const auto results = run_flight(options, {});
+            if (cols == 1) {
+                ASSERT_FALSE(results);
+                EXPECT_THAT(results.error().message,
+                            testing::HasSubstr(fmt::format("has 1×{} samples", rows)));
+            } else {
+                ASSERT_TRUE(results) << results.error().message;
+                EXPECT_EQ(results->times.drawing_ms.size(), 4U);
+            }
+        }
+    }
+}
+
+TEST(Flight, AFileOfTooFewSamplesIsLeftOutReportedAndTheRestIsFlownOver) {
+    const test::TemporaryFolder folder;
+    FlightOptions options = short_flight(folder);
+    for (const char* const name : {"dem.asc", "dem.prj"}) {
+        folder.write(std::string("tiles/") + name, test::read_bytes(folder.path() / name));
+    }
+    folder.write("tiles/few.asc", few_samples(1, 2));
+    folder.write("tiles/few.prj", test::read_bytes(folder.path() / "dem.prj"));
+    options.terrain.terrain = (folder.path() / "tiles").string();
+    const auto results = run_flight(options, {});
+    ASSERT_TRUE(results) << results.error().message;
+    EXPECT_EQ(results->times.drawing_ms.size(), 4U);
+    EXPECT_EQ(results->failed_files, 1U);
+    const auto checked = check_files(*results);
+    ASSERT_FALSE(checked);
+    EXPECT_THAT(checked.error().message, testing::HasSubstr("1 of the files asked for"));
+    const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
+    EXPECT_EQ(report.at("rows").at(0).at("faulty_files"), 1);
 }
 
 TEST(Flight, FromStandardInputNamesNoTemporaryFile) {

@@ -334,6 +334,22 @@ TEST(Scene, PickMeetsTheFirstOfGroundAndMeshes) {
     EXPECT_EQ(down(0.5, 9.0)->node, &ground);
 }
 
+TEST(Scene, PickMeshMeetsTheFirstTriangleOfARangeFromOutside) {
+    Scene scene;
+    const auto box = std::make_shared<const Mesh>(box_mesh(glm::vec3(2.0F)));
+    Node& low = scene.root().add("low", MeshNode{box, {}});
+    Node& high = scene.root().add("high", MeshNode{box, {}});
+    high.set_position({0.0, 0.0, 6.0});
+    const Ray down{{0.5, 0.25, 17.0}, {0.0, 0.0, -2.0}};
+    EXPECT_EQ(scene.pick_mesh(down)->node, &high);
+    EXPECT_EQ(scene.pick_mesh(down)->t, 5.0);
+    EXPECT_EQ(scene.pick_mesh(down)->normal, glm::dvec3(0.0, 0.0, 1.0));
+    EXPECT_EQ(scene.pick_mesh(down, {5.5, 10.0})->node, &low);
+    EXPECT_EQ(scene.pick_mesh(down, {5.5, 10.0})->t, 8.0);
+    EXPECT_FALSE(scene.pick_mesh(down, {0.0, 4.5}));
+    EXPECT_FALSE(scene.pick_mesh(down, {8.5, 100.0})) << "from inside";
+}
+
 TEST(Scene, PickMeetsABillboardAsTheCameraSeesIt) {
     Scene scene;
     scene.add_camera({.eye = {50.0, 0.0, 0.0}, .target = {0.0, 0.0, 0.0}});
