@@ -77,7 +77,7 @@ TEST(DistanceSuite, TerrainsOfFewSamplesLoseOnlyTheDistancesThatCannotBe) {
     const std::string head = "xllcorner 0\nyllcorner 0\ncellsize 10\n";
     DistanceOptions options = options_over(folder.write("tower.asc", tower()).string());
     options.techniques = {{scene::Exact{}}};
-    options.distances = {100.0, 20000.0};
+    options.distances = {20000.0, 100.0};
     for (const auto& [name, text] :
          {std::pair{"one.asc", "ncols 1\nnrows 1\n" + head + "1\n"},
           {"two.asc", "ncols 1\nnrows 2\n" + head + "1\n2\n"},
