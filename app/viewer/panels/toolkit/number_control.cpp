@@ -94,7 +94,7 @@ std::optional<double> number_slider(const NumberControl& control, double value) 
                             &control.slider.end, "", flags);
     const bool is_clicked = ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
     if (is_clicked &&
-        (ImGui::GetIO().KeyCtrl || ImGui::GetMouseClickedCount(ImGuiMouseButton_Left) >= 2)) {
+        (ImGui::GetIO().KeyCtrl || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) {
         storage.SetBool(request, true); // the box, in the next frame
     }
     number_tip(control.meaning);
