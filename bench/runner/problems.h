@@ -17,8 +17,10 @@ namespace reljef::bench {
 class Problems {
 public:
     void add(const Error& error) {
-        std::string sentence = error.message;
-        std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+        std::string sentence;
+        for (const char letter : error.message) { // a line is a sentence in end()
+            sentence += letter == '\n' ? std::string("; ") : std::string(1, letter);
+        }
         if (std::find(sentences_.begin(), sentences_.end(), sentence) == sentences_.end()) {
             sentences_.push_back(std::move(sentence));
         }
