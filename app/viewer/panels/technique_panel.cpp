@@ -40,9 +40,10 @@ PanelActions draw_models(const TechniqueContent& content) {
         }
         ImGui::EndCombo();
     }
-    wrapped_muted_text(content.model ? "Changes are for this model alone, which has a frame in the "
-                                       "view."
-                                     : "Changes are for all models. Choose a model to change it alone.");
+    wrapped_muted_text(content.model
+                           ? "Changes are for this model alone, which has a frame in the "
+                             "view."
+                           : "Changes are for all models. Choose a model to change it alone.");
     ImGui::BeginDisabled(content.is_as_at_start);
     if (wide_button("Initial techniques  (0)")) {
         actions.emplace_back(PressKey{Key::digit0});
