@@ -241,23 +241,24 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
                **opened, choice, log, interrupt);
 }
 
-// The error stands on stderr at once, and in the window until the user closes it. Returns what is
-// left to be written.
-Error shown_error(const Error& error, const ViewerChoice& choice, platform::Window& window,
-                  const cli::Interrupt& interrupt) {
+// The error stands on stderr at once, and in the window until the user closes it. Returns whether
+// it does.
+bool show_error(const Error& error, const ViewerChoice& choice, platform::Window& window,
+                const cli::Interrupt& interrupt) {
     if (choice.frames_given || interrupt.requested()) {
-        return error;
+        return false;
     }
     auto panels = make_panels(choice, window);
     if (!panels) {
-        return error;
+        return false;
     }
     cli::write_error("reljef", error);
     show_failure(window, *panels, error.message, interrupt.token());
-    return {{}, error.kind};
+    return true;
 }
 
-Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt) {
+// `has_written_error`: its error.
+Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt, bool& has_written_error) {
     const auto description = session::describe(choice.terrain.terrain);
     if (!description) {
         return description.error(); // without a window
@@ -275,7 +276,8 @@ Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt) {
         return Error{window.error().message + "; without a window there is 'reljef render'"};
     }
     auto shown = show(choice, **window, opening, interrupt);
-    return shown ? shown : shown_error(shown.error(), choice, **window, interrupt);
+    has_written_error = !shown && show_error(shown.error(), choice, **window, interrupt);
+    return shown;
 }
 
 } // namespace
@@ -329,12 +331,16 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"
         "  reljef view dem.tif --imagery photo.tif --path orbit\n"
         "  reljef view urban --technique texture --size 1600x900");
-    return {arguments, [arguments, choice, &interrupt] {
+    const auto has_written_error = std::make_shared<bool>(false);
+    return {arguments,
+            [arguments, choice, has_written_error, &interrupt] {
                 choice->frames_given = arguments->count("--frames") > 0;
                 choice->named_terrain = choice->terrain.terrain;
-                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(),
-                                                [&] { return view(*choice, interrupt); });
-            }};
+                return cli::with_standard_input(choice->terrain.terrain, interrupt.token(), [&] {
+                    return view(*choice, interrupt, *has_written_error);
+                });
+            },
+            [has_written_error] { return *has_written_error; }};
 }
 
 } // namespace reljef::app

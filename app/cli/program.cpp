@@ -49,16 +49,20 @@ std::string one_line(std::string_view message) {
     return line;
 }
 
-int fail(const Program& program, std::string_view message) {
-    write_error(program.name, Error{std::string(message)});
+int fail(const Program& program, const Error& error) {
+    write_error(program.name, error);
     return failed;
 }
 
-// A closed pipe needs no message: the reader has finished.
+// What fails may be long ago, and errno that of something else: a last byte finds out.
 int report_lost_output(const Program& program) {
-    return errno == EPIPE ? failed
-                          : fail(program, fmt::format("standard output: cannot be written: {}",
-                                                      std::strerror(errno)));
+    const int reason = ::write(STDOUT_FILENO, "\n", 1) < 0 ? errno : 0;
+    if (reason == EPIPE) { // the reader has finished
+        return failed;
+    }
+    return fail(program, {reason == 0 ? std::string("standard output: a part could not be written")
+                                      : fmt::format("standard output: cannot be written: {}",
+                                                    std::strerror(reason))});
 }
 
 int usage_error(const Program& program, std::string message) {
@@ -82,16 +86,16 @@ int run_command(const Program& program, const Command& command, const Interrupt&
     if (result) {
         return done;
     }
-    const std::string& message = result.error().message;
-    const bool is_usage = result.error().kind == Error::Kind::usage;
-    if (message.empty()) { // it was written
+    const Error& error = result.error();
+    const bool is_usage = error.kind == Error::Kind::usage;
+    if (command.has_written_error && command.has_written_error()) {
         return is_usage ? misused : failed;
     }
     if (is_usage) {
-        return usage_error(program, message);
+        return usage_error(program, error.message);
     }
-    const bool is_stopped = interrupt.requested() && !message.starts_with("interrupted");
-    return fail(program, is_stopped ? "interrupted" : message);
+    const bool is_stopped = interrupt.requested() && !error.message.starts_with("interrupted");
+    return fail(program, is_stopped ? Error{"interrupted"} : error);
 }
 
 int run(const Program& program, int argc, char** argv) {
@@ -109,9 +113,10 @@ int run_made(const Program& program, int argc, char** argv) {
     try {
         return run(program, argc, argv);
     } catch (const std::bad_alloc&) {
-        return fail(program, "there is not enough memory for this");
+        return fail(program, {"there is not enough memory for this"});
     } catch (const std::exception& error) {
-        return std::ferror(stdout) != 0 ? report_lost_output(program) : fail(program, error.what());
+        return std::ferror(stdout) != 0 ? report_lost_output(program)
+                                        : fail(program, {error.what()});
     }
 }
 

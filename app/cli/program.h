@@ -16,9 +16,10 @@ namespace reljef::cli {
 
 /// A verb of the program.
 struct Command {
-    CLI::App* arguments = nullptr; ///< owned by the program's parser
-    /// After parsing. An error without a message was written before, by write_error().
-    std::function<Result<void>()> run;
+    CLI::App* arguments = nullptr;     ///< owned by the program's parser
+    std::function<Result<void>()> run; ///< after parsing
+    /// Whether run() wrote its error itself, by write_error(); empty: it never does.
+    std::function<bool()> has_written_error = {};
 };
 
 struct Program {

@@ -14,6 +14,7 @@
 #include "engine/io/image/image.h"
 #include "engine/io/image/picture_writer.h"
 #include "engine/session/flight_keys.h"
+#include "engine/session/picture/faded_contours.h"
 #include "engine/session/picture/scene_marks.h"
 #include "engine/session/streaming.h"
 
@@ -75,18 +76,37 @@ Result<Image> compared_frame(const Rendering& run, const Image& frame) {
 // Notes on pictures, each once, with the number of the pictures if it is not true of all.
 class PictureNotes {
 public:
-    void add(const std::string& sentence) { ++pictures_[sentence]; }
+    void add(const std::string& sentence) { add(sentence, sentence); }
+    // Of sentences on one subject, which differ in their numbers, the first one.
+    void add(const std::string& subject, const std::string& sentence) {
+        Note& note = notes_[subject];
+        note.sentence = note.pictures++ == 0 ? sentence : note.sentence;
+    }
     void pass_to(session::Log& log, int pictures) const {
-        for (const auto& [sentence, count] : pictures_) {
-            log.note(count == pictures
-                         ? sentence
-                         : fmt::format("{} ({} of {} pictures)", sentence, count, pictures));
+        for (const auto& [subject, note] : notes_) {
+            log.note(note.pictures == pictures
+                         ? note.sentence
+                         : fmt::format("{} ({} of {} pictures)", note.sentence, note.pictures,
+                                       pictures));
         }
     }
 
 private:
-    std::map<std::string, int> pictures_;
+    struct Note {
+        std::string sentence;
+        int pictures = 0;
+    };
+    std::map<std::string, Note> notes_; // by subject
 };
+
+// Of the view that the scene's camera has.
+void note_faded_contours(const Rendering& run, PictureNotes& notes) {
+    const auto faded = session::faded_contours(run.scene, run.choice.view.size);
+    if (faded && !run.choice.truth) {
+        notes.add("contours", session::faded_text(
+                                  *faded, run.scene.terrain->get<scene::TerrainNode>()->contours));
+    }
+}
 
 // Of the view that the scene's camera has.
 view::PictureMarks marks_of(const Rendering& run, PictureNotes& notes) {
@@ -94,6 +114,9 @@ view::PictureMarks marks_of(const Rendering& run, PictureNotes& notes) {
     auto found = session::marks_of(run.scene, chosen, run.choice.view.size);
     for (const std::string& note : found.notes) {
         notes.add(note);
+    }
+    if (!found.marks.empty()) {
+        run.maker.keep_clear(view::mark_plates(found.marks, run.choice.view.size));
     }
     return std::move(found.marks);
 }
@@ -107,12 +130,15 @@ void draw_marks(const view::PictureMarks& marks, GridView<Rgba8> picture) {
 // One frame, divided by --compare, with its marks. `progress` gets the part of it that is drawn.
 Result<Image> draw_frame(const Rendering& run, PictureNotes& notes,
                          const std::function<void(double)>& progress) {
+    run.maker.wait_for_tiles(run.scene.scene, run.interrupt.token()); // the marks need the ground
+    const view::PictureMarks marks = marks_of(run, notes);
     auto picture = run.maker.draw(run.scene.scene, frame_options(run, progress));
     if (picture && run.choice.compare.request && !run.interrupt.requested()) {
         picture = compared_frame(run, *picture);
     }
     if (picture) {
-        draw_marks(marks_of(run, notes), picture->view());
+        note_faded_contours(run, notes);
+        draw_marks(marks, picture->view());
     }
     return run.interrupt.requested() ? Result<Image>(Error{"interrupted"}) : std::move(picture);
 }
@@ -174,6 +200,7 @@ Result<void> draw_large(const Rendering& run, std::vector<AtomicFile>& outputs) 
     session::LargePicture picture{run.choice.output, parts_of(run.choice)};
     PictureNotes notes;
     const auto marks = marks_of(run, notes);
+    note_faded_contours(run, notes);
     notes.pass_to(run.log, 1);
     if (!marks.empty()) {
         picture.paint_over = [marks, size = run.choice.view.size](GridView<Rgba8> rows,

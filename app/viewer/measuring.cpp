@@ -29,15 +29,13 @@ std::string distance_text(std::span<const terrain::ProfilePoint> profile,
 
 // What is seen shines green, what is hidden lies in blue shade; voids keep their colours.
 Image colors_of(const Grid<std::uint8_t>& seen) {
-    constexpr Rgba8 visible{136, 214, 84, 104};
-    constexpr Rgba8 hidden{18, 22, 70, 140};
     constexpr Rgba8 unknown{0, 0, 0, 0};
     Image colors(seen.cols(), seen.rows());
     for (int row = 0; row < seen.rows(); ++row) {
         for (int col = 0; col < seen.cols(); ++col) {
             const auto state = static_cast<terrain::SeenState>(seen(col, row));
-            colors(col, row) = state == terrain::SeenState::visible  ? visible
-                               : state == terrain::SeenState::hidden ? hidden
+            colors(col, row) = state == terrain::SeenState::visible  ? Measuring::visible_color
+                               : state == terrain::SeenState::hidden ? Measuring::hidden_color
                                                                      : unknown;
         }
     }

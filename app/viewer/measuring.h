@@ -26,6 +26,10 @@ class Measuring {
 public:
     static constexpr double eye_height = 2.0; ///< above the ground, for lines of sight, metres
 
+    /// Colours of the viewshed over the ground.
+    static constexpr Rgba8 visible_color{136, 214, 84, 104};
+    static constexpr Rgba8 hidden_color{18, 22, 70, 140};
+
     /// The scene outlives this.
     explicit Measuring(const session::TerrainScene& scene) : scene_(scene) {}
 

@@ -261,4 +261,12 @@ Result<std::string> render_command(const StartOptions& start, const session::Ter
     return command.add("-o", "view.png").text();
 }
 
+std::string copied_text(const std::string& command, const ShownState& shown) {
+    return fmt::format("copied{}: {}\n",
+                       shown.shows_viewshed
+                           ? " without the colours of the viewshed, which render cannot draw"
+                           : "",
+                       command);
+}
+
 } // namespace reljef::app

@@ -32,6 +32,7 @@ struct ShownState {
     std::string ramp = {};           ///< a built-in one; empty: that of the start
     std::string compare = {};        ///< as --compare; empty: nothing is compared
     double wipe = 0.5;               ///< as --wipe
+    bool shows_viewshed = false;     ///< over the ground
 };
 
 /// The text as one word of a POSIX shell.
@@ -41,5 +42,8 @@ std::string shell_word(std::string_view text);
 /// models with several techniques that the user chose.
 Result<std::string> render_command(const StartOptions& start, const session::TerrainScene& scene,
                                    const ShownState& shown);
+
+/// The line "copied: …" on a command that is in the clipboard, with what it does not draw.
+std::string copied_text(const std::string& command, const ShownState& shown);
 
 } // namespace reljef::app

@@ -89,7 +89,7 @@ Viewer::Viewer(session::TerrainScene& scene, scene::CameraPath path, glm::ivec2 
     : scene_(scene), desk_(std::move(path)), size_(size), start_(perspective_start(scene, size)),
       switch_(scene, options.maps), techniques_(scene, switch_, material().technique),
       surface_switch_(scene, options.maps.threads, options.maps.largest_side), levels_(scene),
-      flight_(make_flight(scene, start_, options.allow_underground)),
+      contours_(scene), flight_(make_flight(scene, start_, options.allow_underground)),
       navigation_(navigation_options(scene, size, options.allow_underground)), measuring_(scene),
       comparison_(scene, options.maps), terrain_(options.terrain) {
     if (options.bookmarks) {
@@ -251,6 +251,7 @@ void Viewer::advance(double seconds) {
     last_step_ = step;
     move(step);
     desk_.record(flight_.camera(), step);
+    content_changed_ = contours_.update(size_, is_moving(), notes_) || content_changed_;
     const auto seen_before = measuring_.seen();
     if (const auto viewshed = measuring_.update()) {
         report(*viewshed ? Result<void>() : viewshed->error());

@@ -11,17 +11,18 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/appearance/appearance_switch.h"
+#include "app/viewer/appearance/contour_watch.h"
 #include "app/viewer/appearance/level_switch.h"
 #include "app/viewer/appearance/proof_switch.h"
 #include "app/viewer/appearance/surface_switch.h"
 #include "app/viewer/appearance/technique_editor.h"
-#include "app/viewer/bookmarks.h"
 #include "app/viewer/comparing/comparison.h"
 #include "app/viewer/measuring.h"
 #include "app/viewer/navigation.h"
 #include "app/viewer/panels/panel_action.h"
 #include "app/viewer/panels/panel_content.h"
 #include "app/viewer/paths/path_desk.h"
+#include "app/viewer/places/bookmarks.h"
 #include "app/viewer/viewer_map.h"
 #include "engine/core/event.h"
 #include "engine/scene/motion/camera_path.h"
@@ -188,6 +189,8 @@ public:
     /// How far the ground lifted the path at most, metres.
     [[nodiscard]] double path_lifted() const { return path_lifted_; }
     [[nodiscard]] bool is_map() const { return map_.has_value(); }
+    /// Why the contours of the view are not seen; empty: they are, or there are none.
+    [[nodiscard]] const std::string& faded_contours() const { return contours_.sentence(); }
     // As in AppearanceSwitch.
     [[nodiscard]] bool is_preparing() const {
         return switch_.is_preparing() || surface_switch_.is_preparing();
@@ -267,6 +270,7 @@ private:
     TechniqueEditor techniques_; // uses the switch
     SurfaceSwitch surface_switch_;
     LevelSwitch levels_;
+    ContourWatch contours_;
     std::optional<ProofSwitch> proofs_;
     scene::FreeFlight flight_;
     Navigation navigation_;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 
 #include "engine/session/ground.h"
 #include "engine/session/scene_daylight.h"
 #include "engine/terrain/field/color_ramp.h"
+#include "engine/terrain/field/placement.h"
 #include "engine/terrain/measure/profile.h"
 
 namespace reljef::app {
@@ -49,9 +51,11 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
     appearance.grain = static_cast<double>(terrain_of(scene).grain);
     appearance.eye_dome = scene.scene.eye_dome();
     appearance.contours = terrain_of(scene).contours;
+    appearance.faded_contours = viewer.faded_contours();
     appearance.labels_contours = terrain_of(scene).labels_contours;
     appearance.light = viewer.light();
     appearance.exaggeration = viewer.exaggeration();
+    appearance.max_exaggeration = terrain::max_exaggeration;
     appearance.fixed_exaggeration = viewer.exaggeration_obstacle();
     appearance.shows_map = viewer.is_map();
     appearance.plays_path = viewer.is_playing();
@@ -101,7 +105,42 @@ MeasureContent measure_of(const Viewer& viewer, const scene::Camera& camera, glm
     if (measuring.seen() != nullptr) {
         measure.viewshed = viewer.shows_viewshed();
     }
+    if (viewer.shows_viewshed()) {
+        measure.ground_colors = {{"seen from the point", Measuring::visible_color},
+                                 {"hidden", Measuring::hidden_color}};
+    }
     return measure;
+}
+
+// Around the corners of a node's own bounds; empty if the eye is beside or in them.
+std::optional<PixelBox> box_of(const scene::Node& node, const scene::Camera& camera,
+                               glm::ivec2 window) {
+    const Box bounds = node.local_bounds();
+    const glm::dmat4 world_from_local = node.world_from_local();
+    if (bounds.empty()) {
+        return std::nullopt;
+    }
+    PixelBox box{glm::dvec2(std::numeric_limits<double>::infinity()),
+                 glm::dvec2(-std::numeric_limits<double>::infinity())};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::bvec3 is_high((corner & 1) != 0, (corner & 2) != 0, (corner & 4) != 0);
+        const glm::dvec4 local(glm::mix(bounds.low, bounds.high, is_high), 1.0);
+        const scene::Projected at = scene::project(camera, glm::max(window, glm::ivec2(1)),
+                                                   glm::dvec3(world_from_local * local));
+        if (!(at.depth > 0.0) && camera.projection == scene::ProjectionKind::perspective) {
+            return std::nullopt;
+        }
+        box = {glm::min(box.low, at.pixel), glm::max(box.high, at.pixel)};
+    }
+    return box;
+}
+
+void mark_model(TechniqueContent& technique, const session::TerrainScene& scene,
+                const scene::Camera& camera, glm::ivec2 window) {
+    if (technique.model && *technique.model < scene.models.size()) {
+        technique.models.at(*technique.model).box =
+            box_of(*scene.models[*technique.model], camera, window);
+    }
 }
 
 PathContent path_of(const Viewer& viewer) {
@@ -139,6 +178,7 @@ PanelContent content_of(const Viewer& viewer, const session::TerrainScene& scene
     content.frame.window = window;
     content.technique = viewer.techniques().content();
     content.technique.is_as_at_start = viewer.keeps_techniques();
+    mark_model(content.technique, scene, camera, window);
     content.appearance = appearance_of(viewer, scene);
     content.measure = measure_of(viewer, camera, window);
     content.path = path_of(viewer);
@@ -169,7 +209,8 @@ ShownState shown_state(const Viewer& viewer, const session::TerrainScene& scene,
             .keeps_techniques = viewer.keeps_techniques(),
             .ramp = has_named_ramp ? viewer.ramp().name : std::string(),
             .compare = viewer.comparison().option(),
-            .wipe = viewer.comparison().share()};
+            .wipe = viewer.comparison().share(),
+            .shows_viewshed = viewer.shows_viewshed()};
 }
 
 } // namespace reljef::app

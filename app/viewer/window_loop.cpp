@@ -310,15 +310,14 @@ private:
     void act_on(const CancelVideo& /*action*/) { filming_.cancel(); }
 
     void copy_command() {
-        const auto command =
-            render_command(options_.start, scene_,
-                           shown_state(viewer_, scene_, window_.framebuffer_size(), samples_));
+        const auto shown = shown_state(viewer_, scene_, window_.framebuffer_size(), samples_);
+        const auto command = render_command(options_.start, scene_, shown);
         if (!command) {
             messages_.note(command.error().message);
             return;
         }
         window_.set_clipboard(*command);
-        messages_.report(fmt::format("copied: {}\n", *command));
+        messages_.report(copied_text(*command, shown));
     }
 
     void log_raised_path() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,17 +17,21 @@ namespace reljef::bench {
 class Problems {
 public:
     void add(const Error& error) {
-        if (std::find(sentences_.begin(), sentences_.end(), error.message) == sentences_.end()) {
-            sentences_.push_back(error.message);
+        std::string sentence;
+        for (const char letter : error.message) { // a line is a sentence in end()
+            sentence += letter == '\n' ? std::string("; ") : std::string(1, letter);
+        }
+        if (std::find(sentences_.begin(), sentences_.end(), sentence) == sentences_.end()) {
+            sentences_.push_back(std::move(sentence));
         }
     }
 
     [[nodiscard]] const std::vector<std::string>& sentences() const { return sentences_; }
 
-    /// Fails with all sentences; not without any.
+    /// Fails with all sentences, a line each; not without any.
     [[nodiscard]] Result<void> end() const {
         return sentences_.empty() ? Result<void>()
-                                  : Error{fmt::format("{}", fmt::join(sentences_, "; "))};
+                                  : Error{fmt::format("{}", fmt::join(sentences_, "\n"))};
     }
 
 private:

@@ -20,7 +20,17 @@ namespace {
 // 512 MB of colour and depth at 4 samples. Users usually reduce larger pictures.
 constexpr double max_sampled_pixels = 4096.0 * 4096.0;
 
+bool has_wireframe(const view::DrawList& list) {
+    return std::ranges::any_of(list.terrains,
+                               [](const auto& draw) { return draw.terrain->material.wireframe; }) ||
+           std::ranges::any_of(list.meshes,
+                               [](const auto& draw) { return draw.mesh->material.wireframe; });
+}
+
 int samples_of(const view::DrawList& list, glm::ivec2 size, int samples) {
+    if (has_wireframe(list)) { // Mesa 22 draws lines of several samples black
+        return 1;
+    }
     // Walls below rays are as sharp as these: they do not make every ray four.
     const bool has_triangles = !list.tiles.empty() || !list.meshes.empty();
     const double pixels = static_cast<double>(size.x) * size.y;

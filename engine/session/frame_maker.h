@@ -34,6 +34,8 @@ public:
     /// Before the parts of the picture (scene::Camera::whole) that the scene's camera shows at this
     /// size are drawn: all are drawn by the same means, and stats() counts them together.
     virtual void begin_parts(const scene::Scene& /*scene*/, glm::ivec2 /*picture*/) {}
+    /// For later frames: no contour label lies in these areas of the picture.
+    virtual void keep_clear(const std::vector<scene::PicturePart>& /*areas*/) {}
     /// Counts and times of the last frame, one per line.
     [[nodiscard]] virtual std::string stats() const = 0;
     /// Sentences about frames so far that did not keep their error bound, or may not have kept it.
@@ -64,6 +66,9 @@ public:
     Result<HitBuffer> draw_hits(const scene::Scene& scene,
                                 const ParallelOptions& parallel) override;
     void begin_parts(const scene::Scene& scene, glm::ivec2 picture) override;
+    void keep_clear(const std::vector<scene::PicturePart>& areas) override {
+        device_.renderer().keep_clear(areas);
+    }
     [[nodiscard]] std::string stats() const override;
     [[nodiscard]] std::vector<std::string> error_notes() const override;
     [[nodiscard]] const FrameTimes& times() const { return times_; }

@@ -211,20 +211,23 @@ Result<Surroundings> surroundings_of(const TerrainScene& scene,
     return found;
 }
 
-// Azimuth, [0, 360), and altitude over the terrain's middle, degrees.
-Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time) {
+// Azimuth, [0, 360), and altitude over the terrain's middle, degrees. `subject`: what named the
+// time, for messages.
+Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTime& time,
+                              std::string_view subject) {
     const scene::TerrainSurface& surface = *scene.terrain->get<scene::TerrainNode>()->surface;
     const auto north = true_north(scene);
     if (!north) {
         return usage_error(
-            fmt::format("{}: no place on Earth found, which the sun of a time needs; "
+            fmt::format("{}: {} has no place on Earth, which the sun of a time needs; "
                         "the sun's azimuth and altitude need none",
-                        surface.terrain().name));
+                        subject, surface.terrain().name));
     }
     const auto middle = surface.placement().geodetic_from_world(scene.bounds.center());
     const auto sun = geo::sun_by_day(time, middle->latitude, middle->longitude);
     if (!sun) {
-        return usage_error(fmt::format("{}: {}", surface.terrain().name, sun.error().message));
+        return usage_error(
+            fmt::format("{}: over {}, {}", subject, surface.terrain().name, sun.error().message));
     }
     return glm::dvec2(std::fmod(sun->azimuth + *north + 360.0, 360.0), sun->altitude);
 }
@@ -240,7 +243,11 @@ Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescri
         choice = *description.sun_time;
     }
     const auto* const time = std::get_if<geo::UniversalTime>(&choice);
-    const auto angles = time != nullptr ? sun_angles(scene, *time)
+    const std::string subject =
+        view.sun
+            ? std::string("--sun")
+            : scene.terrain->get<scene::TerrainNode>()->surface->terrain().name + ": [sun] time";
+    const auto angles = time != nullptr ? sun_angles(scene, *time, subject)
                                         : Result<glm::dvec2>(std::get<glm::dvec2>(choice));
     if (!angles) {
         return angles.error();

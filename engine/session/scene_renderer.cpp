@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <glm/vector_relational.hpp>
+
 #include "engine/cast/simd_target.h"
 #include "engine/core/check.h"
 #include "engine/core/stopwatch.h"
@@ -40,6 +42,11 @@ view::SelectOptions with_chooser(view::SelectOptions options,
 std::string obstacle_in(const view::DrawList& list, const std::string& of_whole) {
     const bool is_part = list.camera.whole != glm::ivec2(0);
     return is_part && !of_whole.empty() ? of_whole : cast::obstacle_of(list);
+}
+
+bool overlap(const scene::PicturePart& a, const scene::PicturePart& b) {
+    return glm::all(glm::lessThan(a.first, b.first + b.size)) &&
+           glm::all(glm::lessThan(b.first, a.first + a.size));
 }
 
 view::ChoiceOptions choice_options(const SceneRendererOptions& options,
@@ -112,7 +119,7 @@ Result<bool> SceneRenderer::choose_rays() {
         }
     }
     if ((drawn_ > 0 || expects_rays_) && shows_rays_ != by_rays) {
-        note_ = by_rays ? "exact rays on the CPU draw again"
+        note_ = by_rays ? "exact rays on the CPU draw again, within the technique's error bound"
                         : obstacle + ": drawn by OpenGL, not by rays on the CPU";
     }
     if (shows_rays_ != by_rays) {
@@ -218,7 +225,7 @@ void SceneRenderer::choose_for_parts(const scene::Scene& scene, glm::ivec2 pictu
     const view::FrameView whole = view::select(scene, picture, select_options_);
     *obstacle_of_whole_ = cast::obstacle_of(whole.list);
     chooser_->choose_for_parts(whole.list);
-    labels_of_whole_ = view::contour_labels(whole.list, magnification_);
+    labels_of_whole_ = labels_of(whole.list);
     selector_.forget();
 }
 
@@ -278,10 +285,21 @@ void SceneRenderer::draw_eye_dome(const Grid<float>& depths, view::ContourLabels
     }
 }
 
+// Of a list that is no part of a picture.
+view::ContourLabels SceneRenderer::labels_of(const view::DrawList& list) const {
+    view::ContourLabels labels = view::contour_labels(list, magnification_);
+    std::erase_if(labels.labels, [&](const view::ContourLabel& label) {
+        const auto area = view::label_area(label, labels.digit_height, list.size);
+        return std::ranges::any_of(
+            clear_areas_, [&](const scene::PicturePart& clear) { return overlap(area, clear); });
+    });
+    return labels;
+}
+
 view::ContourLabels SceneRenderer::labels_of_frame() const {
     const view::DrawList& list = selector_.selected().list;
     if (list.camera.whole == glm::ivec2(0)) {
-        return view::contour_labels(list, magnification_);
+        return labels_of(list);
     }
     view::ContourLabels labels = labels_of_whole_;
     for (view::ContourLabel& label : labels.labels) {

@@ -99,6 +99,8 @@ public:
     void set_samples(int samples);
     /// For later frames: how many times as large they will be shown. Labels are smaller by as much.
     void set_magnification(double magnification) { magnification_ = magnification; }
+    /// For later frames: no contour label lies in these areas of the picture.
+    void keep_clear(std::vector<scene::PicturePart> areas) { clear_areas_ = std::move(areas); }
     /// For later frames. Forgets the last view.
     void set_costs(const Costs& costs);
     [[nodiscard]] const Costs& costs() const { return chooser_->costs(); }
@@ -117,6 +119,7 @@ private:
     Result<void> prepare_opengl();
     void forget_other_side(bool by_rays);
     Result<void> pass_lights(bool to_rays);
+    [[nodiscard]] view::ContourLabels labels_of(const view::DrawList& list) const;
     [[nodiscard]] view::ContourLabels labels_of_frame() const;
     Result<void> draw_over(view::ContourLabels labels, bool needs_depths);
     void draw_eye_dome(const Grid<float>& depths, view::ContourLabels& labels);
@@ -141,6 +144,7 @@ private:
     view::SelectOptions select_options_;              // without the choice
     view::FrameSelector selector_;
     double magnification_ = 1.0;
+    std::vector<scene::PicturePart> clear_areas_;
     view::ContourLabels labels_of_whole_; // for parts of a picture
     int drawn_ = 0;                       // the selection that was drawn last, counted from 1
 };

@@ -72,6 +72,20 @@ TEST(ViewCommand, KeysOfARealWindowSwitchSaveResizeAndEnd) {
     EXPECT_THAT(folder.names(), testing::ElementsAre("reljef-0001.png", "reljef-0002.png"));
 }
 
+TEST(ViewCommand, OutputThatIsLostHasItsOwnReason) {
+    if (!test::has_display()) {
+        GTEST_SKIP() << "no display";
+    }
+    const test::TemporaryFolder folder;
+    const auto result = test::run_program(
+        "/bin/sh", {"-c",
+                    "exec '" RELJEF_BINARY "' view \"$0\" --frames 1 --size 320x240 --technique "
+                    "texture >/dev/full",
+                    test::small_terrain(folder, "natural")});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err, HasSubstr("standard output: cannot be written: No space left"));
+}
+
 TEST(ViewCommand, OpenGlDrawsInTheSameWindowWhatRaysCannot) {
     if (!can_drive()) {
         GTEST_SKIP() << "no display or no xdotool";

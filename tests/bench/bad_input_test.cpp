@@ -114,6 +114,18 @@ TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     }
 }
 
+TEST(BenchBadInput, each_bad_terrain_has_a_line) {
+    const auto result = test::reljef_bench({"tables", "--terrain", "/none/a.asc", "--terrain",
+                                            "/none/b.asc", "--terrain", "/none/c.asc", "--context",
+                                            "osmesa", "--size", "32x24", "--quick", "--quiet"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 3) << result.err;
+    for (const char* const name : {"a", "b", "c"}) {
+        EXPECT_THAT(result.err,
+                    testing::HasSubstr(std::string("reljef-bench: /none/") + name + ".asc: "));
+    }
+}
+
 TEST(BenchBadInput, missing_file) {
     expect_refusal(
         test::reljef_bench({"tables", "--terrain", "/none/a.tif", "--context", "osmesa"}), 1,

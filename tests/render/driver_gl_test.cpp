@@ -224,6 +224,20 @@ TEST_F(DriverGlTest, AWireframeCoversFewerPixels) {
     EXPECT_EQ(terrain_pixels(test::must(made.draw_hits(scene))), filled) << "the mode is set back";
 }
 
+// Mesa draws lines of several samples black.
+TEST_F(DriverGlTest, AWireframeHasOneSample) {
+    World world;
+    session::SceneRenderer made = driver();
+    const auto drawn = [&](int samples) {
+        made.set_samples(samples);
+        test::must(made.draw(world.scene));
+        return made.read_color();
+    };
+    EXPECT_NE(drawn(4), drawn(1));
+    world.terrain->get<scene::TerrainNode>()->material.wireframe = true;
+    EXPECT_EQ(drawn(4), drawn(1));
+}
+
 TEST_F(DriverGlTest, AResizedOneDrawsAsOneMadeOfThatSize) {
     World world;
     session::SceneRenderer made = driver({100, 50});

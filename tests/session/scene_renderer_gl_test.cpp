@@ -129,6 +129,26 @@ TEST_F(SceneRendererWithRays, LabelsContoursOfEachFrame) {
     }
 }
 
+TEST_F(SceneRendererWithRays, LeavesOutLabelsInAreasThatAreKeptClear) {
+    TerrainScene scene = app::scene_of(labelled_slope());
+    auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    terrain.contours = 40.0;
+    use(scene, scene::Technique{scene::Exact{}});
+    SceneRenderer renderer = make_renderer();
+    const auto drawn = [&](bool has_labels) {
+        terrain.labels_contours = has_labels;
+        test::must(renderer.draw(scene.scene));
+        return renderer.read_color();
+    };
+    const Image lines = drawn(false);
+    const Image labelled = drawn(true);
+    ASSERT_NE(labelled, lines);
+    renderer.keep_clear({{{0, 0}, shown_size}});
+    EXPECT_EQ(drawn(true), lines);
+    renderer.keep_clear({{shown_size, {10, 10}}});
+    EXPECT_EQ(drawn(true), labelled) << "beside the picture";
+}
+
 TEST_F(SceneRendererWithRays, DrawsByRaysWhatTheyCanDrawAndSaysSoWhenThatChanges) {
     TerrainScene scene = app::hill_scene();
     SceneRenderer renderer = make_renderer();

@@ -174,6 +174,7 @@ TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("below the horizon"), std::string::npos)
         << refused.error().message;
+    EXPECT_EQ(refused.error().message.rfind("--sun: ", 0), 0U) << refused.error().message;
 }
 
 // Maps have the sun and the colours of maps, unless the user or the scene file names others.

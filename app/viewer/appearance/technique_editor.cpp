@@ -19,6 +19,11 @@ scene::Technique with_option(const scene::Technique& technique, const scene::Opt
     return with;
 }
 
+scene::Technique usual_technique(scene::TechniqueId id) {
+    return id == scene::TechniqueId::polygons ? session::technique_of({})
+                                              : scene::make_technique(id);
+}
+
 } // namespace
 
 scene::Technique first_technique(const session::TerrainScene& scene) {
@@ -36,11 +41,7 @@ TechniqueEditor::TechniqueEditor(const session::TerrainScene& scene, AppearanceS
                                  const scene::Technique& requested)
     : scene_(scene), switch_(changes) {
     for (const scene::TechniqueInfo& info : scene::technique_catalogue()) {
-        const bool is_polygons = info.id == scene::TechniqueId::polygons;
-        choices_.push_back({info.id == requested.id() ? requested
-                            : is_polygons             ? session::technique_of({})
-                                                      : scene::make_technique(info.id),
-                            {}});
+        choices_.push_back({info.id == requested.id() ? requested : usual_technique(info.id), {}});
     }
     check_choices();
 }
@@ -152,6 +153,7 @@ TechniqueContent TechniqueEditor::content() const {
         content.models.push_back(
             {model->name(), model->get<scene::MeshNode>()->material.technique});
     }
+    content.usual = usual_technique(edited().id());
     content.model = model_;
     content.option_reasons = option_reasons();
     const auto parameters = scene::technique_info(edited().id()).parameters;

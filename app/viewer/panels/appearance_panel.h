@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/viewer/panels/panel_action.h"
@@ -22,14 +23,33 @@ class AppearancePanel {
 public:
     PanelActions draw(const PanelContent& content, const Fonts& fonts);
 
+    /// The date and time whose sun is shown, as ISO 8601 in Universal Time; empty: the sun is not
+    /// that of a date. Precondition, as of type_date(): `appearance.on_earth`.
+    std::string date(const AppearanceContent& appearance);
+    /// Moves the sun to that of a date, at noon without a time.
+    PanelActions type_date(std::string text, const AppearanceContent& appearance);
+    /// Why the sun does not move to the last date; empty: it does.
+    [[nodiscard]] const std::string& note() const { return note_; }
+
 private:
+    // Until the sun is moved otherwise.
+    struct Dated {
+        bool is_date = false; // false: what was typed is none
+        SetSun sun;           // of the date; of a night, as it was
+        SetSun before;        // the last frames may show it still
+    };
+
     [[nodiscard]] geo::UniversalTime time() const;
+    [[nodiscard]] bool has_date(const SetSun& now);
+    PanelActions choose(const geo::UniversalTime& time, const AppearanceContent& appearance);
     PanelActions draw_date(const AppearanceContent& appearance);
+    PanelActions draw_date_sliders(const AppearanceContent& appearance, bool is_dated);
 
     int year_ = 2026;
     double day_ = 172.0; // of the year: the June solstice
     double hours_ = 10.0;
-    std::string note_; // why the sun does not move; empty: it does
+    std::optional<Dated> dated_;
+    std::string note_;
 };
 
 } // namespace reljef::app

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/panels/panel_text.h"
+#include "app/viewer/panels/toolkit/number_control.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -42,15 +43,16 @@ void write_name(const ImVec2& corner, std::string_view name) {
 }
 
 PanelActions draw_speed(const PanelContent& content) {
-    double speed = content.speed;
-    row("Speed", length_text(speed) + "/s");
-    ImGui::SetNextItemWidth(-1.0F);
-    const bool is_moved =
-        ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &lowest_speed, &highest_speed,
-                            "", ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    tip("Of the flight with W A S D and the arrows; shift is four times as fast. Ctrl and the "
-        "wheel change it, too");
-    return is_moved ? PanelActions{SetSpeed{speed}} : PanelActions();
+    const auto speed =
+        number_row("Speed",
+                   {.slider = {lowest_speed, highest_speed},
+                    .decimals = 1,
+                    .is_logarithmic = true,
+                    .unit = "m/s",
+                    .meaning = "Of the flight with W A S D and the arrows; shift is four times as "
+                               "fast. Ctrl and the wheel change it, too."},
+                   content.speed);
+    return speed ? PanelActions{SetSpeed{*speed}} : PanelActions();
 }
 
 } // namespace

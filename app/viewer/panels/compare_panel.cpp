@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/viewer/panels/toolkit/number_control.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -71,15 +72,14 @@ PanelActions draw_other_technique(const PanelContent& content) {
 }
 
 PanelActions draw_line(const CompareContent& compare) {
-    constexpr double low = 0.0;
-    constexpr double high = 1.0;
-    double share = compare.share;
-    muted_text("Line between the pictures");
-    ImGui::SetNextItemWidth(-1.0F);
-    const bool is_moved =
-        ImGui::SliderScalar("##line", ImGuiDataType_Double, &share, &low, &high, "");
-    tip("Drag the line in the picture, too; keys - and =");
-    return is_moved ? PanelActions{SetWipe{share}} : PanelActions();
+    constexpr double percent = 100.0;
+    const auto share = number_row("Line between the pictures",
+                                  {.slider = {0.0, percent},
+                                   .decimals = 1,
+                                   .unit = "%",
+                                   .meaning = "Drag the line in the picture, too; keys - and ="},
+                                  percent * compare.share);
+    return share ? PanelActions{SetWipe{*share / percent}} : PanelActions();
 }
 
 void draw_cells(const std::array<std::string, 3>& cells) {

@@ -6,7 +6,7 @@ namespace reljef::app {
 
 bool draw_help(const PanelContent& content, const Area& area, const Fonts& fonts) {
     ImGui::PushStyleColor(ImGuiCol_WindowBg, in_imgui(palette::raised));
-    const Card card("help", area, Card::Scrolling::vertical);
+    const Card card("help", area, Card::Scrolling::none, Card::Order::top);
     ImGui::PopStyleColor();
     {
         const FontScope bold(fonts.heading);
@@ -17,7 +17,7 @@ bool draw_help(const PanelContent& content, const Area& area, const Fonts& fonts
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
     const bool is_closed = ImGui::Button(close);
     const FontScope small(fonts.small);
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollY)) {
         ImGui::TableSetupColumn("names");
         ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
         for (const KeyContent& key : content.keys) {

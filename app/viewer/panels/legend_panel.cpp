@@ -1,6 +1,7 @@
 #include "app/viewer/panels/legend_panel.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -27,9 +28,39 @@ void draw_ramp(const std::vector<LegendStop>& stops, ImVec2 low, ImVec2 high) {
     }
 }
 
+// As it lies over grey ground.
+Rgba8 over_ground(Rgba8 color) {
+    constexpr int ground = 140;
+    constexpr int opaque = 255;
+    const auto channel = [&](int above) {
+        return static_cast<std::uint8_t>((above * color.a + ground * (opaque - color.a)) / opaque);
+    };
+    return {channel(color.r), channel(color.g), channel(color.b), opaque};
+}
+
+void draw_ground_colors(const PanelContent& content, const Area& area, const Fonts& fonts) {
+    const Card card("legend", area);
+    const FontScope small(fonts.small);
+    muted_text("Viewshed");
+    const float side = ImGui::GetTextLineHeight();
+    for (const NamedColor& named : content.measure.ground_colors) {
+        const ImVec2 low = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + side, low.y + side},
+                                                  in_imgui(over_ground(named.color)));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        text(named.name);
+    }
+    muted_text("F2: the colours of heights");
+}
+
 } // namespace
 
 void draw_legend(const PanelContent& content, const Area& area, const Fonts& fonts) {
+    if (!content.measure.ground_colors.empty()) {
+        draw_ground_colors(content, area, fonts);
+        return;
+    }
     const auto& stops = content.legend;
     if (stops.size() < 2) {
         return;

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/viewer/places/bookmark.h"
 #include "engine/core/color.h"
 #include "engine/geo/georeference.h"
 #include "engine/scene/graph/scene.h"
@@ -34,15 +35,23 @@ struct TechniqueChoice {
     std::optional<int> digit = {}; ///< the key that chooses it
 };
 
+/// Pixels of the window.
+struct PixelBox {
+    glm::dvec2 low{0.0};
+    glm::dvec2 high{0.0};
+};
+
 struct ModelContent {
     std::string name;
     scene::Technique technique;
+    std::optional<PixelBox> box = {}; ///< around it, of the selected one; absent: not in view
 };
 
 struct TechniqueContent {
     scene::Technique requested;              ///< of the first model if there are several
     std::vector<TechniqueChoice> choices;    ///< in the catalogue's order
     std::vector<ModelContent> models;        ///< the gallery's, else empty
+    scene::Technique usual;                  ///< the edited one as it is without a choice
     std::optional<std::size_t> model;        ///< that the panel edits; absent: all
     std::vector<std::string> option_reasons; ///< in the catalogue's order: why one cannot be set
     std::size_t parameter = 0;               ///< that keys change, in the catalogue's order
@@ -62,8 +71,10 @@ struct AppearanceContent {
     double grain = 0.0;                    ///< TerrainNode::grain
     double eye_dome = 0.0;                 ///< scene::Scene::eye_dome()
     double contours = 0.0;                 ///< TerrainNode::contours
+    std::string faded_contours;            ///< why they are not seen; empty: they are
     bool labels_contours = true;           ///< TerrainNode::labels_contours
     double exaggeration = 1.0;             ///< requested
+    double max_exaggeration = 1.0;         ///< that can be typed
     std::string fixed_exaggeration;        ///< why it cannot change; empty: it can
     std::optional<int> samples;            ///< absent: chosen for each frame
     bool shows_map = false;
@@ -117,11 +128,17 @@ struct ProfileContent {
     bool in_sight = false;      ///< the ends see each other
 };
 
+struct NamedColor {
+    std::string name;
+    Rgba8 color; ///< over the ground
+};
+
 struct MeasureContent {
     bool is_on = false; ///< clicks pick points
     std::vector<MeasuredPoint> points;
     std::optional<ProfileContent> profile;
     std::optional<bool> viewshed; ///< whether the ground has its colours; absent: there is none
+    std::vector<NamedColor> ground_colors; ///< of the viewshed; empty: those of heights
 };
 
 struct PathContent {
@@ -146,20 +163,6 @@ struct PlaceContent {
     double height = 0.0;                ///< true metres above the DEM's zero
     std::optional<double> above_ground; ///< true metres; of the eye
     std::string object;                 ///< its name; empty: the ground
-};
-
-/// A named view of a terrain.
-struct Bookmark {
-    std::string terrain; ///< TERRAIN of the command line
-    std::string name;
-    std::string camera; ///< the options that show it
-
-    friend bool operator==(const Bookmark&, const Bookmark&) = default;
-};
-
-struct BookmarkContent {
-    std::vector<Bookmark> bookmarks; ///< of this terrain
-    std::string note;                ///< one sentence on what cannot be read; empty: nothing
 };
 
 struct TaskContent {

@@ -1,11 +1,14 @@
 #include "app/viewer/panels/panel_text.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "engine/geo/place.h"
+#include "engine/view/picture/scale_bar.h"
 
 namespace reljef::app {
 namespace {
@@ -48,6 +51,53 @@ std::string count_text(std::size_t count) {
     return count < 10'000      ? fmt::format("{}", count)
            : count < 1'000'000 ? fmt::format("{:.1f} k", number / 1e3)
                                : fmt::format("{:.2f} M", number / 1e6);
+}
+
+std::string short_number(double value) {
+    constexpr double many = 1000.0;
+    const bool is_whole = value == std::round(value) || std::abs(value) >= many;
+    return std::abs(value) < 1e15 && is_whole ? fmt::format("{:.0f}", value)
+                                              : fmt::format("{:.4g}", value);
+}
+
+std::vector<AxisTick> axis_ticks(double low, double high, double max_count) {
+    const double step = view::round_step((high - low) / std::max(max_count, 1.0));
+    const double rounding = 1e-9 * step;
+    std::vector<AxisTick> ticks;
+    for (double number = std::ceil((low - rounding) / step); number * step <= high + rounding;
+         number += 1.0) {
+        const double value = number == 0.0 ? 0.0 : number * step;
+        ticks.push_back({value, view::text_of_multiple(value, step)});
+    }
+    return ticks;
+}
+
+std::string short_text(const scene::Technique& technique) {
+    const std::string text = scene::to_string(technique);
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        double value = 0.0;
+        constexpr std::string_view digits = "-0123456789";
+        const bool begins =
+            at > 0 && text[at - 1] == '=' && digits.find(text[at]) != std::string_view::npos;
+        const auto [end, code] =
+            std::from_chars(text.data() + at, text.data() + text.size(), value);
+        if (begins && code == std::errc{}) {
+            result += short_number(value);
+            at = static_cast<std::size_t>(end - text.data());
+        } else {
+            result += text[at++];
+        }
+    }
+    return result;
+}
+
+std::string technique_summary(const TechniqueContent& content) {
+    if (!content.model) {
+        return short_text(content.requested);
+    }
+    const ModelContent& model = content.models.at(*content.model);
+    return fmt::format("{}: {}", model.name, short_text(model.technique));
 }
 
 PlaceFormat next_format(PlaceFormat format, const PlaceContent& place) {

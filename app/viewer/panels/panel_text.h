@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "app/viewer/panels/panel_content.h"
 
@@ -12,6 +13,24 @@ std::string length_text(double metres);
 
 /// "9999", "123.4 k", "1.23 M".
 std::string count_text(std::size_t count);
+
+/// With four digits, and more before the point: "4.148", "16384".
+std::string short_number(double value);
+
+/// As on the command line, with four digits of each number: "polygons:error=4.148".
+std::string short_text(const scene::Technique& technique);
+
+/// The technique of the scene, or "torus: relief" of the selected model, short.
+std::string technique_summary(const TechniqueContent& content);
+
+/// A round number on an axis.
+struct AxisTick {
+    double value = 0.0;
+    std::string text; ///< with as many digits as all ticks need
+};
+/// Round numbers at equal distances from `low` to `high`, at most about `max_count` of them.
+/// Precondition: low < high, and both are finite.
+std::vector<AxisTick> axis_ticks(double low, double high, double max_count);
 
 /// How the position bar writes places.
 enum class PlaceFormat { geographic, mgrs, crs, scene };

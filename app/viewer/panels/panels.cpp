@@ -104,6 +104,7 @@ PanelActions Panels::draw(const PanelContent& content, glm::ivec2 window, double
     if (layout.has_room) {
         follow(content);
         draw_wipe(content, layout.view, fonts);
+        draw_selected_model(content, layout.view, fonts);
         draw_points(content, fonts);
         draw_status(content, layout.status, fonts);
         if (layout.legend.size() != glm::dvec2(0.0)) {

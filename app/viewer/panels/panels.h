@@ -41,6 +41,8 @@ public:
     /// A sentence about fonts that are not installed, or empty.
     [[nodiscard]] const std::string& note() const { return interface_.fonts().note; }
     [[nodiscard]] bool is_visible() const { return is_visible_; }
+    /// Whether the keys go to a text field.
+    [[nodiscard]] bool types_text() const { return is_visible_ && interface_.types_text(); }
     [[nodiscard]] bool is_over_panel(glm::dvec2 pixel) const {
         return is_visible_ && interface_.is_over_panel(pixel);
     }

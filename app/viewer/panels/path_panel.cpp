@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/viewer/panels/toolkit/number_control.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -71,15 +72,15 @@ PanelActions draw_duration(const PathContent& path) {
     if (path.keys.size() < 2) {
         return {};
     }
-    double seconds = duration_of(path);
-    row("Duration", fmt::format("{:.1f} s", seconds));
-    ImGui::SetNextItemWidth(-1.0F);
-    const bool is_moved =
-        ImGui::SliderScalar("##duration", ImGuiDataType_Double, &seconds, &min_duration,
-                            &max_duration, "", ImGuiSliderFlags_Logarithmic);
-    tip("Stretches all times");
-    return is_moved ? PanelActions{SetPathDuration{std::round(10.0 * seconds) / 10.0}}
-                    : PanelActions();
+    const auto seconds = number_row("Duration",
+                                    {.slider = {min_duration, max_duration},
+                                     .typed = Interval{0.1, 1e5},
+                                     .decimals = 1,
+                                     .is_logarithmic = true,
+                                     .unit = "s",
+                                     .meaning = "Stretches all times"},
+                                    duration_of(path));
+    return seconds ? PanelActions{SetPathDuration{*seconds}} : PanelActions();
 }
 
 PanelActions draw_video(const PathContent& path) {

@@ -72,7 +72,7 @@ void draw_status(const PanelContent& content, const Area& area, const Fonts& fon
         fitted_text(content.terrain);
     }
     ImGui::PushStyleColor(ImGuiCol_Text, in_imgui(palette::muted));
-    fitted_text(scene::to_string(content.technique.requested));
+    fitted_text(technique_summary(content.technique));
     ImGui::PopStyleColor();
     draw_rate(frame, fonts);
     draw_plot(frame, ImGui::GetFontSize() / 16.0F);
@@ -83,6 +83,7 @@ void draw_status(const PanelContent& content, const Area& area, const Fonts& fon
         "rounding errs");
     if (frame.stats.rays > 0) {
         row("Rays", count_text(frame.stats.rays));
+        tip("Exact rays on the CPU draw techniques with an error bound, too: they are within it");
     } else {
         row("Triangles", count_text(frame.stats.triangles));
     }

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "app/viewer/panels/panel_text.h"
+#include "app/viewer/panels/toolkit/number_control.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -23,7 +26,10 @@ PanelActions draw_models(const TechniqueContent& content) {
         return model ? content.models.at(*model).name : std::string("all models");
     };
     ImGui::SetNextItemWidth(-1.0F);
-    if (ImGui::BeginCombo("##model", name_of(content.model).c_str())) {
+    ImGui::PushStyleColor(ImGuiCol_Text, in_imgui(content.model ? palette::accent : palette::text));
+    const bool is_open = ImGui::BeginCombo("##model", name_of(content.model).c_str());
+    ImGui::PopStyleColor();
+    if (is_open) {
         if (ImGui::Selectable("all models", !content.model)) {
             actions.emplace_back(SelectModel{});
         }
@@ -34,6 +40,10 @@ PanelActions draw_models(const TechniqueContent& content) {
         }
         ImGui::EndCombo();
     }
+    wrapped_muted_text(content.model
+                           ? "Changes are for this model alone, which has a frame in the "
+                             "view."
+                           : "Changes are for all models. Choose a model to change it alone.");
     ImGui::BeginDisabled(content.is_as_at_start);
     if (wide_button("Initial techniques  (0)")) {
         actions.emplace_back(PressKey{Key::digit0});
@@ -74,21 +84,17 @@ PanelActions draw_choices(const TechniqueContent& content) {
     return actions;
 }
 
-// The new value if the user changes it.
-std::optional<double> draw_slider(const scene::NumberInfo& number, double value) {
+NumberControl control_of(const scene::NumberInfo& number) {
     const bool is_wide = number.low >= 0.0 && number.high - number.low >= many_values;
     const bool has_gap = number.min_above_low > number.low;
-    const ImGuiSliderFlags flags = is_wide || has_gap ? ImGuiSliderFlags_Logarithmic : 0;
-    double moved = value;
-    ImGui::SetNextItemWidth(-1.0F);
-    const bool is_moved = ImGui::SliderScalar("##slider", ImGuiDataType_Double, &moved, &number.low,
-                                              &number.high, "", flags);
-    const double allowed = scene::nearest_allowed(number, moved);
-    return is_moved && allowed != value ? std::optional(allowed) : std::nullopt;
+    return {.slider = {number.low, number.high},
+            .is_logarithmic = is_wide || has_gap,
+            .meaning = number.meaning};
 }
 
 // A row of a number: its name, a way back to its default, and a slider or a box.
-std::optional<double> draw_number(const scene::NumberInfo& number, double value, bool is_selected) {
+std::optional<double> draw_number(const scene::NumberInfo& number, double value, double usual,
+                                  bool is_selected) {
     std::optional<double> chosen;
     const bool is_switch = number.whole && number.low == 0.0 && number.high == 1.0;
     ImGui::PushID(std::string(number.name).c_str());
@@ -96,25 +102,37 @@ std::optional<double> draw_number(const scene::NumberInfo& number, double value,
     text(number.name);
     ImGui::PopStyleColor();
     tip(number.meaning);
-    if (value != number.default_value) {
+    if (value != usual) {
         ImGui::SameLine();
-        const std::string label = fmt::format("default {:.4g}", number.default_value);
-        chosen = ImGui::SmallButton(label.c_str()) ? std::optional(number.default_value) : chosen;
+        const std::string label = "default " + short_number(usual);
+        chosen = ImGui::SmallButton(label.c_str()) ? std::optional(usual) : chosen;
     }
-    const std::string shown = fmt::format("{:.4g}", value);
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x -
-                    (is_switch ? ImGui::GetFrameHeight() : ImGui::CalcTextSize(shown.c_str()).x));
+    const float width = is_switch ? ImGui::GetFrameHeight() : number_box_width();
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
     if (is_switch) {
         const double other = value == 0.0 ? 1.0 : 0.0;
         chosen = tick("##tick", value != 0.0) ? std::optional(other) : chosen;
+        tip(number.meaning);
     } else {
-        text(shown);
-        const auto moved = draw_slider(number, value);
-        chosen = moved ? moved : chosen;
+        const auto typed = number_box(short_number(value), width, number.meaning);
+        const auto moved = number_slider(control_of(number), value);
+        const auto changed = typed ? typed : moved;
+        chosen = changed ? std::optional(scene::nearest_allowed(number, *changed)) : chosen;
     }
-    tip(number.meaning);
     ImGui::PopID();
-    return chosen;
+    return chosen != value ? chosen : std::nullopt;
+}
+
+// A word on a parameter that another one puts out of action.
+void draw_replacement(std::span<const scene::ParameterInfo> all,
+                      const scene::ParameterInfo& parameter, const scene::Technique& technique) {
+    const auto other = std::find_if(all.begin(), all.end(), [&](const auto& candidate) {
+        return candidate.name == parameter.replaced_by;
+    });
+    if (other != all.end() && other->get(technique) != other->default_value) {
+        wrapped_muted_text(fmt::format("Not used beside {0}. A change here sets {0} to {1}.",
+                                       other->name, short_number(other->default_value)));
+    }
 }
 
 PanelActions draw_parameters(const TechniqueContent& content) {
@@ -123,8 +141,13 @@ PanelActions draw_parameters(const TechniqueContent& content) {
     const auto parameters = scene::technique_info(technique.id()).parameters;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const bool is_selected = i == content.parameter;
-        if (const auto value =
-                draw_number(parameters[i], parameters[i].get(technique), is_selected)) {
+        const double usual = parameters[i].get(content.usual.id() == technique.id()
+                                                   ? content.usual
+                                                   : scene::make_technique(technique.id()));
+        const auto value =
+            draw_number(parameters[i], parameters[i].get(technique), usual, is_selected);
+        draw_replacement(parameters, parameters[i], technique);
+        if (value) {
             actions.emplace_back(SelectParameter{i});
             actions.emplace_back(ChooseTechnique{
                 scene::with_parameter(technique, parameters[i], *value), content.model});
@@ -190,7 +213,8 @@ std::optional<scene::TechniqueOptions> draw_option(const scene::OptionInfo& opti
     const bool has_numbers = chosen && (option.words.empty() || *chosen + 1 == option.words.size());
     for (const scene::OptionNumberInfo& number : option.numbers) {
         const auto value = has_numbers ? number.get(options) : std::nullopt;
-        if (const auto moved = value ? draw_number(number, *value, false) : std::nullopt) {
+        if (const auto moved =
+                value ? draw_number(number, *value, number.default_value, false) : std::nullopt) {
             number.set(changed, *moved);
             return changed;
         }
@@ -244,8 +268,42 @@ PanelActions draw_technique(const PanelContent& content, const Fonts& fonts) {
     section(fonts.heading, "Options");
     actions += draw_options(technique);
     section(fonts.heading, "On the command line");
-    wrapped_muted_text(scene::to_string(edited(technique)));
+    wrapped_muted_text(short_text(edited(technique)));
     return actions;
+}
+
+void draw_selected_model(const PanelContent& content, const Area& view, const Fonts& fonts) {
+    constexpr float thick = 2.0F;
+    constexpr float corner_share = 0.2F; // of the shorter side
+    constexpr float margin = 6.0F;
+    const TechniqueContent& technique = content.technique;
+    const ModelContent* const model =
+        technique.model ? &technique.models.at(*technique.model) : nullptr;
+    if (model == nullptr || !model->box) {
+        return;
+    }
+    const FontScope small(fonts.small);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const ImVec2 low{static_cast<float>(model->box->low.x) - margin,
+                     static_cast<float>(model->box->low.y) - margin};
+    const ImVec2 high{static_cast<float>(model->box->high.x) + margin,
+                      static_cast<float>(model->box->high.y) + margin};
+    const float length = corner_share * std::min(high.x - low.x, high.y - low.y);
+    const ImU32 color = in_imgui(palette::accent);
+    for (const float x : {low.x, high.x}) {
+        for (const float y : {low.y, high.y}) {
+            const float along = x == low.x ? length : -length;
+            const float down = y == low.y ? length : -length;
+            list.AddLine({x, y}, {x + along, y}, color, thick);
+            list.AddLine({x, y}, {x, y + down}, color, thick);
+        }
+    }
+    const ImVec2 size = ImGui::CalcTextSize(model->name.c_str());
+    const ImVec2 label{low.x, std::max(low.y - size.y - margin, static_cast<float>(view.low.y))};
+    list.AddRectFilled({label.x - 4.0F, label.y - 1.0F},
+                       {label.x + size.x + 4.0F, label.y + size.y + 1.0F},
+                       in_imgui(palette::surface), 3.0F);
+    list.AddText(label, color, model->name.c_str());
 }
 
 } // namespace reljef::app

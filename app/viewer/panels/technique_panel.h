@@ -10,4 +10,7 @@ namespace reljef::app {
 /// catalogue.
 PanelActions draw_technique(const PanelContent& content, const Fonts& fonts);
 
+/// The selected model of the gallery in the view: the corners of a frame, and its name.
+void draw_selected_model(const PanelContent& content, const Area& view, const Fonts& fonts);
+
 } // namespace reljef::app

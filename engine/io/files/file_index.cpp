@@ -126,8 +126,11 @@ IndexedFile found_file(const fs::path& path, std::string name) {
 Result<std::vector<IndexedFile>> list_files(const fs::path& folder, const std::stop_token& stop) {
     std::vector<IndexedFile> files;
     std::error_code code;
-    fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
-                                           code);
+    static_cast<void>(fs::directory_iterator(folder, code)); // the folder itself is not skipped
+    fs::recursive_directory_iterator entry;
+    if (!code) {
+        entry = {folder, fs::directory_options::skip_permission_denied, code};
+    }
     for (; !code && entry != fs::recursive_directory_iterator(); entry.increment(code)) {
         std::error_code gone;
         if (stop.stop_requested() || files.size() > max_tiles) {

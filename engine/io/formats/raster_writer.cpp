@@ -19,10 +19,6 @@ constexpr double writing_share = 0.75; // of the progress; the rest is for the o
 constexpr int utm_zone_32_north = 32632;
 constexpr float void_metres = -32768.0F;
 
-Error cannot_write(const fs::path& path, const GdalMessages& messages) {
-    return Error{fmt::format("{}: cannot be written{}", path.string(), messages.reason())};
-}
-
 Dataset create_geotiff(const fs::path& path, const HeightRaster& raster) {
     register_drivers();
     GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
@@ -102,7 +98,7 @@ Result<void> finish(Dataset dataset, AtomicFile& file, const GdalMessages& messa
     const CPLErr before = CPLGetLastErrorType();
     dataset.reset(); // flushes
     if (before < CE_Failure && CPLGetLastErrorType() >= CE_Failure) {
-        return cannot_write(file.target(), messages);
+        return messages.cannot_write(file);
     }
     return file.commit();
 }
@@ -134,7 +130,7 @@ Result<void> write_samples(const fs::path& path, Grid<Sample> samples, const Sam
          dataset->GetRasterBand(1)->SetNoDataValue(*format.in_void) == CE_None) &&
         dataset->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, cols, rows, samples.samples().data(),
                                             cols, rows, format.type, 0, 0, nullptr) == CE_None;
-    return written ? finish(std::move(dataset), *file, messages) : cannot_write(path, messages);
+    return written ? finish(std::move(dataset), *file, messages) : messages.cannot_write(*file);
 }
 
 } // namespace
@@ -155,7 +151,7 @@ Result<void> write_heights(const fs::path& path, const HeightRaster& raster,
         return Error{fmt::format("{}: stopped", path.string())};
     }
     if (!written) {
-        return cannot_write(path, messages);
+        return messages.cannot_write(*file);
     }
     return finish(std::move(dataset), *file, messages);
 }

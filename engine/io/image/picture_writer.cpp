@@ -112,7 +112,7 @@ public:
                      "PHOTOMETRIC=RGB", "COMPRESS=DEFLATE", "PREDICTOR=2", "BIGTIFF=IF_SAFER"});
         dataset_.reset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
             file().temporary().c_str(), size().x, size().y, 3, GDT_Byte, options.List()));
-        return dataset_ != nullptr ? Result<void>() : failure(messages);
+        return dataset_ != nullptr ? Result<void>() : messages.cannot_write(file());
     }
 
 protected:
@@ -126,20 +126,15 @@ protected:
                                                 rows.cols(), rows.rows(), GDT_Byte, 3, nullptr,
                                                 pixel_bytes, row_bytes, 1, nullptr) == CE_None;
         dataset_->FlushCache(false); // keeps no written tiles
-        return written && messages.errors() == 0 ? Result<void>() : failure(messages);
+        return written && messages.errors() == 0 ? Result<void>() : messages.cannot_write(file());
     }
     Result<void> close() override {
         const GdalMessages messages;
         dataset_.reset(); // flushes
-        return messages.errors() == 0 ? Result<void>() : failure(messages);
+        return messages.errors() == 0 ? Result<void>() : messages.cannot_write(file());
     }
 
 private:
-    [[nodiscard]] Error failure(const GdalMessages& messages) const {
-        return Error{
-            fmt::format("{}: cannot be written{}", file().target().string(), messages.reason())};
-    }
-
     Dataset dataset_;
 };
 

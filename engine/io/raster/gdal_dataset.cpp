@@ -306,6 +306,19 @@ std::string GdalMessages::reason() const {
                                : fmt::format(" ({}{})", is_of_server_ ? "" : "GDAL: ", last_error_);
 }
 
+Error GdalMessages::cannot_write(const AtomicFile& file) const {
+    std::string why = reason();
+    for (const auto& [temporary, asked] :
+         {std::pair(file.temporary().string(), file.target().string()),
+          std::pair(file.temporary().filename().string(), file.target().filename().string())}) {
+        for (std::size_t at = why.find(temporary); at != std::string::npos;
+             at = why.find(temporary, at + asked.size())) {
+            why.replace(at, temporary.size(), asked);
+        }
+    }
+    return Error{fmt::format("{}: cannot be written{}", file.target().string(), why)};
+}
+
 std::string size_text(double bytes) {
     return bytes >= 1e9 ? fmt::format("{:.1f} GB", bytes / 1e9)
                         : fmt::format("{:.1f} MB", bytes / 1e6);

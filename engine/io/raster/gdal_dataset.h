@@ -12,6 +12,7 @@
 #include <gdal_priv.h>
 #include <glm/vec2.hpp>
 
+#include "engine/core/atomic_file.h"
 #include "engine/core/result.h"
 
 namespace reljef::io {
@@ -27,6 +28,9 @@ public:
     /// The last error as " (GDAL: …)", at most 200 characters in one line; empty without errors.
     /// A server's failure wins, as " (…)".
     [[nodiscard]] std::string reason() const;
+    /// "FILE: cannot be written (GDAL: …)". GDAL's message names the target, not the
+    /// temporary file.
+    [[nodiscard]] Error cannot_write(const AtomicFile& file) const;
     /// Number of errors. GDAL may report success after an error.
     [[nodiscard]] std::size_t errors() const { return errors_; }
     /// Whether GDAL silently returned empty blocks of a damaged TIFF.

@@ -341,6 +341,11 @@ bool is_covered(const ContourLabel& label, double digit_height, const Grid<float
     return false;
 }
 
+ContourInk contour_ink() {
+    return {0.5 * static_cast<double>(crowded_pixels + apart_pixels),
+            static_cast<double>(bold_every), static_cast<double>(height_rounding)};
+}
+
 ContourLabels contour_labels(const DrawList& list, double magnification) {
     ContourLabels found{digit_height(list, magnification), {}};
     for (const TerrainDraw& draw : list.terrains) {

@@ -28,6 +28,15 @@ struct ContourLabels {
     std::vector<ContourLabel> labels;
 };
 
+/// What makes contours visible.
+struct ContourInk {
+    double half_pixels = 0.0;     ///< between two lines that have half of their ink
+    double bold_every = 0.0;      ///< lines from a bold one to the next bold one
+    double height_rounding = 0.0; ///< of the height: level ground changes by less per pixel
+};
+/// At a contour_scale() of 1.
+ContourInk contour_ink();
+
 /// Labels of the bold contours that a list's picture shows: along straight parts of visible lines,
 /// not too close to each other. The ground is searched in cells that are about equally large on the
 /// picture, so a label stays at its place in the world until its cell is divided. Empty for

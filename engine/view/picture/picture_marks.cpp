@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/core/check.h"
 #include "engine/view/picture/ink.h"
@@ -18,6 +19,11 @@ namespace {
 // In heights of a digit.
 constexpr double mark_margin = 1.7; // to the picture's border
 constexpr double line_spacing = 2.3;
+constexpr double legend_to_text = 0.75;
+constexpr double north_radius = 2.1;
+constexpr double north_to_letter = 1.1; // beyond the tip
+constexpr double plate_margin = 0.7;    // around a mark
+constexpr double plate_opacity = 0.5;
 
 double line_radius_of(double digit_height) {
     return std::max(0.6, 0.07 * digit_height);
@@ -85,33 +91,87 @@ void fill_ramp(const std::vector<LegendStop>& stops, const LegendRamp& ramp, Gri
     }
 }
 
-void draw_legend_mark(const std::vector<LegendStop>& stops, glm::ivec2 size, GridView<Rgba8> part,
-                      glm::ivec2 first) {
+// In pixels of the picture.
+struct Plate {
+    glm::dvec2 low;
+    glm::dvec2 high;
+};
+
+scene::PicturePart pixels_of(const Plate& plate, glm::ivec2 size) {
+    const glm::dvec2 whole(size);
+    const glm::ivec2 low(glm::clamp(glm::floor(plate.low), glm::dvec2(0.0), whole));
+    const glm::ivec2 high(glm::clamp(glm::ceil(plate.high), glm::dvec2(0.0), whole));
+    return {low, high - low};
+}
+
+bool contains(const scene::PicturePart& plate, glm::ivec2 pixel) {
+    return glm::all(glm::greaterThanEqual(pixel, plate.first)) &&
+           glm::all(glm::lessThan(pixel, plate.first + plate.size));
+}
+
+// Once where they meet, as in small pictures.
+void fill_plates(const std::vector<scene::PicturePart>& plates, GridView<Rgba8> part,
+                 glm::ivec2 first) {
+    const glm::ivec2 size(part.cols(), part.rows());
+    for (auto plate = plates.begin(); plate != plates.end(); ++plate) {
+        const glm::ivec2 low = glm::clamp(plate->first - first, glm::ivec2(0), size);
+        const glm::ivec2 high = glm::clamp(plate->first + plate->size - first, glm::ivec2(0), size);
+        for (int row = low.y; row < high.y; ++row) {
+            for (int col = low.x; col < high.x; ++col) {
+                const glm::ivec2 pixel = first + glm::ivec2(col, row);
+                if (std::none_of(plates.begin(), plate, [&](const scene::PicturePart& other) {
+                        return contains(other, pixel);
+                    })) {
+                    part(col, row) = blended(part(col, row), paper_color, plate_opacity);
+                }
+            }
+        }
+    }
+}
+
+struct LegendPlan {
+    std::vector<LegendLabel> labels;
+    LegendRamp ramp;
+    Plate plate;
+};
+
+LegendPlan plan_legend(const std::vector<LegendStop>& stops, glm::ivec2 size) {
     constexpr double max_share = 0.42; // of the picture's height
     constexpr double max_height = 17.0;
     constexpr double width = 1.2;
-    constexpr double tick = 0.4;
-    constexpr double to_text = 0.75;
     const double digits = mark_digit_height(size);
     const double height = std::min(max_share * size.y, max_height * digits);
-    const auto labels = legend_labels(stops, height / (line_spacing * digits));
+    LegendPlan plan;
+    plan.labels = legend_labels(stops, height / (line_spacing * digits));
     double text = 0.0;
-    for (const LegendLabel& label : labels) {
+    for (const LegendLabel& label : plan.labels) {
         text = std::max(text, text_width(label.text, digits));
     }
-    const glm::dvec2 corner(size.x - (mark_margin + to_text) * digits - text,
+    const glm::dvec2 corner(size.x - (mark_margin + legend_to_text) * digits - text,
                             size.y - (mark_margin + 0.5) * digits);
-    const LegendRamp ramp{glm::ivec2(glm::round(corner - glm::dvec2(width * digits, height))),
-                          glm::ivec2(glm::round(corner))};
+    plan.ramp = {glm::ivec2(glm::round(corner - glm::dvec2(width * digits, height))),
+                 glm::ivec2(glm::round(corner))};
+    const double right = size.x - mark_margin * digits;
+    const glm::dvec2 around = glm::dvec2(plate_margin, plate_margin + 0.5) * digits; // half a label
+    plan.plate = {glm::dvec2(plan.ramp.low) - around, glm::dvec2(right, plan.ramp.high.y) + around};
+    return plan;
+}
+
+void draw_legend_mark(const std::vector<LegendStop>& stops, glm::ivec2 size, GridView<Rgba8> part,
+                      glm::ivec2 first) {
+    constexpr double tick = 0.4;
+    const double digits = mark_digit_height(size);
+    const LegendPlan plan = plan_legend(stops, size);
+    const LegendRamp& ramp = plan.ramp;
     const double line = line_radius_of(digits);
     const glm::dvec2 low = glm::dvec2(ramp.low) - line;
     const glm::dvec2 high = glm::dvec2(ramp.high) + line;
     InkDrawing ink(digits);
     ink.add_line({low, {high.x, low.y}, high, {low.x, high.y}, low}, line);
-    for (const LegendLabel& label : labels) {
+    for (const LegendLabel& label : plan.labels) {
         const double y = ramp.height_at(label.share);
         ink.add_line({{high.x, y}, {high.x + tick * digits, y}}, line);
-        ink.add_text(label.text, {ramp.high.x + to_text * digits, y});
+        ink.add_text(label.text, {ramp.high.x + legend_to_text * digits, y});
     }
     ink.draw(part, first);
     fill_ramp(stops, ramp, part, first);
@@ -131,34 +191,65 @@ void add_target(InkDrawing& ink, glm::dvec2 middle, double digits) {
     }
 }
 
+struct ScalePlan {
+    ScaleBar bar;
+    std::string text;
+    glm::dvec2 begin{0.0};  // of the bar
+    glm::dvec2 left{0.0};   // of the text, at the middle of its digits
+    glm::dvec2 target{0.0}; // of the mark behind the text, if there is one
+    Plate plate;
+};
+
+ScalePlan plan_scale(const PictureMarks::Scale& scale, glm::ivec2 size) {
+    constexpr double text_above = 1.25;
+    constexpr double gap = 1.35;
+    constexpr double target_reach = 0.8;
+    const double digits = mark_digit_height(size);
+    ScalePlan plan;
+    plan.bar = scale_bar(scale.metres_per_pixel, max_scale_bar(size));
+    plan.text = bar_text(plan.bar.metres) + (scale.is_everywhere ? "" : " at");
+    plan.begin = begin_of_scale_bar(size);
+    plan.left = plan.begin - glm::dvec2(0.0, text_above * digits);
+    plan.target = plan.left + glm::dvec2(text_width(plan.text, digits) + gap * digits, 0.0);
+    const double text_end = scale.is_everywhere ? plan.left.x + text_width(plan.text, digits)
+                                                : plan.target.x + target_reach * digits;
+    const double right = std::max(plan.begin.x + plan.bar.pixels, text_end);
+    plan.plate = {plan.left - glm::dvec2(plate_margin, 0.5 + plate_margin) * digits,
+                  glm::dvec2(right, plan.begin.y) + plate_margin * digits};
+    return plan;
+}
+
 void draw_scale_mark(const PictureMarks::Scale& scale, glm::ivec2 size, GridView<Rgba8> part,
                      glm::ivec2 first) {
     constexpr double tick = 0.5;
-    constexpr double text_above = 1.25;
     const double digits = mark_digit_height(size);
-    const ScaleBar bar = scale_bar(scale.metres_per_pixel, max_scale_bar(size));
-    const glm::dvec2 begin = begin_of_scale_bar(size);
-    const glm::dvec2 end = begin + glm::dvec2(bar.pixels, 0.0);
+    const ScalePlan plan = plan_scale(scale, size);
+    const glm::dvec2 end = plan.begin + glm::dvec2(plan.bar.pixels, 0.0);
     const glm::dvec2 up(0.0, -tick * digits);
     const double line = 1.5 * line_radius_of(digits);
     InkDrawing ink(digits);
-    ink.add_line({begin + up, begin, end, end + up}, line);
-    const std::string text = bar_text(bar.metres) + (scale.is_everywhere ? "" : " at");
-    const glm::dvec2 left = begin - glm::dvec2(0.0, text_above * digits);
-    ink.add_text(text, left);
+    ink.add_line({plan.begin + up, plan.begin, end, end + up}, line);
+    ink.add_text(plan.text, plan.left);
     if (!scale.is_everywhere) {
-        constexpr double gap = 1.35;
-        add_target(ink, left + glm::dvec2(text_width(text, digits) + gap * digits, 0.0), digits);
+        add_target(ink, plan.target, digits);
         add_target(ink, 0.5 * glm::dvec2(size), digits);
     }
     ink.draw(part, first);
 }
 
-void draw_north_mark(double north, glm::ivec2 size, GridView<Rgba8> part, glm::ivec2 first) {
-    constexpr double radius = 2.1;
-    constexpr double to_letter = 1.1; // beyond the tip
+// The arrow and its letter turn within it.
+Plate north_plate(glm::ivec2 size) {
     const double digits = mark_digit_height(size);
-    const double reach = (mark_margin + radius + to_letter) * digits;
+    const glm::dvec2 corner(size.x - mark_margin * digits, mark_margin * digits);
+    const double side = (2.0 * (north_radius + north_to_letter) + 1.0) * digits;
+    return {corner + glm::dvec2(-side, 0.0) + glm::dvec2(-plate_margin, -plate_margin) * digits,
+            corner + glm::dvec2(0.0, side) + plate_margin * digits};
+}
+
+void draw_north_mark(double north, glm::ivec2 size, GridView<Rgba8> part, glm::ivec2 first) {
+    constexpr double radius = north_radius;
+    const double digits = mark_digit_height(size);
+    const double reach = (mark_margin + radius + north_to_letter + 0.5) * digits;
     const glm::dvec2 middle(size.x - reach, reach);
     const double angle = glm::radians(north);
     const glm::dvec2 ahead(std::sin(angle), -std::cos(angle));
@@ -174,8 +265,8 @@ void draw_north_mark(double north, glm::ivec2 size, GridView<Rgba8> part, glm::i
     ink.add_area({tip, notch, left_corner});
     ink.add_line({tip, right_corner, notch, left_corner, tip, notch}, line_radius_of(digits));
     const std::string letter = "N";
-    ink.add_text(letter,
-                 at(radius + to_letter, 0.0) - glm::dvec2(0.5 * text_width(letter, digits), 0.0));
+    ink.add_text(letter, at(radius + north_to_letter, 0.0) -
+                             glm::dvec2(0.5 * text_width(letter, digits), 0.0));
     ink.draw(part, first);
 }
 
@@ -199,10 +290,25 @@ double max_scale_bar(glm::ivec2 size) {
     return share * size.x;
 }
 
+std::vector<scene::PicturePart> mark_plates(const PictureMarks& marks, glm::ivec2 size) {
+    std::vector<scene::PicturePart> plates;
+    if (marks.legend.size() >= 2) {
+        plates.push_back(pixels_of(plan_legend(marks.legend, size).plate, size));
+    }
+    if (marks.scale) {
+        plates.push_back(pixels_of(plan_scale(*marks.scale, size).plate, size));
+    }
+    if (marks.north) {
+        plates.push_back(pixels_of(north_plate(size), size));
+    }
+    return plates;
+}
+
 void draw_marks(const PictureMarks& marks, glm::ivec2 size, GridView<Rgba8> part,
                 glm::ivec2 first) {
     check(size.x >= min_marked_picture.x && size.y >= min_marked_picture.y,
           "a picture with room for marks was expected");
+    fill_plates(mark_plates(marks, size), part, first);
     if (marks.legend.size() >= 2) {
         draw_legend_mark(marks.legend, size, part, first);
     }

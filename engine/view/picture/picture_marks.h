@@ -7,6 +7,7 @@
 
 #include "engine/core/color.h"
 #include "engine/core/grid.h"
+#include "engine/scene/graph/camera.h"
 
 namespace reljef::view {
 
@@ -39,6 +40,9 @@ double mark_digit_height(glm::ivec2 size);
 /// The left end of the scale bar; the other one is ScaleBar::pixels to the right.
 glm::dvec2 begin_of_scale_bar(glm::ivec2 size);
 double max_scale_bar(glm::ivec2 size); ///< ScaleBar::pixels at most
+
+/// The half-transparent plates below the marks of a picture of `size` pixels.
+std::vector<scene::PicturePart> mark_plates(const PictureMarks& marks, glm::ivec2 size);
 
 /// Draws the legend at the lower right, the scale bar at the lower left, and the north arrow at the
 /// upper right of a picture of `size` pixels. `first`: its pixel at part(0, 0); the pixels do not

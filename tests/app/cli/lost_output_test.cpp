@@ -60,6 +60,18 @@ INSTANTIATE_TEST_SUITE_P(Formats, FullDisk,
                          testing::Values("png", "jpg", "gif", "tga", "webp", "bmp", "tif", "exr"),
                          [](const auto& info) { return info.param; });
 
+// GDAL writes these, and names the file that it writes.
+TEST_F(FullDiskVideo, OfALargeTiffIsToldWithItsOwnName) {
+    const auto result = on_a_full_disk({"render", dem_, "--size", "16640x64", "--context", "osmesa",
+                                        "--quiet", "--technique", "texture", "-o", "picture.tif"});
+    if (result.exit_code == 77) {
+        GTEST_SKIP() << "no disk of one's own here";
+    }
+    expect_refusal(result, 1, {"picture.tif: cannot be written", "picture.tif"});
+    EXPECT_THAT(result.err, testing::Not(testing::HasSubstr(".reljef"))) << result.err;
+    EXPECT_EQ(result.out, "");
+}
+
 TEST_F(FullDiskVideo, IsToldAndLeavesNothing) {
     const auto result =
         on_a_full_disk({"render", dem_, "--size", "64x48", "--context", "osmesa", "--quiet",

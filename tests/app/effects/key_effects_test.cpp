@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "app/viewer/panels/panels.h"
+#include "app/viewer/viewer_content.h"
 #include "tests/app/effects/keyed_viewer.h"
 #include "tests/scene/technique/terrain_techniques.h"
 #include "tests/session/made_waves.h"
@@ -472,8 +473,13 @@ TEST(KeyEffects, AViewshedIsSavedFromTheLastPoint) {
     EXPECT_TRUE(viewer.shows_viewshed());
     press(Key::f2);
     EXPECT_FALSE(viewer.shows_viewshed());
+    EXPECT_TRUE(content_of(viewer, *scene, keyed_window).measure.ground_colors.empty());
     press(Key::f2);
     EXPECT_TRUE(viewer.shows_viewshed());
+    const auto colors = content_of(viewer, *scene, keyed_window).measure.ground_colors;
+    ASSERT_EQ(colors.size(), 2U) << "in place of the legend of heights";
+    EXPECT_EQ(colors[0].color, Measuring::visible_color);
+    EXPECT_EQ(colors[1].color, Measuring::hidden_color);
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -110,7 +111,7 @@ void check_parameter(ActedViewer& acted, const PanelAction& action) {
     EXPECT_EQ(content_of(acted.viewer, acted.scene, acted_window).technique.parameter, 1U);
 }
 
-// See PanelEffects.AModelOfTheGalleryIsEditedAlone.
+// See GalleryEffects.AModelIsEditedAloneUntilAllAreSelected.
 void check_model(ActedViewer& acted, const PanelAction& action) {
     expect_done(acted, action);
     EXPECT_FALSE(content_of(acted.viewer, acted.scene, acted_window).technique.model);
@@ -399,89 +400,6 @@ TEST(PanelEffects, WrongActionsAreRefusedAndChangeNothing) {
     }
     EXPECT_EQ(acted.key_times(), times);
     EXPECT_FALSE(acted.viewer.comparison().is_on());
-}
-
-// The gallery's models have techniques of their own.
-struct GalleryEffects : testing::Test {
-    GalleryEffects() {
-        session::SourceOptions source;
-        source.terrain =
-            folder.write("gallery.toml", "[terrain]\ngenerator = \"gallery\"\nsize = 33\n")
-                .string();
-        session::SceneOptions view;
-        view.prepares_maps = false;
-        session::Log silent;
-        auto opened = session::open_scene(source, view, silent);
-        EXPECT_TRUE(opened) << (opened ? "" : opened.error().message);
-        scene = std::move(*opened);
-        viewer.emplace(scene, scene::orbit_path(scene.bounds, 10.0), acted_window);
-    }
-    [[nodiscard]] std::vector<scene::Technique> techniques() const {
-        std::vector<scene::Technique> shown;
-        for (const scene::Material* const material : scene.materials()) {
-            shown.push_back(material->technique);
-        }
-        return shown;
-    }
-    void press(Key key) {
-        viewer->receive(KeyEvent{.key = key, .pressed = true});
-        viewer->receive(KeyEvent{.key = key, .pressed = false});
-        settle_viewer(*viewer);
-    }
-
-    test::TemporaryFolder folder;
-    session::TerrainScene scene;
-    std::optional<Viewer> viewer;
-};
-
-TEST_F(GalleryEffects, AModelIsEditedAloneUntilAllAreSelected) {
-    const std::vector<scene::Technique> before = techniques();
-    ASSERT_GT(before.size(), 2U);
-    EXPECT_TRUE(viewer->keeps_techniques());
-    const scene::Technique relief{scene::Relief{.linear_steps = 20}};
-    ASSERT_TRUE(viewer->act(SelectModel{1}));
-    EXPECT_EQ(content_of(*viewer, scene, acted_window).technique.model, 1U);
-    ASSERT_TRUE(viewer->act(ChooseTechnique{relief, 1}));
-    settle_viewer(*viewer);
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        EXPECT_EQ(techniques()[i], i == 1 ? relief : before[i]) << i;
-    }
-    EXPECT_FALSE(viewer->keeps_techniques());
-    press(Key::right_bracket);
-    EXPECT_GT(std::get<scene::Relief>(techniques()[1].parameters).linear_steps, 20);
-    EXPECT_EQ(techniques()[0], before[0]);
-    ASSERT_TRUE(viewer->act(SelectModel{}));
-    ASSERT_TRUE(viewer->act(ChooseTechnique{relief, {}}));
-    settle_viewer(*viewer);
-    EXPECT_THAT(techniques(), testing::Each(relief));
-}
-
-TEST_F(GalleryEffects, KeysChangeAllModelsAndTheirLight) {
-    press(Key::digit1);
-    EXPECT_THAT(techniques(), testing::Each(techniques().front()));
-    const scene::Technique first = techniques().front();
-    press(Key::t);
-    EXPECT_NE(techniques().front(), first);
-    const double azimuth = scene.light->get<scene::Light>()->azimuth;
-    press(Key::l);
-    EXPECT_NEAR(std::fmod(scene.light->get<scene::Light>()->azimuth - azimuth + 360.0, 360.0), 15.0,
-                1e-9);
-    press(Key::f);
-    for (const scene::Material* const material : scene.materials()) {
-        EXPECT_TRUE(material->wireframe);
-    }
-}
-
-// Models have no heights that could be exaggerated or coloured, and no truth.
-TEST_F(GalleryEffects, WhatModelsLackIsRefusedWithASentence) {
-    for (const Result<void>& refused :
-         {viewer->act(SetRamp{"swiss"}), viewer->act(SetImageryShare{0.5}),
-          viewer->act(SetExaggeration{2.0}), viewer->act(SetComparison{CompareWith::truth})}) {
-        ASSERT_FALSE(refused);
-        EXPECT_NE(refused.error().message, "");
-    }
-    settle_viewer(*viewer);
-    EXPECT_EQ(viewer->exaggeration(), 1.0);
 }
 
 } // namespace

@@ -1,5 +1,7 @@
 #include "app/viewer/panels/appearance_panel.h"
 
+#include <variant>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,6 +47,55 @@ TEST(SunAt, TurnsWithTheGridOfThePlane) {
     const geo::UniversalTime noon{2026, 6, 21, 12.0};
     const double azimuth = sun_at(noon, at_greenwich())->azimuth;
     EXPECT_NEAR(sun_at(noon, turned)->azimuth, azimuth - 10.0, 1e-9);
+}
+
+void shine(AppearanceContent& appearance, const SetSun& sun) {
+    appearance.light.azimuth = sun.azimuth;
+    appearance.light.altitude = sun.altitude;
+}
+
+TEST(SunDate, IsShownOnlyWhileTheSunIsThatOfIt) {
+    AppearancePanel panel;
+    AppearanceContent appearance = at_greenwich();
+    shine(appearance, {300.0, 40.0});
+    EXPECT_EQ(panel.date(appearance), "");
+    const PanelActions actions = panel.type_date("2026-03-20 12:30", appearance);
+    ASSERT_EQ(actions.size(), 1U);
+    EXPECT_EQ(panel.date(appearance), "2026-03-20T12:30") << "before the sun has moved";
+    shine(appearance, std::get<SetSun>(actions.front()));
+    EXPECT_EQ(panel.date(appearance), "2026-03-20T12:30");
+    appearance.light.azimuth -= 360.0; // the same
+    EXPECT_EQ(panel.date(appearance), "2026-03-20T12:30");
+    appearance.light.azimuth += 15.0;
+    EXPECT_EQ(panel.date(appearance), "");
+    shine(appearance, std::get<SetSun>(actions.front()));
+    EXPECT_EQ(panel.date(appearance), "") << "it is forgotten";
+    EXPECT_EQ(panel.type_date("2026-03-20", appearance).size(), 1U);
+    EXPECT_EQ(panel.date(appearance), "2026-03-20T12:00");
+    EXPECT_EQ(panel.type_date("2026-03-20T12:00:07", appearance).size(), 1U);
+    EXPECT_EQ(panel.date(appearance), "2026-03-20T12:00:07");
+}
+
+TEST(SunDate, NotesGoWithTheDateThatTheyAreOn) {
+    AppearancePanel panel;
+    AppearanceContent appearance = at_greenwich();
+    shine(appearance, {300.0, 40.0});
+    EXPECT_TRUE(panel.type_date("2026-12-21T00:00", appearance).empty());
+    EXPECT_EQ(panel.date(appearance), "2026-12-21T00:00");
+    EXPECT_THAT(panel.note(), HasSubstr("below the horizon"));
+    appearance.light.altitude = 41.0;
+    EXPECT_EQ(panel.date(appearance), "");
+    EXPECT_EQ(panel.note(), "");
+    for (const char* const text : {"yesterday", "2026-02-30", "1700-01-01T12:00"}) {
+        EXPECT_TRUE(panel.type_date(text, appearance).empty());
+        EXPECT_EQ(panel.date(appearance), "") << text;
+        EXPECT_THAT(panel.note(), HasSubstr("was expected")) << text;
+    }
+    appearance.light.azimuth = 10.0;
+    panel.date(appearance);
+    EXPECT_EQ(panel.note(), "");
+    EXPECT_TRUE(panel.type_date("", appearance).empty());
+    EXPECT_EQ(panel.note(), "");
 }
 
 } // namespace

@@ -39,6 +39,7 @@ PanelContent full_content() {
     appearance.eye_dome = 0.5;
     appearance.contours = 50.0;
     appearance.exaggeration = 2.0;
+    appearance.max_exaggeration = 100.0;
     appearance.samples = 2;
     content.frame.recent_ms = {1.0F};
     content.frame.window = tall_window;

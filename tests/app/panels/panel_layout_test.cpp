@@ -25,6 +25,8 @@ TEST(PanelLayout, NoTwoPanelsOverlapAndAllLieInTheWindow) {
                 if (!layout.has_room) {
                     continue;
                 }
+                ASSERT_TRUE(layout.help.low.x >= 0.0 && layout.help.low.y >= 0.0 &&
+                            layout.help.high.x <= width && layout.help.high.y <= height);
                 const std::array areas{layout.status,    layout.legend, layout.compass,
                                        layout.inspector, layout.place,  layout.messages};
                 for (std::size_t i = 0; i < areas.size(); ++i) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <set>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +21,43 @@ TEST(PanelText, CountsAndLengthsAreShort) {
     EXPECT_EQ(length_text(0.012), "12 mm");
     EXPECT_EQ(length_text(4.561), "4.56 m");
     EXPECT_EQ(length_text(12'340.0), "12.3 km");
+}
+
+TEST(PanelText, TechniquesHaveShortNumbers) {
+    EXPECT_EQ(short_text(scene::Technique{scene::Polygons{.error = 4.148437512}}),
+              "polygons:error=4.148");
+    const scene::Technique relief{scene::Relief{}};
+    EXPECT_EQ(short_text(relief), scene::to_string(relief));
+    EXPECT_EQ(short_number(16384.0), "16384");
+    EXPECT_EQ(short_number(12345.678), "12346");
+    EXPECT_EQ(short_number(0.5), "0.5");
+    TechniqueContent content;
+    content.requested = relief;
+    EXPECT_EQ(technique_summary(content), scene::to_string(relief));
+    content.models = {{"bowl", {scene::Texture{}}}, {"torus", relief}};
+    content.model = 1;
+    EXPECT_EQ(technique_summary(content), "torus: " + scene::to_string(relief));
+}
+
+TEST(PanelText, AxesHaveRoundNumbersAtEqualDistances) {
+    const auto texts = [](double low, double high, double count) {
+        std::vector<std::string> found;
+        for (const AxisTick& tick : axis_ticks(low, high, count)) {
+            EXPECT_GE(tick.value, low - 1e-9 * (high - low));
+            EXPECT_LE(tick.value, high + 1e-9 * (high - low));
+            found.push_back(tick.text);
+        }
+        return found;
+    };
+    EXPECT_THAT(texts(0.0, 12.3, 4.0), testing::ElementsAre("0", "5", "10"));
+    EXPECT_THAT(texts(412.0, 1287.0, 4.0), testing::ElementsAre("500", "1000"));
+    EXPECT_THAT(texts(-0.7, 0.4, 4.0), testing::ElementsAre("-0.5", "0.0"));
+    EXPECT_THAT(texts(0.0, 1.0, 5.0),
+                testing::ElementsAre("0.0", "0.2", "0.4", "0.6", "0.8", "1.0"));
+    for (const double range : {1e-3, 0.9, 37.0, 8848.0, 3e6}) {
+        EXPECT_LE(texts(0.1 * range, 1.1 * range, 4.0).size(), 5U) << range;
+        EXPECT_GE(texts(0.1 * range, 1.1 * range, 4.0).size(), 1U) << range;
+    }
 }
 
 TEST(PanelText, PlacesHaveEachFormatThatTheyCanHave) {

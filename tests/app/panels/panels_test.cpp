@@ -246,6 +246,30 @@ TEST_F(PanelsTest, HelpCoversTheViewUntilEscape) {
     EXPECT_FALSE(used); // the viewer's
 }
 
+TEST_F(PanelsTest, HelpLiesOverTheOtherPanels) {
+    const glm::ivec2 small(800, 600);
+    const PanelLayout small_layout = layout_for(small, 1.0);
+    panels.toggle_help();
+    const auto draw_small = [&] { return panels.draw(content, small, frame_seconds); };
+    draw_small();
+    draw_small();
+    const Area& help = small_layout.help;
+    PanelActions actions;
+    for (double y = help.low.y + 60.0; y < help.high.y; y += 8.0) { // below its button
+        const glm::dvec2 at{small_layout.inspector.low.x + 60.0, y};
+        panels.receive(MouseMoveEvent{at});
+        draw_small();
+        for (const bool pressed : {true, false}) {
+            panels.receive(MouseButtonEvent{MouseButton::left, pressed, at, {}});
+            actions += draw_small();
+        }
+    }
+    EXPECT_TRUE(actions.empty());
+    panels.toggle_help();
+    draw_small();
+    EXPECT_TRUE(panels.is_over_panel(small_layout.inspector.low + 20.0));
+}
+
 // A slider that is clicked with control becomes a text field.
 TEST_F(PanelsTest, KeysTypedIntoAFieldAreNotTheViews) {
     draw();
@@ -256,6 +280,8 @@ TEST_F(PanelsTest, KeysTypedIntoAFieldAreNotTheViews) {
     for (double y = layout.inspector.low.y + 60.0; y < layout.inspector.low.y + 300.0 && !types;
          y += 8.0) {
         click({layout.inspector.low.x + 60.0, y}, control);
+        draw();
+        draw();
         press(Key::w);
         types = used;
     }

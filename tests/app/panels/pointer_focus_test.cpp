@@ -61,6 +61,16 @@ TEST(PointerFocus, TypedKeysStayInTheTextFieldAndReleasesReachBoth) {
     EXPECT_EQ(focus.receiver_of(TextEvent{U'w'}, left_panel()), Receiver::view);
 }
 
+TEST(PointerFocus, AClickBesideThePanelsEndsTypingAndIsTheViews) {
+    PointerFocus focus;
+    PanelsShown typing = left_panel();
+    typing.types_text = true;
+    EXPECT_EQ(focus.receiver_of(button(true, over_view), typing), Receiver::both);
+    EXPECT_EQ(focus.receiver_of(button(false, over_view), left_panel()), Receiver::both)
+        << "its release, too";
+    EXPECT_EQ(focus.receiver_of(button(true, over_view), left_panel()), Receiver::view);
+}
+
 TEST(PointerFocus, AnOpenListTakesClicksAnywhere) {
     PointerFocus focus;
     PanelsShown listing = left_panel();

@@ -133,6 +133,16 @@ TEST_F(Marks, WrongWordsAreRefused) {
     refused("samples = \"many\"", "[picture] samples is 'many'");
 }
 
+TEST_F(Marks, ContoursThatAreTooCloseAreNotedOnce) {
+    render({"--contours", "0.1"});
+    EXPECT_THAT(result_.err, testing::HasSubstr("contours every 0.1 m are too close"));
+    EXPECT_THAT(result_.err, testing::HasSubstr("would show here, every 0.1 m from within"));
+    render({"--contours", "50"});
+    EXPECT_THAT(result_.err, testing::Not(testing::HasSubstr("contours")));
+    render({"--contours", "0.1", "--truth"});
+    EXPECT_THAT(result_.err, testing::Not(testing::HasSubstr("too close")));
+}
+
 TEST_F(Marks, WhatCannotBeDrawnIsNoted) {
     render({"--marks", "legend,north"}, test::small_terrain(folder_, "urban"));
     EXPECT_THAT(result_.err, testing::HasSubstr("no legend is drawn"));

@@ -1,4 +1,4 @@
-#include "app/viewer/bookmarks.h"
+#include "app/viewer/places/bookmarks.h"
 
 #include <array>
 #include <fstream>

@@ -55,6 +55,15 @@ TEST(ShellWord, IsOneWordForTheShell) {
     EXPECT_EQ(shell_word("polygons:error=1"), "polygons:error=1");
 }
 
+TEST(CopiedText, SaysWhatTheCommandDoesNotDraw) {
+    ShownState shown;
+    EXPECT_EQ(copied_text("reljef render a.tif", shown), "copied: reljef render a.tif\n");
+    shown.shows_viewshed = true;
+    EXPECT_EQ(copied_text("reljef render a.tif", shown),
+              "copied without the colours of the viewshed, which render cannot draw: reljef render "
+              "a.tif\n");
+}
+
 TEST(RenderCommand, NamesTheViewAndWhatChangedSinceTheStart) {
     session::TerrainScene scene = hill_scene();
     StartOptions start = start_of("my hill.tif");

@@ -1,7 +1,7 @@
 // Files of bookmarks: what is added is found, what is removed is gone, and all else stays.
 #include <algorithm>
 
-#include "app/viewer/bookmarks.h"
+#include "app/viewer/places/bookmarks.h"
 #include "engine/core/atomic_file.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/fuzz_targets.h"

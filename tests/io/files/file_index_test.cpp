@@ -253,6 +253,21 @@ TEST_F(TileIndices, KeepNoFaultOfOpening) {
     EXPECT_EQ(error(), "");
 }
 
+TEST_F(TileIndices, NameAFolderThatCannotBeReadButPassOverThoseInIt) {
+    raster("a.tif", true);
+    std::filesystem::create_directory(folder_.path() / "closed");
+    const test::PlainPermissions plain;
+    std::filesystem::permissions(folder_.path() / "closed", std::filesystem::perms::none);
+    EXPECT_EQ(error(), "");
+    const auto before = std::filesystem::status(folder_.path()).permissions();
+    std::filesystem::permissions(folder_.path(), std::filesystem::perms::none);
+    std::vector<std::string> notes;
+    const auto closed = index_files(folder_.path(), options_, notes);
+    std::filesystem::permissions(folder_.path(), before);
+    ASSERT_FALSE(closed);
+    EXPECT_THAT(closed.error().message, HasSubstr("cannot be read (Permission denied)"));
+}
+
 TEST_F(TileIndices, PassOverWhatCannotBeReadAndMayBeNoRaster) {
     raster("a.tif", true);
     folder_.write("N45E006.raw", std::string(2048, 'x'));

@@ -75,6 +75,35 @@ TEST(PictureMarks, TheBarIsAsLongAsItSays) {
     }
 }
 
+// But for the mark in the middle.
+TEST(PictureMarks, LieOnPalePlates) {
+    for (const glm::ivec2 size : {usual, min_marked_picture, glm::ivec2(1920, 400)}) {
+        PictureMarks marks = all_marks();
+        marks.scale->is_everywhere = true;
+        const Image picture = drawn(marks, size);
+        const auto plates = mark_plates(marks, size);
+        ASSERT_EQ(plates.size(), 3U);
+        Grid<int> plates_at(size.x, size.y, 0);
+        for (const scene::PicturePart& plate : plates) {
+            for (int row = plate.first.y; row < plate.first.y + plate.size.y; ++row) {
+                for (int col = plate.first.x; col < plate.first.x + plate.size.x; ++col) {
+                    ++plates_at(col, row);
+                }
+            }
+            const glm::ivec2 corner = plate.first + plate.size - 1;
+            EXPECT_GT(picture(corner.x, corner.y).r, grass_color.r + 40) << "pale";
+            EXPECT_LT(picture(corner.x, corner.y).r, 240) << "half-transparent";
+        }
+        for (int row = 0; row < size.y; ++row) {
+            for (int col = 0; col < size.x; ++col) {
+                ASSERT_TRUE(plates_at(col, row) <= 1 || size == min_marked_picture);
+                ASSERT_EQ(picture(col, row) == grass_color, plates_at(col, row) == 0)
+                    << col << ", " << row;
+            }
+        }
+    }
+}
+
 TEST(PictureMarks, WhereTheScaleHoldsInTheMiddleOnlyTheMiddleIsMarked) {
     PictureMarks marks;
     marks.scale = {3.0, true};

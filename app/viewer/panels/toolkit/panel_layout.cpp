@@ -19,7 +19,7 @@ constexpr double legend_height = 178.0;
 constexpr double message_height = 150.0;
 constexpr double min_width = 560.0;
 constexpr double min_height = 400.0;
-constexpr glm::dvec2 help_size{620.0, 500.0};
+constexpr glm::dvec2 help_size{620.0, 830.0}; // all keys; they scroll where there is no room
 
 } // namespace
 

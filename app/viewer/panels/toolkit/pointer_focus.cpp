@@ -31,7 +31,7 @@ PointerFocus::Receiver PointerFocus::receiver_of_pointer(const Event& event,
     }
     if (const auto* button = std::get_if<MouseButtonEvent>(&event)) {
         pointer_ = button->position;
-        return receiver_of_button(*button, is_over());
+        return receiver_of_button(*button, is_over(), shown.types_text);
     }
     if (std::holds_alternative<ScrollEvent>(event)) {
         return is_over() ? Receiver::panels : Receiver::view;
@@ -39,10 +39,12 @@ PointerFocus::Receiver PointerFocus::receiver_of_pointer(const Event& event,
     return Receiver::both;
 }
 
-PointerFocus::Receiver PointerFocus::receiver_of_button(const MouseButtonEvent& event,
-                                                        bool is_over) {
+PointerFocus::Receiver PointerFocus::receiver_of_button(const MouseButtonEvent& event, bool is_over,
+                                                        bool types_text) {
     if (held_ == 0) {
-        dragged_ = is_over ? Receiver::panels : Receiver::view;
+        dragged_ = is_over      ? Receiver::panels
+                   : types_text ? Receiver::both // it ends the typing
+                                : Receiver::view;
     }
     held_ = std::max(held_ + (event.pressed ? 1 : -1), 0);
     return dragged_;

@@ -11,7 +11,7 @@ namespace reljef::app {
 /// What the panels showed in their last frame.
 struct PanelsShown {
     std::function<bool(glm::dvec2 pixel)> is_over; ///< whether a panel covers the pixel
-    bool types_text = false;                       ///< a text field has the keyboard
+    bool types_text = false; ///< a text field has the keyboard; a click elsewhere ends that
     bool opens_list = false; ///< a list is open; a click elsewhere or Escape closes it
 };
 
@@ -24,7 +24,7 @@ public:
 
 private:
     Receiver receiver_of_pointer(const Event& event, const PanelsShown& shown);
-    Receiver receiver_of_button(const MouseButtonEvent& event, bool is_over);
+    Receiver receiver_of_button(const MouseButtonEvent& event, bool is_over, bool types_text);
 
     glm::dvec2 pointer_{-1.0};
     int held_ = 0;                      // mouse buttons

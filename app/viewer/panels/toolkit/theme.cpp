@@ -83,7 +83,7 @@ void set_colors(ImGuiStyle& style) {
     set(ImGuiCol_FrameBgHovered, palette::field_hovered);
     set(ImGuiCol_FrameBgActive, palette::field_hovered);
     set(ImGuiCol_ScrollbarBg, none);
-    set(ImGuiCol_ScrollbarGrab, palette::field_hovered);
+    set(ImGuiCol_ScrollbarGrab, palette::grab);
     set(ImGuiCol_ScrollbarGrabHovered, palette::muted);
     set(ImGuiCol_ScrollbarGrabActive, palette::muted);
     set(ImGuiCol_CheckMark, palette::accent);

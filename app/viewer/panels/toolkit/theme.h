@@ -23,6 +23,7 @@ inline constexpr Rgba8 surface{31, 36, 42, 255}; ///< behind text; opaque, see K
 inline constexpr Rgba8 raised{42, 48, 56, 255};  ///< lists and tips
 inline constexpr Rgba8 field{255, 255, 255, 18};
 inline constexpr Rgba8 field_hovered{255, 255, 255, 34};
+inline constexpr Rgba8 grab{255, 255, 255, 90}; ///< of a scroll bar
 inline constexpr Rgba8 line{255, 255, 255, 26};
 inline constexpr Rgba8 text{236, 239, 242, 255};
 inline constexpr Rgba8 muted{166, 175, 185, 255};

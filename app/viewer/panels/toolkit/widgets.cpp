@@ -33,13 +33,16 @@ ImU32 in_imgui(Rgba8 color) {
     return IM_COL32(color.r, color.g, color.b, color.a);
 }
 
-Card::Card(const char* name, const Area& area, Scrolling scrolling) {
+Card::Card(const char* name, const Area& area, Scrolling scrolling, Order order) {
     ImGui::SetNextWindowPos(vector_of(area.low));
     ImGui::SetNextWindowSize(vector_of(area.size()));
-    ImGuiWindowFlags flags =
-        ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
-        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing;
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                             ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
+                             ImGuiWindowFlags_NoFocusOnAppearing;
+    if (order == Order::usual) { // windows without this flag are drawn over those with it
+        flags |= ImGuiWindowFlags_NoBringToFrontOnFocus;
+    }
     if (scrolling == Scrolling::none) {
         flags |= ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     }
@@ -63,6 +66,17 @@ void muted_text(std::string_view line) {
 void wrapped_muted_text(std::string_view paragraph) {
     ImGui::PushTextWrapPos(0.0F);
     muted_text(paragraph);
+    ImGui::PopTextWrapPos();
+}
+
+void warning_text(std::string_view paragraph) {
+    if (paragraph.empty()) {
+        return;
+    }
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::PushStyleColor(ImGuiCol_Text, in_imgui(palette::warning));
+    text(paragraph);
+    ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
 }
 

@@ -17,8 +17,10 @@ ImU32 in_imgui(Rgba8 color);
 class Card {
 public:
     enum class Scrolling { none, vertical };
+    enum class Order { usual, top }; ///< top: over all other panels
 
-    Card(const char* name, const Area& area, Scrolling scrolling = Scrolling::none);
+    Card(const char* name, const Area& area, Scrolling scrolling = Scrolling::none,
+         Order order = Order::usual);
     ~Card();
     Card(const Card&) = delete;
     Card& operator=(const Card&) = delete;
@@ -36,6 +38,8 @@ public:
 void text(std::string_view line);
 void muted_text(std::string_view line);
 void wrapped_muted_text(std::string_view paragraph);
+/// A paragraph that one should see; nothing if it is empty.
+void warning_text(std::string_view paragraph);
 /// One line that ends with "..." where the panel ends; the tip shows all of it.
 void fitted_text(const std::string& line);
 /// A muted name at the left, its value at the right edge.

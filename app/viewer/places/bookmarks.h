@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/panels/panel_content.h"
+#include "app/viewer/places/bookmark.h"
 #include "engine/core/result.h"
 
 namespace reljef::app {

@@ -1,0 +1,128 @@
+#include "app/viewer/panels/toolkit/number_control.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui_internal.h> // the text of a box that has lost the focus
+
+#include "app/viewer/panels/toolkit/widgets.h"
+
+namespace reljef::app {
+namespace {
+
+constexpr const char* box_label = "##box";
+constexpr const char* typing_request = "##types"; // a key of the window's storage
+constexpr float box_letters = 9.0F;
+constexpr int shown_decimals = 3; // in the box, besides those of the slider
+
+std::optional<double> number_in(std::string_view text) {
+    text.remove_prefix(text.starts_with('+') ? 1 : 0);
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool is_number = code == std::errc{} && end == text.data() + text.size();
+    return is_number && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void number_tip(std::string_view meaning) {
+    constexpr std::string_view typing = "Ctrl+click or double click: type a value. Enter sets it.";
+    tip(meaning.empty() ? std::string(typing) : fmt::format("{}\n{}", meaning, typing));
+}
+
+double rounded(double value, int decimals) {
+    const double parts = std::pow(10.0, decimals);
+    return std::round(value * parts) / parts;
+}
+
+} // namespace
+
+std::string number_text(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, std::max(decimals, 0));
+    if (text.find('.') != std::string::npos) {
+        text.erase(text.find_last_not_of('0') + 1);
+        text.erase(text.find_last_not_of('.') + 1);
+    }
+    return text == "-0" ? "0" : text;
+}
+
+float number_box_width() {
+    return box_letters * ImGui::CalcTextSize("0").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+}
+
+std::optional<double> number_box(const std::string& shown, float width, std::string_view meaning) {
+    std::array<char, 40> buffer{};
+    std::copy_n(shown.begin(), std::min(shown.size(), buffer.size() - 1), buffer.begin());
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID item = ImGui::GetID(box_label);
+    const ImGuiID request = ImGui::GetID(typing_request);
+    const bool was_active = ImGui::GetActiveID() == item;
+    if (was_active) {
+        storage.SetBool(request, false);
+    } else if (storage.GetBool(request)) {
+        ImGui::SetKeyboardFocusHere();
+    }
+    ImGui::SetNextItemWidth(width);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.x, 1.0F});
+    const bool is_entered =
+        ImGui::InputText(box_label, buffer.data(), buffer.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll |
+                             ImGuiInputTextFlags_CharsScientific);
+    ImGui::PopStyleVar();
+    const bool is_left = ImGui::IsItemDeactivatedAfterEdit();
+    number_tip(meaning);
+    if (!is_left) {
+        return std::nullopt;
+    }
+    // What was clicked before the box is drawn took the focus already.
+    const ImGuiInputTextState* const state = was_active ? nullptr : ImGui::GetInputTextState(item);
+    const std::string_view text = state != nullptr ? state->TextA.Data : buffer.data();
+    const bool is_given_up = !is_entered && text == shown; // with Escape
+    return is_given_up ? std::nullopt : number_in(text);
+}
+
+std::optional<double> number_slider(const NumberControl& control, double value) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const ImGuiID request = ImGui::GetID(typing_request);
+    const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput |
+                                   (control.is_logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    double moved = value;
+    ImGui::SetNextItemWidth(-1.0F);
+    const bool is_moved =
+        ImGui::SliderScalar("##slider", ImGuiDataType_Double, &moved, &control.slider.begin,
+                            &control.slider.end, "", flags);
+    const bool is_clicked = ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
+    if (is_clicked &&
+        (ImGui::GetIO().KeyCtrl || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) {
+        storage.SetBool(request, true); // the box, in the next frame
+    }
+    number_tip(control.meaning);
+    return is_moved && moved != value && !storage.GetBool(request) ? std::optional(moved)
+                                                                   : std::nullopt;
+}
+
+std::optional<double> number_row(const char* name, const NumberControl& control, double value) {
+    ImGui::PushID(name);
+    const std::string unit(control.unit);
+    const float gap = unit.empty() ? 0.0F : ImGui::GetStyle().ItemInnerSpacing.x;
+    const float behind = gap + ImGui::CalcTextSize(unit.c_str()).x;
+    const float at = ImGui::GetWindowContentRegionMax().x - number_box_width() - behind;
+    muted_text(name);
+    ImGui::SameLine(at);
+    auto typed = number_box(number_text(value, control.decimals + shown_decimals),
+                            number_box_width(), control.meaning);
+    if (!unit.empty()) {
+        ImGui::SameLine(0.0F, gap);
+        muted_text(unit);
+    }
+    const auto moved = number_slider(control, value);
+    ImGui::PopID();
+    if (typed) {
+        const Interval allowed = control.typed.value_or(control.slider);
+        return std::clamp(*typed, allowed.begin, allowed.end);
+    }
+    return moved ? std::optional(rounded(*moved, control.decimals)) : std::nullopt;
+}
+
+} // namespace reljef::app
