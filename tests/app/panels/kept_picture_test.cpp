@@ -3,7 +3,10 @@
 #include <set>
 #include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "app/viewer/panels/toolkit/pixel_area.h"
 
 namespace reljef::app {
 namespace {
@@ -46,6 +49,16 @@ TEST(KeptPicture, StripsStayWithinTheWindow) {
     EXPECT_EQ(pixels.size(), 20U * 10U);
     EXPECT_TRUE(strips_of({{30, 30}, {40, 40}, 4}, {20, 10}).empty());
     EXPECT_TRUE(strips_of({{0, 0}, {5, 5}, 0}, {0, 0}).empty());
+}
+
+TEST(PixelAreas, OverlappingAreasAreJoinedUntilNoneAre) {
+    // The second and the third join to one that overlaps the first.
+    const auto areas =
+        disjoint({{{0, 0}, {10, 10}}, {{5, 20}, {10, 10}}, {{8, 5}, {2, 20}}, {{50, 0}, {5, 5}}});
+    EXPECT_THAT(areas, testing::UnorderedElementsAre(PixelArea{{0, 0}, {15, 30}},
+                                                     PixelArea{{50, 0}, {5, 5}}));
+    EXPECT_EQ(disjoint({{{0, 0}, {5, 5}}, {{5, 0}, {5, 5}}}).size(), 2U); // neighbours
+    EXPECT_TRUE(disjoint({}).empty());
 }
 
 } // namespace

@@ -187,7 +187,7 @@ struct Interface::State {
             ImGui_ImplOpenGL3_RenderDrawData(&panels);
             return;
         }
-        const PixelArea changed = changes.update(panels);
+        const std::vector<PixelArea> changed = changes.update(panels);
         clip(panels, changed);
         picture.draw(shown_areas(), changed,
                      [&panels] { ImGui_ImplOpenGL3_RenderDrawData(&panels); });

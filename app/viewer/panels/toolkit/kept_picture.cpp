@@ -53,12 +53,14 @@ bool KeptPicture::resize(glm::ivec2 window) {
     return is_made;
 }
 
-void KeptPicture::draw(std::vector<RoundedArea> areas, const PixelArea& changed,
+void KeptPicture::draw(const std::vector<RoundedArea>& areas, const std::vector<PixelArea>& changed,
                        const std::function<void()>& draw_panels) {
-    if (!changed.is_empty()) {
+    if (!changed.empty()) {
         drawn_.bind();
         draw_panels();
-        drawn_.turn_area_to(kept_, changed.low, changed.size);
+    }
+    for (const PixelArea& area : changed) {
+        drawn_.turn_area_to(kept_, area.low, area.size);
     }
     strips_.clear();
     for (const RoundedArea& area : areas) {

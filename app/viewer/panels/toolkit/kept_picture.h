@@ -29,7 +29,7 @@ public:
     bool resize(glm::ivec2 window);
     /// Draws into the picture, and copies the areas to the window's back buffer. Nothing is drawn
     /// outside of `changed`.
-    void draw(std::vector<RoundedArea> areas, const PixelArea& changed,
+    void draw(const std::vector<RoundedArea>& areas, const std::vector<PixelArea>& changed,
               const std::function<void()>& draw_panels);
     /// Copies the areas to the window's back buffer.
     void show() const;

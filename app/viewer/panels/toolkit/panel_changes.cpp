@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
@@ -83,34 +84,61 @@ bool touches(std::span<const ImDrawIdx, 3> triangle, const ImDrawVert* vertices,
     return low.x < area.z && high.x > area.x && low.y < area.w && high.y > area.y;
 }
 
-void clip(ImDrawList& list, ImDrawCmd& command, const ImVec4& area) {
-    ImVec4& rectangle = command.ClipRect;
-    rectangle = {std::max(rectangle.x, area.x), std::max(rectangle.y, area.y),
-                 std::min(rectangle.z, area.z), std::min(rectangle.w, area.w)};
-    if (rectangle.x >= rectangle.z || rectangle.y >= rectangle.w) {
-        command.ElemCount = 0;
-        return;
-    }
-    const ImDrawVert* const vertices = list.VtxBuffer.Data + command.VtxOffset;
-    ImDrawIdx* const first = list.IdxBuffer.Data + command.IdxOffset;
-    ImDrawIdx* end = first;
-    constexpr std::size_t corners = 3;
-    for (std::size_t i = 0; i + corners <= command.ElemCount; i += corners) {
-        if (touches(std::span<const ImDrawIdx, 3>(first + i, corners), vertices, rectangle)) {
-            end = std::copy_n(first + i, corners, end);
+// The part of a list that touches areas, with indices and commands of its own.
+class ClippedList {
+public:
+    explicit ClippedList(const ImDrawList& list) : list_(list) {}
+
+    void add(const ImDrawCmd& command, const PixelArea& area) {
+        const ImVec4& whole = command.ClipRect;
+        const glm::vec2 low(area.low);
+        const glm::vec2 high(area.high());
+        const ImVec4 part{std::max(whole.x, low.x), std::max(whole.y, low.y),
+                          std::min(whole.z, high.x), std::min(whole.w, high.y)};
+        if (part.x >= part.z || part.y >= part.w) {
+            return;
+        }
+        ImDrawCmd clipped = command;
+        clipped.ClipRect = part;
+        clipped.IdxOffset = static_cast<unsigned int>(indices_.Size);
+        const ImDrawVert* const vertices = list_.VtxBuffer.Data + command.VtxOffset;
+        const ImDrawIdx* const first = list_.IdxBuffer.Data + command.IdxOffset;
+        constexpr std::size_t corners = 3;
+        for (std::size_t i = 0; i + corners <= command.ElemCount; i += corners) {
+            const std::span<const ImDrawIdx, 3> triangle(first + i, corners);
+            if (touches(triangle, vertices, part)) {
+                for (const ImDrawIdx index : triangle) {
+                    indices_.push_back(index);
+                }
+            }
+        }
+        clipped.ElemCount = static_cast<unsigned int>(indices_.Size) - clipped.IdxOffset;
+        if (clipped.ElemCount > 0) {
+            commands_.push_back(clipped);
         }
     }
-    command.ElemCount = static_cast<unsigned int>(end - first);
-}
+
+    // Whether anything is left.
+    bool replace(ImDrawList& list) {
+        list.IdxBuffer.swap(indices_);
+        list.CmdBuffer.swap(commands_);
+        return list.CmdBuffer.Size > 0;
+    }
+
+private:
+    const ImDrawList& list_;
+    ImVector<ImDrawIdx> indices_;
+    ImVector<ImDrawCmd> commands_;
+};
 
 } // namespace
 
-PixelArea PanelChanges::update(const ImDrawData& data) {
+std::vector<PixelArea> PanelChanges::update(const ImDrawData& data) {
     const auto lists = lists_of(data);
     const glm::ivec2 size = size_of(data);
     bool is_new = size != size_ || lists.size() != lists_.size();
     lists_.resize(lists.size());
-    Bounds bounds;
+    std::vector<PixelArea> areas;
     for (std::size_t i = 0; i < lists.size(); ++i) {
         const ImDrawList& list = *lists[i];
         List& last = lists_[i];
@@ -121,30 +149,33 @@ PixelArea PanelChanges::update(const ImDrawData& data) {
             std::ranges::equal(last.commands, commands, [](const ImDrawCmd& a, const ImDrawCmd& b) {
                 return is_equal(a, b);
             });
+        Bounds bounds;
         if (is_clipped_alike) {
             add_difference(last.vertices, vertices, bounds);
         } else {
             bounds.add(last.vertices);
             bounds.add(vertices);
         }
+        if (const PixelArea area = bounds.within(size); !area.is_empty()) {
+            areas.push_back(area);
+        }
         last = {
             panel_of(list), {vertices.begin(), vertices.end()}, {commands.begin(), commands.end()}};
     }
     size_ = size;
-    return is_new ? PixelArea{{0, 0}, size} : bounds.within(size);
+    return is_new ? std::vector<PixelArea>{{{0, 0}, size}} : disjoint(std::move(areas));
 }
 
-void clip(ImDrawData& data, const PixelArea& area) {
-    const glm::vec2 low(area.low);
-    const glm::vec2 high(area.low + area.size);
+void clip(ImDrawData& data, std::span<const PixelArea> areas) {
     int kept = 0;
     for (ImDrawList* const list : lists_of(data)) {
-        unsigned int triangles = 0;
-        for (ImDrawCmd& command : list->CmdBuffer) {
-            clip(*list, command, {low.x, low.y, high.x, high.y});
-            triangles += command.ElemCount;
+        ClippedList clipped(*list);
+        for (const PixelArea& area : areas) {
+            for (const ImDrawCmd& command : list->CmdBuffer) {
+                clipped.add(command, area);
+            }
         }
-        if (triangles > 0) {
+        if (clipped.replace(*list)) {
             data.CmdLists[kept++] = list;
         }
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace reljef::app {
 /// Finds what a frame of panels changes since the frame before.
 class PanelChanges {
 public:
-    /// A rectangle with all that differs from the data of the last call; all of the window if that
-    /// had another size or other panels, and at first. Empty: nothing differs.
-    PixelArea update(const ImDrawData& data);
+    /// Disjoint rectangles with all that differs from the data of the last call; all of the window
+    /// if that had another size or other panels, and at first.
+    std::vector<PixelArea> update(const ImDrawData& data);
     /// The next update() finds all of the window.
     void forget() { size_ = {0, 0}; }
 
@@ -30,7 +31,8 @@ private:
     glm::ivec2 size_{0};
 };
 
-/// Takes out what does not touch the area, and clips the rest to it.
-void clip(ImDrawData& data, const PixelArea& area);
+/// Takes out what touches no area, and clips the rest to the areas. Precondition: they are
+/// disjoint.
+void clip(ImDrawData& data, std::span<const PixelArea> areas);
 
 } // namespace reljef::app
