@@ -1,14 +1,16 @@
 // Large arrays lie on large pages: the kernel fills 512 times fewer pages, and rays over wide
 // terrain miss fewer addresses of pages. Linked into programs, not into the library.
+#include <malloc.h>
 #include <sys/mman.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <new>
 
 namespace {
 
 constexpr std::size_t large_page = std::size_t{1} << 21;
-constexpr std::size_t smallest_array = 2 * large_page; // a smaller one may hold no whole page
+constexpr std::size_t smallest_array = 2 * large_page; // the alignment costs up to a page more
 
 void* allocate(std::size_t size) {
     if (size < smallest_array) {
@@ -16,10 +18,19 @@ void* allocate(std::size_t size) {
     }
     void* const array = std::aligned_alloc(large_page, size);
     if (array != nullptr) {
+        const int before = errno;
         ::madvise(array, size, MADV_HUGEPAGE); // kernels without large pages refuse: no harm
+        errno = before;
     }
     return array;
 }
+
+#ifdef __GLIBC__
+// glibc raises its threshold for mapped blocks when they are freed, and keeps later ones.
+[[gnu::constructor]] void return_freed_arrays() {
+    ::mallopt(M_MMAP_THRESHOLD, int{smallest_array});
+}
+#endif
 
 } // namespace
 

@@ -115,9 +115,7 @@ view::PictureMarks marks_of(const Rendering& run, PictureNotes& notes) {
     for (const std::string& note : found.notes) {
         notes.add(note);
     }
-    if (!found.marks.empty()) {
-        run.maker.keep_clear(view::mark_plates(found.marks, run.choice.view.size));
-    }
+    run.maker.keep_clear(view::mark_plates(found.marks, run.choice.view.size));
     return std::move(found.marks);
 }
 

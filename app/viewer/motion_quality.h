@@ -20,7 +20,8 @@ struct FrameQuality {
     friend bool operator==(const FrameQuality&, const FrameQuality&) = default;
 };
 
-/// Chooses the quality of a view. A view at rest has full quality. A moving view with several slow
+/// Chooses the quality of a view. A view at rest has full quality,
+/// but the first one counts as moving. A moving view with several slow
 /// frames in a row gets one sample per pixel, then a half and a third of the resolution. A moving
 /// view that rays draw always has one sample.
 class MotionQuality {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/viewer.h"
+#include "engine/core/check.h"
 #include "engine/core/stopwatch.h"
 #include "engine/terrain/field/coarse_terrain.h"
 
@@ -100,18 +101,19 @@ Opening::Opening(const session::SourceOptions& terrain, const session::SceneOpti
           return session::open_source(terrain_, view_, relayed_, stop);
       }) {}
 
-Result<OpenedScene> Opening::open(int largest_side, const std::stop_token& stop) {
+Result<OpenedScene> Opening::open(const session::SceneOptions& view, int largest_side,
+                                  const std::stop_token& stop) {
     const std::stop_callback stops_reading(stop, [this] { reading_.request_stop(); });
     auto source = reading_.take();
     if (!source) {
         return source.error();
     }
     std::shared_ptr<const terrain::Terrain> finer;
-    if (first_ == FirstSamples::few && can_begin_coarse(*source, view_)) {
+    if (first_ == FirstSamples::few && can_begin_coarse(*source, view)) {
         finer = std::make_shared<const terrain::Terrain>(std::move(source->terrain));
         source->terrain = terrain::coarse_terrain(*finer, first_samples);
     }
-    auto scene = session::open_scene(std::move(*source), terrain_, view_, relayed_, stop);
+    auto scene = session::open_scene(std::move(*source), terrain_, view, relayed_, stop);
     if (!scene) {
         return scene.error();
     }
@@ -127,13 +129,16 @@ Result<OpenedScene> Opening::open(int largest_side, const std::stop_token& stop)
 }
 
 void Opening::begin(session::RayUse rays, int largest_side) {
-    view_.rays = rays;
-    opening_.emplace(
-        [this, largest_side](const std::stop_token& stop) { return open(largest_side, stop); });
+    session::SceneOptions view = view_;
+    view.rays = rays;
+    opening_.emplace([this, view = std::move(view), largest_side](const std::stop_token& stop) {
+        return open(view, largest_side, stop);
+    });
 }
 
 Result<std::optional<OpenedScene>> Opening::finish(platform::Window& window, session::Log& log,
                                                    std::stop_source stop) {
+    check(opening_.has_value(), "an opening that has begun was expected");
     Background<OpenedScene>& opening = *opening_;
     ProgressDisplay display(window, log);
     while (!opening.is_done()) {

@@ -48,14 +48,15 @@ public:
                                               std::stop_source stop);
 
 private:
-    Result<OpenedScene> open(int largest_side, const std::stop_token& stop);
+    Result<OpenedScene> open(const session::SceneOptions& view, int largest_side,
+                             const std::stop_token& stop);
 
     session::SourceOptions terrain_;
     session::SceneOptions view_;
     FirstSamples first_;
     session::RelayedLog relayed_;
-    Background<session::TerrainSource> reading_; // uses all others
-    std::optional<Background<OpenedScene>> opening_;
+    Background<session::TerrainSource> reading_;     // uses what is above
+    std::optional<Background<OpenedScene>> opening_; // last: uses all others
 };
 
 /// Shows in an open window why there is no scene, until the user closes it (Esc) or `stop`. Returns

@@ -18,8 +18,11 @@ class JsonReader;
 
 using FigureJson = nlohmann::ordered_json;
 
+/// Lines as one, with "; " between them.
+std::string in_one_line(const std::string& lines);
+
 struct RunEnd {
-    std::optional<Error> stopped; ///< why it ended early
+    std::optional<Error> stopped; ///< why it ended early; a line for each reason
     bool failed = false;          ///< by an error, not by request
 };
 /// `has_rows`: the run measured something before it was stopped or failed.

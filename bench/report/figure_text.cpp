@@ -182,9 +182,18 @@ std::string figure_markdown(const FigureTable& table) {
         text += fmt::format("\n{}\n", markdown_escaped(cli::printable(note)));
     }
     if (table.end.stopped) {
-        text += fmt::format("\nEnded early: {}\n", markdown_escaped(table.end.stopped->message));
+        text += fmt::format("\nEnded early: {}\n",
+                            markdown_escaped(in_one_line(table.end.stopped->message)));
     }
     return text;
+}
+
+std::string in_one_line(const std::string& lines) {
+    std::string line;
+    for (const char letter : lines) {
+        line += letter == '\n' ? std::string("; ") : std::string(1, letter);
+    }
+    return line;
 }
 
 std::string figure_csv(const FigureTable& table) {

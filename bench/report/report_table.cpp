@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/message.h"
+#include "bench/report/figure_table.h"
 #include "bench/report/pareto_front.h"
 
 namespace reljef::bench {
@@ -342,6 +343,7 @@ Results printable(Results results) {
     }
     clean_all(results.notes);
     if (results.stopped) {
+        results.stopped->message = in_one_line(results.stopped->message);
         clean(results.stopped->message);
     }
     return results;

@@ -247,11 +247,8 @@ bool is_same_environment(const Environment& a, const Environment& b) {
 void add_stop(std::vector<std::string>& notes, const std::optional<Error>& stopped,
               std::string_view run) {
     if (stopped) {
-        std::string why;
-        for (const char letter : stopped->message) { // a line for each problem
-            why += letter == '\n' ? std::string("; ") : std::string(1, letter);
-        }
-        notes.push_back(fmt::format("The {} run ended early: {}.", run, why));
+        notes.push_back(
+            fmt::format("The {} run ended early: {}.", run, in_one_line(stopped->message)));
     }
 }
 

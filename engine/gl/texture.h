@@ -16,7 +16,7 @@ enum class Format {
     rgba8_srgb, ///< 4 bytes; r, g, b are decoded when sampled and encoded when drawn to
     rgba8,      ///< 4 bytes, [0,1]
     /// The same in the order of a window's bytes, where the driver has it: software renderers copy
-    /// such pictures to windows as they are.
+    /// such pictures to windows as they are. One level only.
     window8,
     r32f,
     rg32f,

@@ -8,6 +8,11 @@ namespace reljef::app {
 
 bool ContourWatch::update(glm::ivec2 size, bool is_moving, session::Log& log) {
     const auto& node = *scene_.terrain->get<scene::TerrainNode>();
+    if (scene::shown_contours(node) <= 0.0) {
+        last_.reset();
+        seen_.reset();
+        return !std::exchange(sentence_, {}).empty();
+    }
     Seen now{*scene_.camera->get<scene::Camera>(), size, scene::shown_contours(node), node.surface,
              node.material};
     const bool has_changed = last_ != now; // a drag does not rest either

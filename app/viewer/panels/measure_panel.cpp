@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "app/viewer/panels/panel_text.h"
+#include "app/viewer/panels/toolkit/number_control.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -102,7 +103,7 @@ void draw_profile_tip(const ProfileContent& profile, const ProfilePlot& plot) {
     const float height = profile.heights[static_cast<std::size_t>(std::lround(share * last))];
     ImGui::GetWindowDrawList()->AddLine({x, plot.low.y}, {x, plot.high.y},
                                         in_imgui(palette::muted));
-    tip(fmt::format("{:.3g} {}: {:.1f} m", share * plot.length, plot.unit, height));
+    tip(fmt::format("{} {}: {:.1f} m", number_text(share * plot.length, 2), plot.unit, height));
 }
 
 void draw_plot_of(const ProfileContent& profile, float scale) {
@@ -130,7 +131,11 @@ void draw_plot_of(const ProfileContent& profile, float scale) {
 }
 
 void draw_profile(const ProfileContent& profile, float scale) {
-    draw_plot_of(profile, scale);
+    if (std::isfinite(profile.lowest)) {
+        draw_plot_of(profile, scale);
+    } else {
+        muted_text("There are no heights along it");
+    }
     row("Lowest, highest", fmt::format("{:.1f} m, {:.1f} m", profile.lowest, profile.highest));
     row("Distance", length_text(profile.distance));
     row("Over the ground", length_text(profile.over_ground));

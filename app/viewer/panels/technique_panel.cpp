@@ -268,7 +268,7 @@ PanelActions draw_technique(const PanelContent& content, const Fonts& fonts) {
     section(fonts.heading, "Options");
     actions += draw_options(technique);
     section(fonts.heading, "On the command line");
-    wrapped_muted_text(short_text(edited(technique)));
+    wrapped_muted_text(scene::to_string(edited(technique)));
     return actions;
 }
 

@@ -14,9 +14,8 @@
 namespace reljef::io {
 namespace {
 
-constexpr int max_taps = 4; // stored samples per side that are averaged into one
-// Stored values per read: of a whole raster (one thread) and of a window (many threads).
-constexpr int samples_at_a_time = 1 << 18;
+constexpr int max_taps = 4;                // stored samples per side that are averaged into one
+constexpr int samples_at_a_time = 1 << 18; // stored values per read
 
 /// A part of the result.
 using Tile = RasterOptions::Window;
@@ -150,16 +149,15 @@ Error reading_failed(const std::string& name, const Tile& tile, const ReadPlan& 
                         plan.row + tile.row * plan.reduction, messages.reason())};
 }
 
-/// Reads and decodes a plan in blocks of `at_a_time` stored values; see store_tile.
+/// Reads and decodes a plan in blocks; see store_tile.
 template <class Store>
-Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, int at_a_time,
-                       SampleDecoder& decoder, const std::string& name,
-                       const RasterOptions& options, const GdalMessages& messages,
-                       const Store& store) {
+Result<void> read_plan(GDALDataset& dataset, const ReadPlan& plan, SampleDecoder& decoder,
+                       const std::string& name, const RasterOptions& options,
+                       const GdalMessages& messages, const Store& store) {
     Source source = source_of(dataset, plan, decoder.bands());
     const int max_cols = max_cols_within_cache(*source.bands.front(), plan.reduction);
     TileContentReader reader(std::move(source), plan);
-    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), at_a_time, max_cols);
+    const std::vector<Tile> tiles = tiles_of(plan.grid, reader.taps(), samples_at_a_time, max_cols);
     const std::size_t errors = messages.errors();
     const ReadScope scope(options.stop);
     for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -275,9 +273,7 @@ Result<Samples> read_samples(GDALDataset& dataset, const ReadPlan& plan, const s
         samples.void_mask(col, row) = is_void ? 1 : 0;
         samples.void_count += is_void ? 1 : 0;
     };
-    if (auto read =
-            read_plan(dataset, plan, samples_at_a_time, *decoder, name, options, messages, store);
-        !read) {
+    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
         return read.error();
     }
     for (std::string note :
@@ -302,9 +298,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
     }
     Grid<double> heights(plan.grid.cols, plan.grid.rows);
     const auto store = [&](int col, int row, double height) { heights(col, row) = height; };
-    if (auto read =
-            read_plan(dataset, plan, samples_at_a_time, *decoder, name, options, messages, store);
-        !read) {
+    if (auto read = read_plan(dataset, plan, *decoder, name, options, messages, store); !read) {
         return read.error();
     }
     for (std::string& words : decoder->found_notes()) {

@@ -89,8 +89,9 @@ bool draws_contours(const TerrainScene& scene) {
 std::string rounded_length(double metres) {
     const double step = std::pow(10.0, std::floor(std::log10(metres)) - 1.0);
     const double rounded = std::floor(metres / step) * step; // two digits
-    return rounded < 1000.0 ? fmt::format("{:.3g} m", rounded)
-                            : fmt::format("{:.3g} km", rounded / 1000.0);
+    const bool is_near = rounded < 1000.0;
+    const double shown = is_near ? rounded : rounded / 1000.0;
+    return fmt::format("{:.{}f} {}", shown, shown < 10.0 ? 1 : 0, is_near ? "m" : "km");
 }
 
 } // namespace

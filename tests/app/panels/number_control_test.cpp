@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -111,6 +112,39 @@ TEST_F(NumberControlTest, TypedNumbersArriveExactlyInTheSceneAndInTheCommand) {
     EXPECT_THAT(*command, HasSubstr("--sun 31.4159,"));
     EXPECT_THAT(*command, HasSubstr("--contours 12.345"));
     EXPECT_THAT(*command, HasSubstr("--exaggeration 25.125"));
+}
+
+TEST_F(NumberControlTest, AClickIntoABoxAboveOrBelowSetsWhatWasTyped) {
+    open_view();
+    const double x = layout.inspector.high.x - box_from_right;
+    std::optional<double> azimuth;
+    std::optional<double> altitude;
+    for (double y = layout.inspector.low.y + 74.0; y < layout.inspector.high.y - 70.0; y += 4.0) {
+        click({x, y});
+        if (!panels.types_text()) {
+            continue;
+        }
+        write("31.4159");
+        for (const PanelAction& action : enter()) {
+            if (const auto* const sun = std::get_if<SetSun>(&action)) {
+                (sun->azimuth == 31.4159 ? azimuth : altitude) = y;
+            }
+        }
+    }
+    ASSERT_TRUE(azimuth && altitude);
+    ASSERT_LT(*azimuth, *altitude);
+    for (const auto& [from, to] : {std::pair(*altitude, *azimuth), {*azimuth, *altitude}}) {
+        click({x, from});
+        write("12.5");
+        std::optional<SetSun> set;
+        for (const PanelAction& action : click({x, to})) {
+            if (const auto* const sun = std::get_if<SetSun>(&action)) {
+                set = *sun;
+            }
+        }
+        ASSERT_TRUE(set) << from << " to " << to;
+        EXPECT_EQ(from > to ? set->altitude : set->azimuth, 12.5);
+    }
 }
 
 TEST_F(NumberControlTest, EnterWithoutTypingKeepsTheDigitsThatAreNotShown) {

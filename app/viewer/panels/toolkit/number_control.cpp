@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <imgui_internal.h> // the text of a box that has lost the focus
@@ -34,6 +36,23 @@ void number_tip(std::string_view meaning) {
 double rounded(double value, int decimals) {
     const double parts = std::pow(10.0, decimals);
     return std::round(value * parts) / parts;
+}
+
+// What an active box holds: once another box is clicked, ImGui has the text of that one only.
+void keep_number(std::optional<double> number) {
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const auto halves = std::bit_cast<std::array<int, 2>>(
+        number.value_or(std::numeric_limits<double>::quiet_NaN()));
+    storage.SetInt(ImGui::GetID("##first half"), halves[0]);
+    storage.SetInt(ImGui::GetID("##second half"), halves[1]);
+}
+
+std::optional<double> kept_number() {
+    const ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const auto number =
+        std::bit_cast<double>(std::array<int, 2>{storage.GetInt(ImGui::GetID("##first half")),
+                                                 storage.GetInt(ImGui::GetID("##second half"))});
+    return std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
 } // namespace
@@ -72,13 +91,20 @@ std::optional<double> number_box(const std::string& shown, float width, std::str
     ImGui::PopStyleVar();
     const bool is_left = ImGui::IsItemDeactivatedAfterEdit();
     number_tip(meaning);
+    const ImGuiInputTextState* const edited = ImGui::GetInputTextState(item);
+    if (edited != nullptr && ImGui::GetActiveID() == item) {
+        keep_number(number_in(edited->TextA.Data));
+    }
     if (!is_left) {
         return std::nullopt;
     }
     // What was clicked before the box is drawn took the focus already.
-    const ImGuiInputTextState* const state = was_active ? nullptr : ImGui::GetInputTextState(item);
-    const std::string_view text = state != nullptr ? state->TextA.Data : buffer.data();
-    const bool is_given_up = !is_entered && text == shown; // with Escape
+    if (!was_active && edited == nullptr) {
+        return kept_number();
+    }
+    const std::string_view text = was_active ? buffer.data() : edited->TextA.Data;
+    const bool is_given_up =
+        !is_entered && (text == shown || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)));
     return is_given_up ? std::nullopt : number_in(text);
 }
 
