@@ -140,7 +140,7 @@ Result<std::optional<double>> holes_percent(const json& row) {
     double terrain = **holes;
     for (const char* const pointer :
          {"/error/reprojection_px/count", "/error/reprojection_px/unbounded"}) {
-        const auto shown = value_at(row, {.pointer = pointer});
+        auto shown = value_at(row, {.pointer = pointer});
         if (!shown) {
             return shown;
         }

@@ -92,6 +92,13 @@ NumberControl control_of(const scene::NumberInfo& number) {
             .meaning = number.meaning};
 }
 
+std::optional<double> draw_value(const scene::NumberInfo& number, double value, float width) {
+    const auto typed = number_box(short_number(value), width, number.meaning);
+    const auto moved = number_slider(control_of(number), value);
+    const auto changed = typed ? typed : moved;
+    return changed ? std::optional(scene::nearest_allowed(number, *changed)) : std::nullopt;
+}
+
 // A row of a number: its name, a way back to its default, and a slider or a box.
 std::optional<double> draw_number(const scene::NumberInfo& number, double value, double usual,
                                   bool is_selected) {
@@ -113,11 +120,8 @@ std::optional<double> draw_number(const scene::NumberInfo& number, double value,
         const double other = value == 0.0 ? 1.0 : 0.0;
         chosen = tick("##tick", value != 0.0) ? std::optional(other) : chosen;
         tip(number.meaning);
-    } else {
-        const auto typed = number_box(short_number(value), width, number.meaning);
-        const auto moved = number_slider(control_of(number), value);
-        const auto changed = typed ? typed : moved;
-        chosen = changed ? std::optional(scene::nearest_allowed(number, *changed)) : chosen;
+    } else if (const auto changed = draw_value(number, value, width)) {
+        chosen = changed;
     }
     ImGui::PopID();
     return chosen != value ? chosen : std::nullopt;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <span>
 #include <utility>
 
@@ -34,7 +33,12 @@ private:
 };
 
 bool is_equal(const ImDrawVert& a, const ImDrawVert& b) {
-    return std::memcmp(&a, &b, sizeof(ImDrawVert)) == 0;
+    return a.pos.x == b.pos.x && a.pos.y == b.pos.y && a.uv.x == b.uv.x && a.uv.y == b.uv.y &&
+           a.col == b.col;
+}
+
+bool has_same_corners(const ImVec4& a, const ImVec4& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
 // Vertices are in the order of drawing: without the equal ones at the beginning and at the end,
@@ -51,8 +55,8 @@ void add_difference(Vertices before, Vertices now, Bounds& bounds) {
 }
 
 bool is_equal(const ImDrawCmd& a, const ImDrawCmd& b) {
-    return std::memcmp(&a.ClipRect, &b.ClipRect, sizeof a.ClipRect) == 0 &&
-           a.TextureId == b.TextureId && a.UserCallback == b.UserCallback;
+    return has_same_corners(a.ClipRect, b.ClipRect) && a.TextureId == b.TextureId &&
+           a.UserCallback == b.UserCallback;
 }
 
 template <class T> std::span<const T> all_of(const ImVector<T>& values) {
