@@ -129,7 +129,7 @@ constexpr const char* driving =
     "has_title() { [[ $(xdotool getwindowname $window) == \"$1, \"* ]]; }\n"
     "titled() { until_true has_title \"$1\"; }\n"
     "pressed() { for _ in $(seq $2); do xdotool key --window $window $1; done; }\n"
-    "pictured() { sleep 0.5; ffmpeg -v error -f x11grab -draw_mouse 0 -i \"$DISPLAY\" -frames:v 1 "
+    "pictured() { sleep 1; ffmpeg -v error -f x11grab -draw_mouse 0 -i \"$DISPLAY\" -frames:v 1 "
     "$1.png; }\n"
     "until_true is_open\n";
 
