@@ -24,33 +24,59 @@ struct Ground {
     float brightness = 0.0F;
 };
 
-// Rounded hollows and clods.
-Ground soil_at(glm::vec2 place) {
-    Ground ground;
+// The noise of a place: `wave` shapes all kinds of ground, and `mottle` colours them, so that lines
+// between two kinds do not show as seams.
+struct Octave {
+    float frequency = 1.0F;
+    float wave = 0.0F;
+    float mottle = 0.0F;
+};
+using Octaves = std::array<Octave, frequencies.size()>;
+
+Octaves octaves_at(glm::vec2 place) {
+    Octaves octaves;
     std::uint32_t seed = 10;
-    for (const int frequency : frequencies) {
+    std::transform(frequencies.begin(), frequencies.end(), octaves.begin(), [&](int frequency) {
         const glm::vec2 point = place * static_cast<float>(frequency);
-        const float wave = gradient_noise(seed, point, frequency);
-        ground.height += wave / static_cast<float>(frequency);
-        ground.brightness += 0.4F * wave + gradient_noise(seed + 10, point, frequency);
+        const Octave octave{static_cast<float>(frequency), gradient_noise(seed, point, frequency),
+                            gradient_noise(seed + 10, point, frequency)};
         ++seed;
-    }
-    return ground;
+        return octave;
+    });
+    return octaves;
+}
+
+// Rounded hollows and clods.
+Ground soil_of(const Octave& octave) {
+    return {octave.wave / octave.frequency, 0.4F * octave.wave + octave.mottle};
+}
+
+// Stones of all sizes between dark gaps.
+Ground scree_of(const Octave& octave) {
+    const float stone = std::abs(octave.wave);
+    return {stone / octave.frequency, 2.0F * stone + octave.mottle};
+}
+
+// Tufts, dark between them.
+Ground grass_of(const Octave& octave) {
+    return {octave.wave / octave.frequency, 0.8F * octave.wave + octave.mottle};
 }
 
 // Ridges between clefts, which are dark.
-Ground rock_at(glm::vec2 place) {
-    Ground ground;
-    std::uint32_t seed = 30;
-    for (const int frequency : frequencies) {
-        const glm::vec2 point = place * static_cast<float>(frequency);
-        const float ridge = 1.0F - 2.0F * std::abs(gradient_noise(seed, point, frequency));
-        ground.height += ridge / static_cast<float>(frequency);
-        ground.brightness += ridge + 0.5F * gradient_noise(seed + 10, point, frequency);
-        ++seed;
-    }
-    return ground;
+Ground rock_of(const Octave& octave) {
+    const float cleft = std::abs(octave.wave);
+    return {-cleft / octave.frequency, 0.5F * octave.mottle - 2.0F * cleft};
 }
+
+// Drifts, of which few are small.
+Ground snow_of(const Octave& octave) {
+    const float drift = octave.wave / std::sqrt(octave.frequency);
+    return {drift / octave.frequency, drift};
+}
+
+using GroundOf = Ground (*)(const Octave& octave);
+constexpr std::array<GroundOf, GrainMap::layer_count> grounds{soil_of, scree_of, grass_of, rock_of,
+                                                              snow_of};
 
 // Slopes along x and y, and brightness.
 Grid<glm::vec3> slopes_of(const Grid<Ground>& ground) {
@@ -68,8 +94,8 @@ Grid<glm::vec3> slopes_of(const Grid<Ground>& ground) {
     return grain;
 }
 
-// Gives the three channels the mean 0 and the same standard deviation.
-void normalize(Grid<glm::vec3>& grain) {
+// Gives the three channels the mean 0 and their standard deviation.
+void normalize(Grid<glm::vec3>& grain, glm::vec2 deviation) {
     const auto count = static_cast<double>(grain.size());
     glm::dvec3 sum(0.0);
     glm::dvec3 squares(0.0);
@@ -78,8 +104,8 @@ void normalize(Grid<glm::vec3>& grain) {
         squares += glm::dvec3(texel) * glm::dvec3(texel);
     }
     const glm::dvec3 mean = sum / count;
-    const glm::dvec3 deviation = glm::sqrt(squares / count - mean * mean);
-    const glm::vec3 scale(static_cast<double>(GrainMap::deviation) / deviation);
+    const glm::dvec3 found = glm::sqrt(squares / count - mean * mean);
+    const glm::vec3 scale(glm::dvec3(deviation.x, deviation.x, deviation.y) / found);
     for (glm::vec3& texel : grain.samples()) {
         texel = (texel - glm::vec3(mean)) * scale;
     }
@@ -114,15 +140,33 @@ void append_levels(Grid<glm::vec3> grain, std::vector<std::uint32_t>& texels) {
     }
 }
 
-template <class GroundAt> Grid<glm::vec3> pattern_of(const GroundAt& ground_at) {
-    Grid<Ground> ground(GrainMap::side, GrainMap::side);
+Grid<Octaves> all_octaves() {
+    Grid<Octaves> octaves(GrainMap::side, GrainMap::side);
     parallel_for(GrainMap::side, [&](int row) {
         for (int col = 0; col < GrainMap::side; ++col) {
-            ground(col, row) = ground_at(glm::vec2(col, row) / static_cast<float>(GrainMap::side));
+            octaves(col, row) =
+                octaves_at(glm::vec2(col, row) / static_cast<float>(GrainMap::side));
         }
     });
+    return octaves;
+}
+
+Ground sum_of(const Octaves& octaves, GroundOf ground_of) {
+    Ground sum;
+    for (const Octave& octave : octaves) {
+        const Ground ground = ground_of(octave);
+        sum.height += ground.height;
+        sum.brightness += ground.brightness;
+    }
+    return sum;
+}
+
+Grid<glm::vec3> pattern_of(const Grid<Octaves>& octaves, GrainMap::Layer layer) {
+    Grid<Ground> ground(GrainMap::side, GrainMap::side);
+    std::transform(octaves.samples().begin(), octaves.samples().end(), ground.samples().begin(),
+                   [&](const Octaves& at) { return sum_of(at, grounds.at(layer)); });
     Grid<glm::vec3> grain = slopes_of(ground);
-    normalize(grain);
+    normalize(grain, GrainMap::deviation(layer));
     return grain;
 }
 
@@ -130,8 +174,10 @@ template <class GroundAt> Grid<glm::vec3> pattern_of(const GroundAt& ground_at) 
 
 GrainMap::GrainMap() {
     texels_.reserve(layer_count * grain_layer_texels);
-    append_levels(pattern_of(soil_at), texels_);
-    append_levels(pattern_of(rock_at), texels_);
+    const Grid<Octaves> octaves = all_octaves();
+    for (int layer = 0; layer < layer_count; ++layer) {
+        append_levels(pattern_of(octaves, static_cast<Layer>(layer)), texels_);
+    }
 }
 
 std::span<const std::uint32_t> GrainMap::level(Layer layer, int level) const {

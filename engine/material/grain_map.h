@@ -6,22 +6,30 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace reljef::material {
 
 /// Fine structure of ground, which elevation data do not have: square patterns that repeat, one for
-/// soil and one for rock, as mip levels. Each is noise of four octaves with waves of 1/5 to 1/47 of
-/// the side, whose heights have the same slopes in each octave.
+/// each kind of ground, as mip levels. Each is noise of four octaves with waves of 1/5 to 1/47 of
+/// the side, whose heights have the same slopes in each octave, but those of snow smaller ones in
+/// finer octaves.
 ///
 /// A texel is three times 10 bits: the slopes of heights along x and y, and a change of the
-/// brightness, each 2 · bits / 1023 - 1, with the mean 0 and the standard deviation `deviation`.
+/// brightness, each 2 · bits / 1023 - 1, with the mean 0 and the standard deviations of
+/// deviation().
 class GrainMap {
 public:
     static constexpr int side = 256;
     static constexpr int level_count = 8; ///< to 2 by 2 texels
-    static constexpr float deviation = 0.25F;
-    enum Layer { soil, rock, layer_count };
+    /// Each lies on those before it.
+    enum Layer { soil, scree, grass, rock, snow, layer_count };
+
+    /// Of the slopes, and of the brightness.
+    static constexpr glm::vec2 deviation(Layer layer) {
+        return layer == snow ? glm::vec2(0.07F, 0.03F) : glm::vec2(0.25F);
+    }
 
     GrainMap();
 

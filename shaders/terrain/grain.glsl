@@ -1,7 +1,7 @@
 // Fine structure of near ground. A software renderer has no branches where pixels differ, only loops: a pattern is one
 // fetch, of one layer in one plane.
 
-// Layers of soil and rock. Slopes along u and v, change of the brightness: 2 · texel - 1.
+// Soil, scree, grass, rock and snow. Slopes along u and v, change of the brightness: 2 · texel - 1.
 layout(binding = grain_layers_unit) uniform sampler2DArray grain_layers;
 
 // A sine of amplitude 1 and period 1, but of parabolas.
@@ -27,17 +27,40 @@ vec3 widest_noise(vec3 at) {
     return choice_noise * (waves + waves.yzx);
 }
 
-// Shares of rock, of the level plane, and of yz in the upright ones.
-vec3 shares_of_choices(GroundPlace place) {
+// What ground is, by slope and colour: shares of scree, grass, rock and snow; else it is soil. Excess green hardly
+// changes with the colour of daylight (Woebbecke et al. 1995).
+vec4 cover_of(vec3 lit, GroundPlace place) {
+    float cosine = dot(place.normal, place.up);
+    float sum = max(lit.r + lit.g + lit.b, darkest_lit);
+    return vec4(smoothstep(scree_begin, scree_end, (lit.b - lit.r) / sum),
+                smoothstep(grass_begin, grass_end, 3.0 * lit.g / sum - 1.0),
+                1.0 - smoothstep(rock_end, rock_begin, cosine),
+                smoothstep(snow_begin, snow_end, 3.0 * lit.b * lit.b / sum));
+}
+
+// Shares of the level plane, and of yz in the upright ones.
+vec2 shares_of_planes(GroundPlace place) {
     vec3 facing = abs(place.normal);
-    return vec3(1.0 - smoothstep(rock_end, rock_begin, dot(place.normal, place.up)),
-                smoothstep(upright_end, upright_begin, facing.z),
+    return vec2(smoothstep(upright_end, upright_begin, facing.z),
                 smoothstep(-upright_turn, upright_turn, facing.x - facing.y));
 }
 
 // A pattern shows one of two looks. The line between them wanders with the noise. Above 0: the first one.
-vec3 choices(vec3 shares, vec3 noise) {
-    return shares - 0.5 - clamp(noise.zxy, -widest_wander, widest_wander);
+vec2 choices(vec2 shares, vec2 noise) {
+    return shares - 0.5 - clamp(noise, -widest_wander, widest_wander);
+}
+
+vec4 choices(vec4 shares, vec4 noise) {
+    return shares - 0.5 - clamp(noise, -widest_wander, widest_wander);
+}
+
+// x: the last of the layers that was chosen; y: how far from the line to another one.
+vec2 layer_of(vec4 chosen) {
+    vec2 layer = vec2(0.0, 1.0);
+    layer = chosen.x > 0.0 ? vec2(scree_layer, chosen.x) : vec2(layer.x, min(layer.y, -chosen.x));
+    layer = chosen.y > 0.0 ? vec2(grass_layer, chosen.y) : vec2(layer.x, min(layer.y, -chosen.y));
+    layer = chosen.z > 0.0 ? vec2(rock_layer, chosen.z) : vec2(layer.x, min(layer.y, -chosen.z));
+    return chosen.w > 0.0 ? vec2(snow_layer, chosen.w) : vec2(layer.x, min(layer.y, -chosen.w));
 }
 
 // Near a mip level, that level alone: most pixels fetch no second one.
@@ -46,42 +69,42 @@ float steepened(float level) {
     return whole + clamp((level - whole - 0.5) * level_steepness + 0.5, 0.0, 1.0);
 }
 
-// The change of the cosine of the angle to the sun, and of the brightness.
+// The change of the cosine of the angle to the sun, of the brightness, and of the grass's alone.
 struct Look {
-    vec2 look;
+    vec3 look;
     vec3 noise; // for the choices of the next pattern
 };
 
 // `at`: in widths of the pattern; `wander`: of its level. Grain fades at the lines between looks.
-Look pattern_at(vec3 at, float level, vec3 chosen, float wander, bool is_bent) {
-    bool is_flat = chosen.y > 0.0;
-    bool by_y = !is_flat && chosen.z > 0.0;
+Look pattern_at(vec3 at, float level, vec2 layer, vec2 chosen, float wander, bool is_bent) {
+    bool is_flat = chosen.x > 0.0;
+    bool by_y = !is_flat && chosen.y > 0.0;
     vec2 place = vec2(by_y ? at.y : at.x, is_flat ? at.y : at.z);
     vec2 sun = vec2(by_y ? grain_sun.y : grain_sun.x, is_flat ? grain_sun.y : grain_sun.z);
-    float layer = chosen.x > 0.0 ? 1.0 : 0.0;
-    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer);
+    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer.x);
     vec3 grain = 2.0 * textureLod(grain_layers, in_layer, steepened(max(level + wander, 0.0))).rgb - 1.0;
-    vec3 clear = min(abs(chosen) / choice_border, 1.0);
+    vec3 clear = min(abs(vec3(layer.y, chosen)) / choice_border, 1.0);
     float seen = clamp(last_seen_level + 1.0 - level, 0.0, 1.0);
     float strength = seen * clear.x * clear.y * (is_flat ? 1.0 : clear.z);
-    return Look(strength * vec2(-dot(grain.xy, sun), grain.z), grain);
+    return Look(strength * vec3(-dot(grain.xy, sun), grain.z, layer.x == grass_layer ? grain.z : 0.0), grain);
 }
 
 // The sum of the visible patterns.
-vec2 grain_at(GroundPlace place) {
+vec3 grain_at(GroundPlace place, vec4 cover) {
     float longer = 1.0 / max(abs(dot(place.normal, place.view)), flattest_facing);
     float pixel = place.pixel * sqrt(longer) * sqrt(sqrt(longer)); // between its width and its length
     float texels = pixel * float(textureSize(grain_layers, 0).x);
-    vec3 shares = shares_of_choices(place);
+    vec2 shares = shares_of_planes(place);
     vec4 pattern = grain_pattern_0;
     vec3 at = place.from_eye * pattern.w + pattern.xyz;
     vec3 noise = widest_noise(at);
     float wander = noise.z;
     float level = max(log2(texels * pattern.w), 0.0);
-    vec2 sum = vec2(0.0);
+    vec3 sum = vec3(0.0);
     int i = 0;
     do {
-        Look look = pattern_at(at, level, choices(shares, noise), wander, i == 0);
+        vec2 layer = layer_of(choices(cover, vec4(noise, -noise.y)));
+        Look look = pattern_at(at, level, layer, choices(shares, noise.xy), wander, i == 0);
         sum += look.look;
         noise = look.noise;
         ++i;
@@ -92,24 +115,23 @@ vec2 grain_at(GroundPlace place) {
     return sum;
 }
 
-// Snow, the brightest ground, is smoother, and level water has no grain.
+// Level water has no grain.
 float strength_on(vec3 lit, GroundPlace place) {
-    float luminance = dot(lit, vec3(0.2126, 0.7152, 0.0722));
-    float rough = 1.0 - snow_smoothness * smoothstep(snow_begin, snow_end, luminance);
     bool is_level = dot(place.normal, place.up) > level_cosine;
-    return is_level && lit.b > blue_of_water * lit.r ? 0.0 : grain_up.w * rough;
+    return is_level && lit.b > blue_of_water * lit.r ? 0.0 : grain_up.w;
 }
 
 // Ground with its grain: slopes change the share of the sun's light, and the brightness changes all light. Ground that
 // the sun hardly reaches is as grainy as if it did: else the steps of normals from cell to cell would show.
 vec3 with_grain(vec3 lit, GroundPlace place) {
-    vec2 grain = grain_at(place);
+    vec3 grain = grain_at(place, cover_of(lit, place));
     float strength = strength_on(lit, place);
     float to_sun = max(dot(place.normal, grain_sun.xyz), grain_grazing);
     float grainy = to_sun + strength * grain_slope_scale * grain.x;
     float light = (max(grainy, 0.0) + grain_sky_share) / (to_sun + grain_sky_share);
+    vec3 brightness = grain.y + grain.z * vec3(dry_red, 0.0, dry_blue);
 #ifdef POINT_LIGHTS
     lit += light_under_overlay;
 #endif
-    return lit * light * max(1.0 + strength * grain_brightness_scale * grain.y, 0.0);
+    return lit * light * max(1.0 + strength * grain_brightness_scale * brightness, 0.0);
 }

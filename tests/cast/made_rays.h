@@ -22,10 +22,10 @@ struct Stage {
     scene::Node* terrain = nullptr;
     scene::Node* camera = nullptr;
 
-    explicit Stage(Grid<float> heights, glm::dvec2 spacing = {1.0, 1.0},
-                   double exaggeration = 1.0) {
+    explicit Stage(Grid<float> heights, glm::dvec2 spacing = {1.0, 1.0}, double exaggeration = 1.0,
+                   Image color = {}) {
         terrain = &test::add_terrain(
-            scene, test::plane_heightfield(std::move(heights), spacing), {},
+            scene, test::plane_heightfield(std::move(heights), spacing), std::move(color),
             {.placement = terrain::PlacementKind::plane, .exaggeration = exaggeration});
         camera = &scene.add_camera({});
     }

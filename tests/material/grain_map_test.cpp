@@ -11,7 +11,8 @@ namespace reljef::material {
 namespace {
 
 constexpr int side = GrainMap::side;
-constexpr std::array layers{GrainMap::soil, GrainMap::rock};
+constexpr std::array layers{GrainMap::soil, GrainMap::scree, GrainMap::grass, GrainMap::rock,
+                            GrainMap::snow};
 
 const GrainMap& grain_map() {
     static const GrainMap map;
@@ -33,12 +34,14 @@ TEST(GrainMap, ChangesNothingInTheMeanAndAlwaysAsMuch) {
             sum += grain;
             squares += grain * grain;
         }
+        const glm::vec2 deviation = GrainMap::deviation(layer);
         for (int channel = 0; channel < 3; ++channel) {
             const double mean = sum[channel] / (side * side);
             // Of the few texels beyond the range, too.
             EXPECT_NEAR(mean, 0.0, 2e-3);
             EXPECT_NEAR(std::sqrt(squares[channel] / (side * side) - mean * mean),
-                        static_cast<double>(GrainMap::deviation), 4e-3);
+                        static_cast<double>(channel < 2 ? deviation.x : deviation.y), 4e-3)
+                << layer;
         }
     }
 }
@@ -46,14 +49,15 @@ TEST(GrainMap, ChangesNothingInTheMeanAndAlwaysAsMuch) {
 // The slopes are those of heights that repeat: along each row and column they add up to nothing.
 TEST(GrainMap, SlopesLeadBackToWhereTheyBegan) {
     constexpr double rounded = 0.5 * 2.0 / 1023.0; // of each texel, at most
-    for (int index = 0; index < side; ++index) {
-        glm::dvec2 sums(0.0);
-        for (int i = 0; i < side; ++i) {
-            sums += glm::dvec2(texel(GrainMap::soil, 0, i, index).x,
-                               texel(GrainMap::soil, 0, index, i).y);
+    for (const GrainMap::Layer layer : {GrainMap::soil, GrainMap::grass, GrainMap::snow}) {
+        for (int index = 0; index < side; ++index) {
+            glm::dvec2 sums(0.0);
+            for (int i = 0; i < side; ++i) {
+                sums += glm::dvec2(texel(layer, 0, i, index).x, texel(layer, 0, index, i).y);
+            }
+            EXPECT_LE(std::abs(sums.x), side * rounded) << index;
+            EXPECT_LE(std::abs(sums.y), side * rounded) << index;
         }
-        EXPECT_LE(std::abs(sums.x), side * rounded) << index;
-        EXPECT_LE(std::abs(sums.y), side * rounded) << index;
     }
 }
 
@@ -64,12 +68,18 @@ TEST(GrainMap, LevelsAreMeansOfTheFinerOnes) {
             for (int row = 0; row < side >> level; ++row) {
                 for (int col = 0; col < side >> level; ++col) {
                     glm::dvec3 mean(0.0);
+                    glm::dvec3 largest(0.0);
                     for (int k = 0; k < 4; ++k) {
-                        mean += 0.25 * texel(layer, level - 1, 2 * col + k % 2, 2 * row + k / 2);
+                        const glm::dvec3 fine =
+                            texel(layer, level - 1, 2 * col + k % 2, 2 * row + k / 2);
+                        mean += 0.25 * fine;
+                        largest = glm::max(largest, glm::abs(fine));
                     }
                     const glm::dvec3 off = glm::abs(texel(layer, level, col, row) - mean);
-                    // Texels beyond the range are cut after their mean is taken.
-                    ASSERT_LE(std::max({off.x, off.y, off.z}), level == 1 ? 0.1 : rounded);
+                    for (int channel = 0; channel < 3; ++channel) {
+                        const bool is_cut = largest[channel] > 1.0 - rounded; // after the mean
+                        ASSERT_LE(off[channel], is_cut ? 0.1 : rounded) << layer;
+                    }
                 }
             }
         }

@@ -197,23 +197,60 @@ HWY_INLINE Choice choice(Floats share, Floats noise) {
 
 // Shares of the first look of each choice.
 struct ShareOfChoices {
+    Floats scree; // of what ground is; else it is soil
+    Floats grass;
     Floats rock;
+    Floats snow;
     Floats flat; // the level plane
     Floats by_y; // of upright planes, yz
 };
 
+// What ground is, by slope and colour. Excess green hardly changes with the colour of daylight
+// (Woebbecke et al. 1995).
 HWY_INLINE ShareOfChoices shares_of_choices(const GrainPaint& grain,
-                                            const std::array<Floats, 3>& normal) {
+                                            const std::array<Floats, 3>& normal, const Color& lit) {
+    const Floats cosine = dot(normal, all_of(grain.up));
+    const Floats sum = hn::Max(hn::Add(hn::Add(lit.r, lit.g), lit.b), all(darkest_lit));
+    const Floats green = hn::Sub(hn::Div(hn::Mul(all(3.0F), lit.g), sum), all(1.0F));
+    const Floats blue = hn::Div(hn::Mul(all(3.0F), hn::Mul(lit.b, lit.b)), sum);
+    const Floats grey = hn::Div(hn::Sub(lit.b, lit.r), sum);
     const Floats turn = hn::Sub(hn::Abs(normal[0]), hn::Abs(normal[1]));
-    return {smooth_step(rock_begin, rock_end, dot(normal, all_of(grain.up))),
+    return {smooth_step(scree_begin, scree_end, grey),
+            smooth_step(grass_begin, grass_end, green),
+            smooth_step(rock_begin, rock_end, cosine),
+            smooth_step(snow_begin, snow_end, blue),
             smooth_step(upright_end, upright_begin, hn::Abs(normal[2])),
             smooth_step(-upright_turn, upright_turn, turn)};
 }
 
-// Changes of the cosine of the angle to the sun, and of the brightness.
+// The layer of ground, and its strength beside the line to another one.
+struct LayerChoice {
+    Ints layer;
+    Floats strength;
+};
+
+// The last layer that is chosen.
+HWY_INLINE LayerChoice layer_of(const ShareOfChoices& shares, const Grain& noise) {
+    LayerChoice last{hn::Zero(ints), all(1.0F)};
+    const auto choose = [&](float layer, Floats share, Floats wander) HWY_ATTR {
+        const Choice chosen = choice(share, wander);
+        last.layer = hn::IfThenElse(hn::RebindMask(ints, chosen.is_first),
+                                    all(static_cast<std::int32_t>(layer)), last.layer);
+        last.strength = hn::IfThenElse(chosen.is_first, chosen.strength,
+                                       hn::Min(last.strength, chosen.strength));
+    };
+    choose(scree_layer, shares.scree, noise.u);
+    choose(grass_layer, shares.grass, noise.v);
+    choose(rock_layer, shares.rock, noise.brightness);
+    choose(snow_layer, shares.snow, hn::Neg(noise.v));
+    return last;
+}
+
+// Changes of the cosine of the angle to the sun, of the brightness, and of the grass's alone.
 struct GrainLook {
     Floats to_sun;
     Floats brightness;
+    Floats of_grass;
 };
 
 // Where a pattern is seen, in its widths, and as how large pixels.
@@ -239,7 +276,7 @@ HWY_INLINE PatternView pattern_view(const glm::vec4& pattern, const std::array<F
 HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
                             const ShareOfChoices& shares, bool is_bent, Grain& noise,
                             GrainLook& sum) {
-    const Choice rock = choice(shares.rock, noise.brightness);
+    const LayerChoice cover = layer_of(shares, noise);
     const Choice flat = choice(shares.flat, noise.u);
     const Choice by_y = choice(shares.by_y, noise.v);
     const Lanes is_y = hn::AndNot(flat.is_first, by_y.is_first);
@@ -249,19 +286,23 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
     };
     const PatternPlace place = in_plane(view.at);
     const PatternPlace sun = in_plane(all_of(grain.to_sun));
-    const Ints layer = hn::IfThenElseZero(hn::RebindMask(ints, rock.is_first), all(1));
-    noise = grain_between(grain, layer, is_bent ? bent(place) : place, view.level);
+    noise = grain_between(grain, cover.layer, is_bent ? bent(place) : place, view.level);
     const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
     const Floats strength =
-        hn::Mul(hn::Mul(view.seen, rock.strength), hn::Mul(flat.strength, of_plane));
+        hn::Mul(hn::Mul(view.seen, cover.strength), hn::Mul(flat.strength, of_plane));
     const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
     sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
     sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
+    const Lanes is_grass =
+        hn::RebindMask(floats, hn::Eq(cover.layer, all(static_cast<std::int32_t>(grass_layer))));
+    sum.of_grass =
+        hn::MulAdd(hn::IfThenElseZero(is_grass, strength), noise.brightness, sum.of_grass);
 }
 
 // The sum of the visible patterns.
 HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
-                              const std::array<Floats, 3>& normal, Lanes found) {
+                              const std::array<Floats, 3>& normal, const ShareOfChoices& shares,
+                              Lanes found) {
     const Floats zero = hn::Zero(floats);
     const Floats facing =
         hn::Div(hn::Abs(dot(normal, turned(grain.turn, place.view))), place.view_length);
@@ -271,8 +312,7 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
     const Floats pixel = hn::Mul(width, hn::Mul(longer, hn::Sqrt(longer))); // and its length
     const Floats texels = hn::Mul(pixel, all(static_cast<float>(grain.side)));
     const std::array<Floats, 3> from_eye = turned(grain.turn, place.from_eye);
-    const ShareOfChoices shares = shares_of_choices(grain, normal);
-    GrainLook sum{zero, zero};
+    GrainLook sum{zero, zero, zero};
     Grain noise{zero, zero, zero};
     Floats wander = zero;
     for (int i = 0; i < grain.pattern_count; ++i) {
@@ -292,38 +332,39 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
     return sum;
 }
 
-// The strength of grain. Snow, the brightest ground, is smoother, and level water has none.
+// Of grain: level water has none.
 HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 3>& normal,
                               const Color& lit) {
-    const Floats luminance = hn::MulAdd(
-        lit.r, all(0.2126F), hn::MulAdd(lit.g, all(0.7152F), hn::Mul(lit.b, all(0.0722F))));
-    const Floats rough = hn::NegMulAdd(all(snow_smoothness),
-                                       smooth_step(snow_begin, snow_end, luminance), all(1.0F));
     const Lanes is_level = hn::Gt(dot(normal, all_of(grain.up)), all(level_cosine));
     const Lanes is_water = hn::And(is_level, hn::Gt(lit.b, hn::Mul(all(blue_of_water), lit.r)));
-    return hn::IfThenZeroElse(is_water, hn::Mul(all(grain.strength), rough));
+    return hn::IfThenZeroElse(is_water, all(grain.strength));
 }
 
-// By which grain changes the light of ground: slopes change the share of the sun's light, and the
-// brightness changes all light. Ground that the sun hardly reaches is as grainy as if it did: else
-// the steps of normals from cell to cell would show.
-// `lit`: by the sun and the sky.
-HWY_INLINE Floats light_of_grain(const BlockPaint& paint, const TilePaint& tile,
-                                 const GroundPlace& place, const PacketHits& hits,
-                                 const Color& lit) {
+// Ground with its grain: slopes change the share of the sun's light, and the brightness changes all
+// light. Ground that the sun hardly reaches is as grainy as if it did: else the steps of normals
+// from cell to cell would show.
+// `by_sun`: the part of `lit` by the sun and the sky.
+HWY_INLINE Color with_grain(const BlockPaint& paint, const TilePaint& tile,
+                            const GroundPlace& place, const PacketHits& hits, const Color& by_sun,
+                            const Color& lit) {
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
     const std::array<Floats, 3> normal = grain_normal(tile, hits);
-    const GrainLook look = grain_at(grain, place, normal, hits.found);
-    const Floats strength = strength_on(grain, normal, lit);
+    const ShareOfChoices shares = shares_of_choices(grain, normal, by_sun);
+    const GrainLook look = grain_at(grain, place, normal, shares, hits.found);
+    const Floats strength = strength_on(grain, normal, by_sun);
     const Floats to_sun = hn::Max(dot(normal, all_of(grain.to_sun)), all(grain_grazing));
     const Floats grainy =
         hn::MulAdd(look.to_sun, hn::Mul(strength, all(grain_slope_scale)), to_sun);
     const Floats light = hn::Div(hn::Add(hn::Max(grainy, zero), all(grain_sky_share)),
                                  hn::Add(to_sun, all(grain_sky_share)));
-    const Floats brightness =
-        hn::MulAdd(look.brightness, hn::Mul(strength, all(grain_brightness_scale)), all(1.0F));
-    return hn::Mul(light, hn::Max(brightness, zero));
+    const Floats scale = hn::Mul(strength, all(grain_brightness_scale));
+    const auto shown = [&](Floats channel, float dry) HWY_ATTR {
+        const Floats change = hn::MulAdd(look.of_grass, all(dry), look.brightness);
+        const Floats brightness = hn::MulAdd(change, scale, all(1.0F));
+        return hn::Mul(channel, hn::Mul(light, hn::Max(brightness, zero)));
+    };
+    return {shown(lit.r, dry_red), shown(lit.g, 0.0F), shown(lit.b, dry_blue)};
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

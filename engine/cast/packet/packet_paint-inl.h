@@ -321,7 +321,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
     }
     if (!Mode::counts && paint.grain != nullptr) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = scaled(lit, light_of_grain(paint, *job.paint, place, hits, by_sun));
+        lit = with_grain(paint, *job.paint, place, hits, by_sun, lit);
     }
     const Floats height = hn::Add(hits.height, all(job.rays.base_height));
     if (!Mode::counts && paint.facades != nullptr) {

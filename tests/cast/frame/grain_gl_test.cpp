@@ -4,8 +4,12 @@
 #include <span>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
+#include "engine/material/grain_map.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "tests/cast/frame/compared_pictures.h"
@@ -16,6 +20,10 @@
 
 namespace reljef::cast {
 namespace {
+
+namespace numbers {
+#include "shaders/terrain/overlay_numbers.inc"
+}
 
 double mean_brightness(const Image& image) {
     double sum = 0.0;
@@ -108,6 +116,59 @@ TEST_F(GrainGlTest, ChangesGroundButNoHitAndNoSky) {
         EXPECT_NEAR(mean_brightness(grainy), mean_brightness(plain), 4.0)
             << "of 255, " << scene::to_string(pose);
     }
+}
+
+TEST(GrainNumbers, LayersOfShadersAreThoseOfTheMap) {
+    EXPECT_EQ(static_cast<int>(numbers::scree_layer), material::GrainMap::scree);
+    EXPECT_EQ(static_cast<int>(numbers::grass_layer), material::GrainMap::grass);
+    EXPECT_EQ(static_cast<int>(numbers::rock_layer), material::GrainMap::rock);
+    EXPECT_EQ(static_cast<int>(numbers::snow_layer), material::GrainMap::snow);
+}
+
+// How much grain changes a colour: the standard deviation of its channels, in parts of their means.
+glm::dvec3 contrast_of(Rgba8 color, float slope) {
+    Grid<float> heights(129, 129);
+    for (int row = 0; row < 129; ++row) {
+        for (int col = 0; col < 129; ++col) {
+            heights(col, row) = 8.0F * slope * static_cast<float>(col);
+        }
+    }
+    Image image(2, 2);
+    std::fill(image.samples().begin(), image.samples().end(), color);
+    OverlayStage stage(std::move(heights), {8.0, 8.0}, std::move(image));
+    stage.set_grain(1.0F);
+    stage.look_down_at({100.0, 50.0}, 0.5);
+    glm::dvec3 sum(0.0);
+    glm::dvec3 squares(0.0);
+    const Image drawn = stage.drawn();
+    for (const Rgba8 pixel : drawn.samples()) {
+        const glm::dvec3 seen(pixel.r, pixel.g, pixel.b);
+        sum += seen;
+        squares += seen * seen;
+    }
+    const glm::dvec3 mean = sum / static_cast<double>(drawn.size());
+    return glm::sqrt(squares / static_cast<double>(drawn.size()) - mean * mean) / mean;
+}
+
+constexpr Rgba8 brown{150, 120, 90, 255};
+constexpr Rgba8 grey{134, 127, 120, 255};
+constexpr Rgba8 green{112, 134, 80, 255};
+constexpr Rgba8 white{207, 212, 219, 255};
+
+TEST_F(GrainGlTest, OnlyGrassChangesItsHue) {
+    const auto hue_of = [](glm::dvec3 contrast) { return contrast.r / contrast.g; };
+    EXPECT_GT(hue_of(contrast_of(green, 0.1F)), 1.1);
+    for (const Rgba8 other : {brown, grey}) {
+        EXPECT_NEAR(hue_of(contrast_of(other, 0.1F)), 1.0, 0.05) << int{other.b};
+    }
+    EXPECT_NEAR(hue_of(contrast_of(green, 1.5F)), 1.0, 0.05) << "rock, as steep as it is";
+}
+
+TEST_F(GrainGlTest, SnowIsSmooth) {
+    const double rough = contrast_of(grey, 0.1F).g;
+    EXPECT_GT(rough, 0.02);
+    EXPECT_LT(contrast_of(white, 0.1F).g, 0.4 * rough);
+    EXPECT_LT(contrast_of(white, 1.5F).g, 0.4 * contrast_of(grey, 1.5F).g) << "steep";
 }
 
 // The eye moves by whole pixels over the ground: what it still sees must not change, as it would if

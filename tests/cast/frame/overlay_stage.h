@@ -18,8 +18,8 @@ struct OverlayStage : Stage {
     scene::Node* light = nullptr;
 
     explicit OverlayStage(Grid<float> heights = test::hills(151, 129, 90.0),
-                          glm::dvec2 spacing = {8.0, 8.0})
-        : Stage(std::move(heights), spacing) {
+                          glm::dvec2 spacing = {8.0, 8.0}, Image color = {})
+        : Stage(std::move(heights), spacing, 1.0, std::move(color)) {
         light = &scene.add_light();
         node().material.technique = {scene::Exact{}};
         node().labels_contours = false; // the driver alone draws none
