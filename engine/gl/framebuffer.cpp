@@ -72,6 +72,13 @@ std::string_view incompleteness(GLenum status) {
 
 } // namespace
 
+void bind_window() {
+    // Mesa updates a window's size when the window is bound.
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    // Without conversion colours are plain bytes, whatever the window's encoding.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+}
+
 std::vector<int> sample_counts(const FramebufferOptions& options) {
     std::vector<int> common = counts_of(options.color);
     if (options.depth) {
@@ -177,10 +184,7 @@ void Framebuffer::clear_depth(float depth) const {
 }
 
 void Framebuffer::blit_to_window(glm::ivec2 window_size, FirstRow first) const {
-    // Mesa updates a window's size when the window is bound.
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    // Without conversion both sides are plain bytes, whatever the window's encoding.
-    glDisable(GL_FRAMEBUFFER_SRGB);
+    bind_window();
     const int bottom = first == FirstRow::bottom ? 0 : size_.y;
     glBlitNamedFramebuffer(id(), 0, 0, bottom, size_.x, size_.y - bottom, 0, 0, window_size.x,
                            window_size.y, GL_COLOR_BUFFER_BIT,
@@ -188,20 +192,10 @@ void Framebuffer::blit_to_window(glm::ivec2 window_size, FirstRow first) const {
 }
 
 void Framebuffer::blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glDisable(GL_FRAMEBUFFER_SRGB); // plain bytes, as above
+    bind_window();
     const glm::ivec2 high = low + size;
     glBlitNamedFramebuffer(id(), 0, low.x, low.y, high.x, high.y, low.x, size_.y - low.y, high.x,
                            size_.y - high.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-}
-
-void Framebuffer::turn_area_to(const Framebuffer& target, glm::ivec2 low, glm::ivec2 size) const {
-    check(size_ == target.size_ && samples_ == 1 && target.samples_ == 1,
-          "turned to another kind of framebuffer");
-    glDisable(GL_FRAMEBUFFER_SRGB); // plain bytes, as above
-    const glm::ivec2 high = low + size;
-    glBlitNamedFramebuffer(id(), target.id(), low.x, size_.y - low.y, high.x, size_.y - high.y,
-                           low.x, low.y, high.x, high.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::resolve_to(const Framebuffer& target) const {

@@ -24,6 +24,9 @@ struct FramebufferOptions {
 /// The possible samples per pixel with these formats, ascending; 1 is always possible.
 std::vector<int> sample_counts(const FramebufferOptions& options);
 
+/// Makes the window's back buffer the draw target; what is drawn are its bytes.
+void bind_window();
+
 /// Where the first row of a picture's texels is shown.
 enum class FirstRow { bottom, top };
 
@@ -48,11 +51,13 @@ public:
     /// The same of a rectangle of a picture whose first row is on top, to a window of its size:
     /// upper left corner and size, pixels.
     void blit_area_to_window(glm::ivec2 low, glm::ivec2 size) const;
-    /// Copies a rectangle to a picture of the same size upside down: its first row becomes the top.
-    /// Upper left corner and size, pixels. Precondition: one sample.
-    void turn_area_to(const Framebuffer& target, glm::ivec2 low, glm::ivec2 size) const;
     /// Replaces the colours. Preconditions: 8 bits a colour, one sample, equal sizes.
     void upload(const Grid<Rgba8>& texels) { color_.upload(0, texels); }
+    /// Replaces the colours of a rectangle from column and row `low`. Preconditions: as above, and
+    /// the rectangle lies in the picture.
+    void upload_area(glm::ivec2 low, const GridView<const Rgba8>& texels) {
+        color_.upload_area(low, texels);
+    }
 
     /// Copies the colour to `target`: the mean of a pixel's samples, in linear light for
     /// rgba8_srgb. Precondition: equal sizes and formats; the target has one sample.

@@ -128,6 +128,17 @@ void Texture2D::upload(int level, std::span<const std::byte> texels) {
                         texels.data());
 }
 
+void Texture2D::upload_area(glm::ivec2 low, glm::ivec2 size, const void* texels,
+                            std::ptrdiff_t stride) {
+    check(low.x >= 0 && low.y >= 0 && size.x <= size_.x - low.x && size.y <= size_.y - low.y,
+          "upload outside of a texture");
+    const FormatTraits format = traits(format_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(stride));
+    glTextureSubImage2D(id(), 0, low.x, low.y, size.x, size.y, format.layout, format.type, texels);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
 void Texture2D::generate_mipmaps() {
     if (levels_ > 1) {
         glGenerateTextureMipmap(id());

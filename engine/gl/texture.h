@@ -77,6 +77,16 @@ public:
         check(sizeof(T) == traits(format_).bytes, "grid of another texel format");
         upload(level, std::as_bytes(texels.samples()));
     }
+    /// Replaces a rectangle of level 0 from column and row `low`. Preconditions: it lies in the
+    /// level; sizeof(T) matches.
+    template <class T> void upload_area(glm::ivec2 low, const GridView<T>& texels) {
+        check(sizeof(T) == traits(format_).bytes, "grid of another texel format");
+        if (!texels.empty()) {
+            const auto stride =
+                texels.rows() > 1 ? &texels(0, 1) - &texels(0, 0) : std::ptrdiff_t{texels.cols()};
+            upload_area(low, {texels.cols(), texels.rows()}, &texels(0, 0), stride);
+        }
+    }
     /// Makes levels 1 and up from level 0 (box filter; sRGB averages in linear light).
     void generate_mipmaps();
 
@@ -93,6 +103,9 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    // `stride`: texels from a row to the next.
+    void upload_area(glm::ivec2 low, glm::ivec2 size, const void* texels, std::ptrdiff_t stride);
+
     UniqueId<delete_texture> id_;
     glm::ivec2 size_{0, 0};
     int levels_ = 0;

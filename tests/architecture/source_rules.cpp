@@ -89,7 +89,7 @@ const std::vector<Library>& guarded_libraries() {
         {"Highway", {"hwy/"}, {"engine/cast/", "engine/terrain/light/"}},
         {"meshoptimizer", {"meshoptimizer"}, {"engine/scene/levels/"}},
         {"Embree", {"embree"}, {"engine/cast/mesh/", "bench/baselines/embree/", "tests/truth/"}},
-        {"Dear ImGui", {"imgui", "backends/imgui"}, {"app/viewer/panels/"}},
+        {"Dear ImGui", {"imgui", "backends/imgui"}, {"app/viewer/panels/", "tests/app/panels/"}},
         {"Irrlicht", {"irrlicht"}, {"bench/baselines/irrlicht/"}},
         {"OpenSceneGraph", {"osg"}, {"bench/baselines/openscenegraph/"}},
     };

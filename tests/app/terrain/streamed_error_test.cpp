@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"
 #include "engine/terrain/field/heightfield.h"
+#include "tests/support/process_state.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_data.h"

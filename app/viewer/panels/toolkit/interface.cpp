@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19,6 +20,8 @@
 
 #include "app/viewer/panels/toolkit/kept_picture.h"
 #include "app/viewer/panels/toolkit/panel_changes.h"
+#include "app/viewer/panels/toolkit/panel_rasterizer.h"
+#include "engine/gl/framebuffer.h"
 #include "engine/gl/texture.h"
 
 namespace reljef::app {
@@ -94,12 +97,22 @@ void pass_to(ImGuiIO& io, const Event& event) {
     }
 }
 
-// Texels of letters lie on pixels, and areas have one colour: the nearest texel is exact, and takes
-// software renderers less time than the bilinear filter that ImGui sets.
-void sharpen_font(ImGuiIO& io) {
-    const auto texture =
-        static_cast<unsigned int>(reinterpret_cast<std::uintptr_t>(io.Fonts->TexID));
-    gl::set_sampling(texture, {.filter = gl::Filter::nearest}, 1);
+// Draws with OpenGL, which has its shaders and its font from the first call on. Precondition: all
+// textures of the data are the font.
+void draw_with_opengl(ImDrawData& data) {
+    ImGui_ImplOpenGL3_NewFrame();
+    const ImTextureID font = ImGui::GetIO().Fonts->TexID;
+    // Texels of letters lie on pixels, and areas have one colour: the nearest texel is exact, and
+    // takes software renderers less time than the bilinear filter that ImGui sets.
+    gl::set_sampling(static_cast<unsigned int>(reinterpret_cast<std::uintptr_t>(font)),
+                     {.filter = gl::Filter::nearest}, 1);
+    for (ImDrawList* const list :
+         std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
+        for (ImDrawCmd& command : list->CmdBuffer) {
+            command.TextureId = font;
+        }
+    }
+    ImGui_ImplOpenGL3_RenderDrawData(&data);
 }
 
 } // namespace
@@ -175,23 +188,39 @@ struct Interface::State {
     }
 
     void draw_frame() {
+        gl::bind_window();
         ImDrawData panels = *ImGui::GetDrawData();
         const bool has_marks = draw_marks(panels);
         const glm::ivec2 size(static_cast<int>(panels.DisplaySize.x),
                               static_cast<int>(panels.DisplaySize.y));
-        if (!options.keeps_unchanged || !picture.is_of(size)) {
-            changes.forget();
-        }
-        if (!picture.is_of(size) && !picture.resize(size)) {
+        if (!options.keeps_unchanged || !make_picture(size)) {
             is_kept = false;
-            ImGui_ImplOpenGL3_RenderDrawData(&panels);
+            draw_with_opengl(panels);
             return;
         }
-        const std::vector<PixelArea> changed = changes.update(panels);
-        clip(panels, changed);
-        picture.draw(shown_areas(), changed,
-                     [&panels] { ImGui_ImplOpenGL3_RenderDrawData(&panels); });
+        picture.draw(shown_areas(), changes.update(panels),
+                     [&](const PixelArea& area, Image& drawn) {
+                         rasterize(panels, letters(), area, drawn);
+                     });
         is_kept = !has_marks;
+    }
+
+    // Whether there is a picture of that size.
+    bool make_picture(glm::ivec2 size) {
+        if (picture.is_of(size)) {
+            return true;
+        }
+        changes.forget();
+        return picture.resize(size);
+    }
+
+    // The alpha of the font atlas.
+    static GridView<const std::uint8_t> letters() {
+        unsigned char* alpha = nullptr;
+        int width = 0;
+        int height = 0;
+        ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&alpha, &width, &height);
+        return {alpha, width, height, width};
     }
 
     // Draws what lies under the panels, which follows the view, and takes it out.
@@ -200,7 +229,7 @@ struct Interface::State {
         if (has_marks) {
             ImDrawData marks = panels;
             marks.CmdListsCount = 1; // the first one
-            ImGui_ImplOpenGL3_RenderDrawData(&marks);
+            draw_with_opengl(marks);
             ++panels.CmdLists;
             --panels.CmdListsCount;
         }
@@ -330,10 +359,6 @@ void Interface::begin(glm::ivec2 size, double seconds) {
     io.DeltaTime = static_cast<float>(std::max(std::isfinite(seconds) ? seconds : 0.0, min_step));
     state_->pass_events(io);
     state_->frames_due = std::max(state_->frames_due - 1, 0);
-    if (state_->options.draws) {
-        ImGui_ImplOpenGL3_NewFrame();
-        sharpen_font(io);
-    }
     ImGui::NewFrame();
     if (std::exchange(state_->closes_list, false)) {
         ImGui::ClosePopupsOverWindow(nullptr, false);

@@ -43,24 +43,20 @@ std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window) {
 }
 
 bool KeptPicture::resize(glm::ivec2 window) {
-    auto drawn =
-        gl::Framebuffer::create({.size = window, .color = gl::Format::rgba8, .depth = false});
     auto kept =
         gl::Framebuffer::create({.size = window, .color = gl::Format::window8, .depth = false});
-    const bool is_made = drawn && kept;
-    drawn_ = is_made ? std::move(*drawn) : gl::Framebuffer();
-    kept_ = is_made ? std::move(*kept) : gl::Framebuffer();
-    return is_made;
+    kept_ = kept ? std::move(*kept) : gl::Framebuffer();
+    drawn_ = Image(kept_.size().x, kept_.size().y);
+    return kept.has_value();
 }
 
 void KeptPicture::draw(const std::vector<RoundedArea>& areas, const std::vector<PixelArea>& changed,
-                       const std::function<void()>& draw_panels) {
-    if (!changed.empty()) {
-        drawn_.bind();
-        draw_panels();
-    }
+                       const DrawArea& draw_area) {
+    const GridView<const Rgba8> pixels = drawn_.view();
     for (const PixelArea& area : changed) {
-        drawn_.turn_area_to(kept_, area.low, area.size);
+        draw_area(area, drawn_);
+        kept_.upload_area(area.low,
+                          pixels.window(area.low.x, area.low.y, area.size.x, area.size.y));
     }
     strips_.clear();
     for (const RoundedArea& area : areas) {

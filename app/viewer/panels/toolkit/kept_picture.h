@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/viewer/panels/toolkit/pixel_area.h"
+#include "engine/core/color.h"
 #include "engine/gl/framebuffer.h"
 
 namespace reljef::app {
@@ -20,24 +21,26 @@ struct RoundedArea {
 /// Rectangles that together cover a rounded area once, within a window of that size.
 std::vector<PixelArea> strips_of(const RoundedArea& area, glm::ivec2 window);
 
-/// Keeps a picture of opaque panels, so that a frame copies it instead of drawing panels again:
-/// software renderers copy in less time than they blend. Destroy while the context is current.
+/// Keeps a picture of opaque panels, so that a frame copies it instead of drawing panels again.
+/// Destroy while the context is current.
 class KeptPicture {
 public:
+    /// Draws an area of the picture.
+    using DrawArea = std::function<void(const PixelArea& area, Image& picture)>;
+
     /// Makes a picture of that size, with undefined content. Returns false if OpenGL cannot hold
     /// it.
     bool resize(glm::ivec2 window);
-    /// Draws into the picture, and copies the areas to the window's back buffer. Nothing is drawn
-    /// outside of `changed`.
+    /// Draws what changed into the picture, and copies the areas to the window's back buffer.
     void draw(const std::vector<RoundedArea>& areas, const std::vector<PixelArea>& changed,
-              const std::function<void()>& draw_panels);
+              const DrawArea& draw_area);
     /// Copies the areas to the window's back buffer.
     void show() const;
     [[nodiscard]] bool is_of(glm::ivec2 window) const { return kept_.size() == window; }
 
 private:
-    gl::Framebuffer drawn_; // first row at the bottom
-    gl::Framebuffer kept_;  // the same as windows have it, first row on top
+    Image drawn_;
+    gl::Framebuffer kept_; // the same, first row on top
     std::vector<PixelArea> strips_;
 };
 

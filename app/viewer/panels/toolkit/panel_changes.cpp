@@ -75,66 +75,6 @@ std::string panel_of(const ImDrawList& list) {
     return list._OwnerName == nullptr ? std::string() : list._OwnerName;
 }
 
-// The low corner in xy, the high one in zw.
-bool touches(std::span<const ImDrawIdx, 3> triangle, const ImDrawVert* vertices,
-             const ImVec4& area) {
-    glm::vec2 low(1e9F);
-    glm::vec2 high(-1e9F);
-    for (const ImDrawIdx index : triangle) {
-        const ImVec2 place = vertices[index].pos;
-        low = glm::min(low, glm::vec2(place.x, place.y));
-        high = glm::max(high, glm::vec2(place.x, place.y));
-    }
-    return low.x < area.z && high.x > area.x && low.y < area.w && high.y > area.y;
-}
-
-// The part of a list that touches areas, with indices and commands of its own.
-class ClippedList {
-public:
-    explicit ClippedList(const ImDrawList& list) : list_(list) {}
-
-    void add(const ImDrawCmd& command, const PixelArea& area) {
-        const ImVec4& whole = command.ClipRect;
-        const glm::vec2 low(area.low);
-        const glm::vec2 high(area.high());
-        const ImVec4 part{std::max(whole.x, low.x), std::max(whole.y, low.y),
-                          std::min(whole.z, high.x), std::min(whole.w, high.y)};
-        if (part.x >= part.z || part.y >= part.w) {
-            return;
-        }
-        ImDrawCmd clipped = command;
-        clipped.ClipRect = part;
-        clipped.IdxOffset = static_cast<unsigned int>(indices_.Size);
-        const ImDrawVert* const vertices = list_.VtxBuffer.Data + command.VtxOffset;
-        const ImDrawIdx* const first = list_.IdxBuffer.Data + command.IdxOffset;
-        constexpr std::size_t corners = 3;
-        for (std::size_t i = 0; i + corners <= command.ElemCount; i += corners) {
-            const std::span<const ImDrawIdx, 3> triangle(first + i, corners);
-            if (touches(triangle, vertices, part)) {
-                for (const ImDrawIdx index : triangle) {
-                    indices_.push_back(index);
-                }
-            }
-        }
-        clipped.ElemCount = static_cast<unsigned int>(indices_.Size) - clipped.IdxOffset;
-        if (clipped.ElemCount > 0) {
-            commands_.push_back(clipped);
-        }
-    }
-
-    // Whether anything is left.
-    bool replace(ImDrawList& list) {
-        list.IdxBuffer.swap(indices_);
-        list.CmdBuffer.swap(commands_);
-        return list.CmdBuffer.Size > 0;
-    }
-
-private:
-    const ImDrawList& list_;
-    ImVector<ImDrawIdx> indices_;
-    ImVector<ImDrawCmd> commands_;
-};
-
 } // namespace
 
 std::vector<PixelArea> PanelChanges::update(const ImDrawData& data) {
@@ -168,22 +108,6 @@ std::vector<PixelArea> PanelChanges::update(const ImDrawData& data) {
     }
     size_ = size;
     return is_new ? std::vector<PixelArea>{{{0, 0}, size}} : disjoint(std::move(areas));
-}
-
-void clip(ImDrawData& data, std::span<const PixelArea> areas) {
-    int kept = 0;
-    for (ImDrawList* const list : lists_of(data)) {
-        ClippedList clipped(*list);
-        for (const PixelArea& area : areas) {
-            for (const ImDrawCmd& command : list->CmdBuffer) {
-                clipped.add(command, area);
-            }
-        }
-        if (clipped.replace(*list)) {
-            data.CmdLists[kept++] = list;
-        }
-    }
-    data.CmdListsCount = kept;
 }
 
 } // namespace reljef::app

@@ -31,8 +31,4 @@ private:
     glm::ivec2 size_{0};
 };
 
-/// Takes out what touches no area, and clips the rest to the areas. Precondition: they are
-/// disjoint.
-void clip(ImDrawData& data, std::span<const PixelArea> areas);
-
 } // namespace reljef::app
