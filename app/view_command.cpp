@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,27 @@ Result<Panels> make_panels(const ViewerChoice& choice, platform::Window& window)
     panels.set_visible(!choice.hides_panels);
     return panels;
 }
+
+// A window and its panels, which are made when they are first needed: while the scene opens, or for
+// an error. Destroy it while the window is open.
+class ViewerWindow {
+public:
+    ViewerWindow(const ViewerChoice& choice, platform::Window& window)
+        : choice_(choice), window_(window) {}
+
+    [[nodiscard]] platform::Window& window() const { return window_; }
+    Result<Panels>& panels() {
+        if (!panels_) {
+            panels_.emplace(make_panels(choice_, window_));
+        }
+        return *panels_;
+    }
+
+private:
+    const ViewerChoice& choice_;
+    platform::Window& window_;
+    std::optional<Result<Panels>> panels_;
+};
 
 Result<std::unique_ptr<platform::Window>> open_window(const ViewerChoice& choice) {
     platform::ContextOptions options;
@@ -208,8 +230,9 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
     return session::SceneRenderer::create(options);
 }
 
-Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening& opening,
+Result<void> show(const ViewerChoice& choice, ViewerWindow& shown, Opening& opening,
                   const cli::Interrupt& interrupt) {
+    platform::Window& window = shown.window();
     const session::RayUse rays = rays_of(choice, window);
     auto renderer = make_renderer(choice, window, rays);
     if (!renderer) {
@@ -222,7 +245,7 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
     cli::ConsoleLog console(choice.terrain.quiet);
     MessageHistory log(console, choice.prints_json ? stderr : stdout);
     opening.begin(rays, renderer->max_texture_side());
-    auto panels = make_panels(choice, window); // meanwhile
+    auto& panels = shown.panels(); // meanwhile
     if (!panels) {
         log.note(panels.error().message);
     } else if (!panels->note().empty()) {
@@ -243,25 +266,29 @@ Result<void> show(const ViewerChoice& choice, platform::Window& window, Opening&
 
 // The error stands on stderr at once, and in the window until the user closes it. Returns whether
 // it does.
-bool show_error(const Error& error, const ViewerChoice& choice, platform::Window& window,
+bool show_error(const Error& error, const ViewerChoice& choice, ViewerWindow& shown,
                 const cli::Interrupt& interrupt) {
     if (choice.frames_given || interrupt.requested()) {
         return false;
     }
-    auto panels = make_panels(choice, window);
+    auto& panels = shown.panels();
     if (!panels) {
         return false;
     }
     cli::write_error("reljef", error);
-    show_failure(window, *panels, error.message, interrupt.token());
+    show_failure(shown.window(), *panels, error.message, interrupt.token());
     return true;
 }
 
-// `has_written_error`: its error.
-Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt, bool& has_written_error) {
+struct Viewed {
+    Result<void> result;
+    bool has_written_error = false; // of the result
+};
+
+Viewed view(ViewerChoice choice, const cli::Interrupt& interrupt) {
     const auto description = session::describe(choice.terrain.terrain);
     if (!description) {
-        return description.error(); // without a window
+        return {description.error()}; // without a window
     }
     if (!choice.view.samples) {
         choice.view.samples = description->samples;
@@ -273,11 +300,12 @@ Result<void> view(ViewerChoice choice, const cli::Interrupt& interrupt, bool& ha
     Opening opening(choice.terrain, choice.view, first);
     auto window = open_window(choice);
     if (!window) {
-        return Error{window.error().message + "; without a window there is 'reljef render'"};
+        return {Error{window.error().message + "; without a window there is 'reljef render'"}};
     }
-    auto shown = show(choice, **window, opening, interrupt);
-    has_written_error = !shown && show_error(shown.error(), choice, **window, interrupt);
-    return shown;
+    ViewerWindow shown(choice, **window);
+    auto result = show(choice, shown, opening, interrupt);
+    const bool shows_error = !result && show_error(result.error(), choice, shown, interrupt);
+    return {std::move(result), shows_error};
 }
 
 } // namespace
@@ -337,7 +365,9 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
                 choice->frames_given = arguments->count("--frames") > 0;
                 choice->named_terrain = choice->terrain.terrain;
                 return cli::with_standard_input(choice->terrain.terrain, interrupt.token(), [&] {
-                    return view(*choice, interrupt, *has_written_error);
+                    Viewed viewed = view(*choice, interrupt);
+                    *has_written_error = viewed.has_written_error;
+                    return std::move(viewed.result);
                 });
             },
             [has_written_error] { return *has_written_error; }};

@@ -74,9 +74,9 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
                "eye-dome lighting, 0 (none) to 1: darkens valleys, feet of walls and ground behind "
                "ridges; hits, errors and --compare are without it (0)",
                "S");
-    add_parsed(command, "--contours", choice.contours, number_in("--contours", 0.0, 1e6),
-               "metres of height from one contour line to the next, every fifth bold; 0: none (0)",
-               "M");
+    add_parsed(
+        command, "--contours", choice.contours, number_in("--contours", 0.0, scene::max_contours),
+        "metres of height from one contour line to the next, every fifth bold; 0: none (0)", "M");
     add_parsed(command, "--contour-labels", choice.contour_labels,
                word_of<bool>("--contour-labels", {{"on", true}, {"off", false}}),
                "on: writes the height, in metres, on bold contour lines (on)", "on|off");

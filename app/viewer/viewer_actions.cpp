@@ -373,8 +373,15 @@ Result<void> Viewer::act(const SetGrain& set) {
 }
 
 Result<void> Viewer::act(const SetContours& set) {
-    scene_.terrain->get<scene::TerrainNode>()->contours = set.metres;
+    const double metres =
+        set.metres > 0.0 ? std::clamp(set.metres, scene::min_contours, scene::max_contours) : 0.0;
+    scene_.terrain->get<scene::TerrainNode>()->contours = metres;
     redraw_ = true;
+    if (set.metres > 0.0 && metres != set.metres) {
+        notes_.note(fmt::format("contours every {} m found, {} to {} m was expected: they are "
+                                "every {} m",
+                                set.metres, scene::min_contours, scene::max_contours, metres));
+    }
     return {};
 }
 

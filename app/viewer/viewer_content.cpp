@@ -54,6 +54,7 @@ AppearanceContent appearance_of(const Viewer& viewer, const session::TerrainScen
     appearance.faded_contours = viewer.faded_contours();
     appearance.labels_contours = terrain_of(scene).labels_contours;
     appearance.light = viewer.light();
+    appearance.sun_time = scene.surroundings.sun_time;
     appearance.exaggeration = viewer.exaggeration();
     appearance.max_exaggeration = terrain::max_exaggeration;
     appearance.fixed_exaggeration = viewer.exaggeration_obstacle();

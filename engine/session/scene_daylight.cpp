@@ -195,6 +195,16 @@ sky_picture(const io::SceneDescription& description, const SceneOptions& view) {
     return std::make_shared<const material::SkyPicture>(std::move(*picture));
 }
 
+// Of the sun; absent: it has angles.
+std::optional<geo::UniversalTime> sun_time(const io::SceneDescription& description,
+                                           const SceneOptions& view) {
+    if (!view.sun) {
+        return description.sun_time;
+    }
+    const auto* const time = std::get_if<geo::UniversalTime>(&*view.sun);
+    return time != nullptr ? std::optional(*time) : std::nullopt;
+}
+
 Result<Surroundings> surroundings_of(const TerrainScene& scene,
                                      const io::SceneDescription& description,
                                      const SceneOptions& view, Log& log) {
@@ -208,6 +218,7 @@ Result<Surroundings> surroundings_of(const TerrainScene& scene,
         return sky.error();
     }
     found.sky = std::move(*sky);
+    found.sun_time = sun_time(description, view);
     return found;
 }
 
@@ -235,20 +246,15 @@ Result<glm::dvec2> sun_angles(const TerrainScene& scene, const geo::UniversalTim
 Result<scene::Light> chosen_sun(const TerrainScene& scene, const io::SceneDescription& description,
                                 const SceneOptions& view) {
     const glm::dvec2 usual = default_sun(view);
-    SunChoice choice = glm::dvec2(description.sun_azimuth.value_or(usual.x),
-                                  description.sun_altitude.value_or(usual.y));
-    if (view.sun) {
-        choice = *view.sun;
-    } else if (description.sun_time) {
-        choice = *description.sun_time;
-    }
-    const auto* const time = std::get_if<geo::UniversalTime>(&choice);
+    const SunChoice choice = view.sun.value_or(glm::dvec2(
+        description.sun_azimuth.value_or(usual.x), description.sun_altitude.value_or(usual.y)));
+    const auto& time = scene.surroundings.sun_time;
     const std::string subject =
         view.sun
             ? std::string("--sun")
             : scene.terrain->get<scene::TerrainNode>()->surface->terrain().name + ": [sun] time";
-    const auto angles = time != nullptr ? sun_angles(scene, *time, subject)
-                                        : Result<glm::dvec2>(std::get<glm::dvec2>(choice));
+    const auto angles =
+        time ? sun_angles(scene, *time, subject) : Result<glm::dvec2>(std::get<glm::dvec2>(choice));
     if (!angles) {
         return angles.error();
     }

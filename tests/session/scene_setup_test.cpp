@@ -167,6 +167,8 @@ TEST_F(GeodeticCamera, TheSunOfATimeStandsOffTrueNorth) {
         const auto& light = *scene->light->get<scene::Light>();
         EXPECT_NEAR(light.azimuth, sun->azimuth - convergence, 1e-3);
         EXPECT_NEAR(light.altitude, sun->altitude, 1e-3);
+        ASSERT_TRUE(scene->surroundings.sun_time);
+        EXPECT_EQ(scene->surroundings.sun_time->hours, time.hours);
     }
     session::SceneOptions night;
     night.sun = geo::UniversalTime{2026, 12, 21, 23.0};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -118,7 +119,7 @@ PanelActions draw_contours(const AppearanceContent& appearance) {
     ImGui::SameLine(0.0F, 0.0F);
     muted_text(metre);
     if (typed) {
-        actions.emplace_back(SetContours{*typed < scene::min_contours ? 0.0 : *typed});
+        actions.emplace_back(SetContours{std::max(*typed, 0.0)});
     }
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::BeginCombo("##contours", name_of(appearance.contours).c_str())) {
@@ -278,7 +279,25 @@ bool AppearancePanel::has_date(const SetSun& now) {
     return dated_ && dated_->is_date;
 }
 
+void AppearancePanel::set_time(const geo::UniversalTime& time) {
+    year_ = time.year;
+    day_ = day_number(time);
+    hours_ = time.hours;
+}
+
+// That of the start, which has_date() forgets if the sun has moved since.
+void AppearancePanel::take_first_date(const AppearanceContent& appearance) {
+    if (std::exchange(has_first_date_, true) || !appearance.sun_time) {
+        return;
+    }
+    if (const auto sun = sun_at(*appearance.sun_time, appearance)) {
+        set_time(*appearance.sun_time);
+        dated_ = Dated{true, *sun, *sun};
+    }
+}
+
 std::string AppearancePanel::date(const AppearanceContent& appearance) {
+    take_first_date(appearance);
     return has_date(sun_of(appearance)) ? date_text(time()) : std::string();
 }
 
@@ -290,9 +309,7 @@ PanelActions AppearancePanel::choose(const geo::UniversalTime& time,
     const auto position = geo::sun_position(time, place.latitude, place.longitude);
     const bool is_date = static_cast<bool>(position);
     if (is_date) {
-        year_ = time.year;
-        day_ = day_number(time);
-        hours_ = time.hours;
+        set_time(time);
     }
     note_ = sun ? std::string() : sun.error().message;
     dated_ = Dated{is_date, sun ? *sun : now, now};

@@ -40,6 +40,8 @@ private:
     };
 
     [[nodiscard]] geo::UniversalTime time() const;
+    void set_time(const geo::UniversalTime& time);
+    void take_first_date(const AppearanceContent& appearance);
     [[nodiscard]] bool has_date(const SetSun& now);
     PanelActions choose(const geo::UniversalTime& time, const AppearanceContent& appearance);
     PanelActions draw_date(const AppearanceContent& appearance);
@@ -49,6 +51,7 @@ private:
     double day_ = 172.0; // of the year: the June solstice
     double hours_ = 10.0;
     std::optional<Dated> dated_;
+    bool has_first_date_ = false; // or knows that there is none
     std::string note_;
 };
 

@@ -57,7 +57,7 @@ struct SetContourLabels {
     bool shown = true;
 };
 struct SetContours {
-    double metres = 0.0; ///< of height from one to the next; 0: none
+    double metres = 0.0; ///< of height from one to the next, the nearest possible; 0: none
 };
 
 /// Colours of heights.

@@ -11,6 +11,7 @@
 #include "app/viewer/places/bookmark.h"
 #include "engine/core/color.h"
 #include "engine/geo/georeference.h"
+#include "engine/geo/sun_position.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/technique/technique.h"
 #include "engine/view/frame_stats.h"
@@ -60,7 +61,8 @@ struct TechniqueContent {
 };
 
 struct AppearanceContent {
-    scene::Light light; ///< requested
+    scene::Light light;                              ///< requested
+    std::optional<geo::UniversalTime> sun_time = {}; ///< of the sun at the start; absent: none
     double turbidity = 1.0;
     std::optional<double> visibility = {}; ///< metres; 0: no haze; absent: no sky
     std::optional<geo::Geodetic> on_earth; ///< of the terrain's middle

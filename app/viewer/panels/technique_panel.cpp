@@ -88,6 +88,7 @@ NumberControl control_of(const scene::NumberInfo& number) {
     const bool is_wide = number.low >= 0.0 && number.high - number.low >= many_values;
     const bool has_gap = number.min_above_low > number.low;
     return {.slider = {number.low, number.high},
+            .decimals = {},
             .is_logarithmic = is_wide || has_gap,
             .meaning = number.meaning};
 }

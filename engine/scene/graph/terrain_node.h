@@ -56,6 +56,8 @@ Result<void> check_terrain_detail_technique(const Technique& technique);
 
 /// No picture shows closer lines, metres.
 inline constexpr double min_contours = 1e-3;
+/// No terrain is as high, metres.
+inline constexpr double max_contours = 1e6;
 
 /// TerrainNode::grain, at most.
 inline constexpr double max_grain = 2.0;
@@ -73,7 +75,7 @@ struct TerrainNode {
     /// Contrast of fine structure on near ground that the data do not have (material::GrainMap),
     /// [0, max_grain]; 0: none, 1: as in nature. It does not change hits.
     float grain = 0.0F;
-    /// Metres of height from one line to the next, min_contours or more; 0: none.
+    /// Metres of height from one line to the next, min_contours to max_contours; 0: none.
     double contours = 0.0;
     bool labels_contours = true; ///< bold lines have their height, see view::contour_labels()
     bool hides_overlay = false;  ///< no grain, contours and façades: to compare with the truth

@@ -45,5 +45,23 @@ TEST(ContourWatch, NotesAFadedIntervalOnceAndKeepsItsSentenceWhileItHolds) {
     EXPECT_THAT(sentence(), IsEmpty()) << "edges of triangles have no contours";
 }
 
+// `render` refuses other intervals.
+TEST(Contours, AreNoFartherApartAndNoCloserThanPicturesHaveThem) {
+    KeyedViewer tested;
+    const auto shown = [&](double metres) {
+        tested.notes();
+        EXPECT_TRUE(tested.viewer.act(SetContours{metres}));
+        return tested.scene.terrain->get<scene::TerrainNode>()->contours;
+    };
+    EXPECT_EQ(shown(scene::max_contours), scene::max_contours);
+    EXPECT_THAT(tested.notes(), IsEmpty());
+    EXPECT_EQ(shown(2.5e6), scene::max_contours);
+    EXPECT_THAT(tested.notes(), HasSubstr("contours every 2500000 m found, 0.001 to 1000000 m"));
+    EXPECT_EQ(shown(1e-5), scene::min_contours);
+    EXPECT_THAT(tested.notes(), HasSubstr("they are every 0.001 m"));
+    EXPECT_EQ(shown(0.0), 0.0);
+    EXPECT_THAT(tested.notes(), IsEmpty());
+}
+
 } // namespace
 } // namespace reljef::app

@@ -76,6 +76,21 @@ TEST(SunDate, IsShownOnlyWhileTheSunIsThatOfIt) {
     EXPECT_EQ(panel.date(appearance), "2026-03-20T12:00:07");
 }
 
+TEST(SunDate, ThatOfTheStartIsShownUntilTheSunMoves) {
+    AppearanceContent appearance = at_greenwich();
+    appearance.sun_time = geo::UniversalTime{2026, 6, 21, 8.25};
+    const SetSun sun = sun_at(*appearance.sun_time, appearance).value();
+    shine(appearance, sun);
+    AppearancePanel panel;
+    EXPECT_EQ(panel.date(appearance), "2026-06-21T08:15");
+    EXPECT_EQ(panel.date(appearance), "2026-06-21T08:15");
+    shine(appearance, {sun.azimuth + 10.0, sun.altitude});
+    EXPECT_EQ(panel.date(appearance), "");
+    EXPECT_EQ(AppearancePanel().date(appearance), "") << "it had moved before";
+    shine(appearance, sun);
+    EXPECT_EQ(panel.date(appearance), "") << "it is forgotten";
+}
+
 TEST(SunDate, NotesGoWithTheDateThatTheyAreOn) {
     AppearancePanel panel;
     AppearanceContent appearance = at_greenwich();

@@ -20,6 +20,7 @@
 namespace reljef::app {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 
 constexpr glm::ivec2 typed_window{1024, 1800}; // shows each tab without scrolling
@@ -202,6 +203,71 @@ TEST_F(NumberControlTest, AParameterIsTypedAfterControlClickOrDoubleClickOnItsSl
     };
     EXPECT_EQ(typed(false), 4.1484375);
     EXPECT_EQ(typed(true), 4.1484375);
+}
+
+// The first click of the two moves the slider.
+TEST_F(NumberControlTest, ADoubleClickOnASliderBeginsWithTheNumberOfBeforeIt) {
+    open_view();
+    constexpr double before = 3.0625; // more digits than the slider gives
+    content.appearance.turbidity = before;
+    std::optional<double> typed_at;
+    bool has_moved = false;
+    const auto follow = [&](const PanelActions& actions) {
+        for (const PanelAction& action : actions) {
+            if (const auto* const set = std::get_if<SetTurbidity>(&action)) {
+                content.appearance.turbidity = set->turbidity;
+                has_moved = true;
+            }
+        }
+    };
+    for (double y = layout.inspector.low.y + 74.0; y < layout.inspector.high.y - 70.0 && !typed_at;
+         y += 4.0) {
+        const glm::dvec2 at{layout.inspector.low.x + 200.0, y};
+        panels.draw(content, typed_window, 1.0); // no click follows the last ones at once
+        follow(click(at));
+        if (has_moved) {
+            EXPECT_NE(content.appearance.turbidity, before);
+            follow(click(at));
+            typed_at = y;
+        }
+    }
+    ASSERT_TRUE(typed_at);
+    ASSERT_TRUE(panels.types_text());
+    EXPECT_EQ(content.appearance.turbidity, before);
+    panels.receive(KeyEvent{.key = Key::escape, .pressed = true});
+    panels.receive(KeyEvent{.key = Key::escape, .pressed = false});
+    for (int frame = 0; frame < 4; ++frame) {
+        follow(draw());
+    }
+    EXPECT_FALSE(panels.types_text());
+    EXPECT_EQ(content.appearance.turbidity, before) << "given up";
+}
+
+// "0" would be a factor that is refused.
+TEST_F(NumberControlTest, ASmallExaggerationIsShownAndKeptAsItIs) {
+    std::string copied;
+    panels =
+        Panels(Interface::create({.draws = false,
+                                  .set_clipboard = [&](const std::string& text) { copied = text; }})
+                   .value());
+    open_view();
+    content.appearance.exaggeration = 1e-6;
+    std::vector<std::string> shown;
+    for (double y = layout.inspector.low.y + 74.0; y < layout.inspector.high.y - 70.0; y += 4.0) {
+        click({layout.inspector.high.x - box_from_right, y});
+        if (panels.types_text()) {
+            copied.clear();
+            panels.receive(
+                KeyEvent{.key = Key::c, .pressed = true, .modifiers = {.control = true}});
+            panels.receive(KeyEvent{.key = Key::c, .pressed = false});
+            panels.receive(KeyEvent{.key = Key::control, .pressed = false});
+            draw();
+            draw();
+            shown.push_back(copied);
+            enter();
+        }
+    }
+    EXPECT_THAT(shown, Contains("1e-06"));
 }
 
 TEST_F(NumberControlTest, AClickElsewhereEndsTypingAndEscapeGivesItUp) {

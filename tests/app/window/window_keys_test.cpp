@@ -78,12 +78,15 @@ TEST(ViewWindow, KeysRecordBookmarkAndPrint) {
     }
     const test::TemporaryFolder folder;
     const auto result = test::drive(
-        folder, "titled still; pressed g; pressed k; pressed d; sleep 0.3; pressed k\n"
-                "until_true test -e reljef-path-0001.toml\n"
-                "pressed Insert; pressed Delete; pressed n; pressed i; pressed u\n"
-                "pressed v; pressed ctrl+c; pressed Home; pressed F1\n"
-                "pressed x; pressed x; pressed b; until_true test -s data/reljef/bookmarks.txt\n"
-                "pressed j; until_true test -e reljef-path-0002.toml; pressed Escape");
+        folder, // each picture is of a later frame, which the path has
+        "titled still; pressed g; pressed k; pressed d\n"
+        "pressed c; until_true test -s reljef-0001.png\n"
+        "pressed c; until_true test -s reljef-0002.png\n"
+        "pressed k; until_true test -e reljef-path-0001.toml\n"
+        "pressed Insert; pressed Delete; pressed n; pressed i; pressed u\n"
+        "pressed v; pressed ctrl+c; pressed Home; pressed F1\n"
+        "pressed x; pressed x; pressed b; until_true test -s data/reljef/bookmarks.txt\n"
+        "pressed j; until_true test -e reljef-path-0002.toml; pressed Escape");
     EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
     for (const char* part : {"recording the flight; K ends it", "saved reljef-path-0001.toml",
                              "keyframe ", "keyframes\n", "--eye ", "measuring: click on the ground",

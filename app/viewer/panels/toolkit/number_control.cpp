@@ -33,26 +33,49 @@ void number_tip(std::string_view meaning) {
     tip(meaning.empty() ? std::string(typing) : fmt::format("{}\n{}", meaning, typing));
 }
 
-double rounded(double value, int decimals) {
-    const double parts = std::pow(10.0, decimals);
-    return std::round(value * parts) / parts;
+double rounded(double value, std::optional<int> decimals) {
+    const double parts = std::pow(10.0, decimals.value_or(0));
+    return decimals ? std::round(value * parts) / parts : value;
 }
 
-// What an active box holds: once another box is clicked, ImGui has the text of that one only.
-void keep_number(std::optional<double> number) {
-    ImGuiStorage& storage = *ImGui::GetStateStorage();
-    const auto halves = std::bit_cast<std::array<int, 2>>(
-        number.value_or(std::numeric_limits<double>::quiet_NaN()));
-    storage.SetInt(ImGui::GetID("##first half"), halves[0]);
-    storage.SetInt(ImGui::GetID("##second half"), halves[1]);
-}
+// A number in the window's storage.
+class KeptNumber {
+public:
+    explicit KeptNumber(const char* name) : name_(name) {}
 
-std::optional<double> kept_number() {
-    const ImGuiStorage& storage = *ImGui::GetStateStorage();
-    const auto number =
-        std::bit_cast<double>(std::array<int, 2>{storage.GetInt(ImGui::GetID("##first half")),
-                                                 storage.GetInt(ImGui::GetID("##second half"))});
-    return std::isfinite(number) ? std::optional(number) : std::nullopt;
+    void set(std::optional<double> number) const {
+        const auto halves = std::bit_cast<std::array<int, 2>>(
+            number.value_or(std::numeric_limits<double>::quiet_NaN()));
+        for (int i = 0; i < 2; ++i) {
+            ImGui::GetStateStorage()->SetInt(key(i), halves.at(static_cast<std::size_t>(i)));
+        }
+    }
+    [[nodiscard]] std::optional<double> get() const {
+        const ImGuiStorage& storage = *ImGui::GetStateStorage();
+        const auto number = std::bit_cast<double>(
+            std::array<int, 2>{storage.GetInt(key(0)), storage.GetInt(key(1))});
+        return std::isfinite(number) ? std::optional(number) : std::nullopt;
+    }
+
+private:
+    [[nodiscard]] ImGuiID key(int half) const {
+        return ImGui::GetID(fmt::format("{} {}", name_, half).c_str());
+    }
+
+    const char* name_;
+};
+
+// Of an active box: once another box is clicked, ImGui has the text of that one only.
+constexpr const char* number_of_box = "##typed";
+// Of a slider before it was clicked.
+constexpr const char* number_before = "##before";
+
+// Numbers that cannot be 0 are not shown as 0.
+std::string box_text(const NumberControl& control, double value) {
+    const int decimals = control.decimals.value_or(0);
+    const bool is_small = control.typed.value_or(control.slider).begin > 0.0 && value > 0.0 &&
+                          value < std::pow(10.0, -decimals);
+    return is_small ? fmt::format("{:.6g}", value) : number_text(value, decimals + shown_decimals);
 }
 
 } // namespace
@@ -93,14 +116,14 @@ std::optional<double> number_box(const std::string& shown, float width, std::str
     number_tip(meaning);
     const ImGuiInputTextState* const edited = ImGui::GetInputTextState(item);
     if (edited != nullptr && ImGui::GetActiveID() == item) {
-        keep_number(number_in(edited->TextA.Data));
+        KeptNumber(number_of_box).set(number_in(edited->TextA.Data));
     }
     if (!is_left) {
         return std::nullopt;
     }
     // What was clicked before the box is drawn took the focus already.
     if (!was_active && edited == nullptr) {
-        return kept_number();
+        return KeptNumber(number_of_box).get();
     }
     const std::string_view text = was_active ? buffer.data() : edited->TextA.Data;
     const bool is_given_up =
@@ -118,14 +141,22 @@ std::optional<double> number_slider(const NumberControl& control, double value) 
     const bool is_moved =
         ImGui::SliderScalar("##slider", ImGuiDataType_Double, &moved, &control.slider.begin,
                             &control.slider.end, "", flags);
+    number_tip(control.meaning);
     const bool is_clicked = ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
-    if (is_clicked &&
-        (ImGui::GetIO().KeyCtrl || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))) {
+    const bool is_double = is_clicked && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    if (is_double || (is_clicked && ImGui::GetIO().KeyCtrl)) {
         storage.SetBool(request, true); // the box, in the next frame
     }
-    number_tip(control.meaning);
-    return is_moved && moved != value && !storage.GetBool(request) ? std::optional(moved)
-                                                                   : std::nullopt;
+    const KeptNumber before(number_before);
+    if (is_double) {
+        return before.get();
+    }
+    if (is_clicked) {
+        before.set(value);
+    }
+    return is_moved && moved != value && !storage.GetBool(request)
+               ? std::optional(rounded(moved, control.decimals))
+               : std::nullopt;
 }
 
 std::optional<double> number_row(const char* name, const NumberControl& control, double value) {
@@ -136,8 +167,7 @@ std::optional<double> number_row(const char* name, const NumberControl& control,
     const float at = ImGui::GetWindowContentRegionMax().x - number_box_width() - behind;
     muted_text(name);
     ImGui::SameLine(at);
-    auto typed = number_box(number_text(value, control.decimals + shown_decimals),
-                            number_box_width(), control.meaning);
+    auto typed = number_box(box_text(control, value), number_box_width(), control.meaning);
     if (!unit.empty()) {
         ImGui::SameLine(0.0F, gap);
         muted_text(unit);
@@ -148,7 +178,7 @@ std::optional<double> number_row(const char* name, const NumberControl& control,
         const Interval allowed = control.typed.value_or(control.slider);
         return std::clamp(*typed, allowed.begin, allowed.end);
     }
-    return moved ? std::optional(rounded(*moved, control.decimals)) : std::nullopt;
+    return moved;
 }
 
 } // namespace reljef::app

@@ -12,7 +12,7 @@ namespace reljef::app {
 struct NumberControl {
     Interval slider;                    ///< its ends
     std::optional<Interval> typed = {}; ///< allowed in the box; absent: those of the slider
-    int decimals = 2;                   ///< of what the slider gives
+    std::optional<int> decimals = 2;    ///< of what the slider gives; absent: all
     bool is_logarithmic = false;        ///< the slider
     std::string_view unit = {};         ///< behind the box
     std::string_view meaning = {};      ///< the tip
@@ -30,7 +30,8 @@ std::optional<double> number_row(const char* name, const NumberControl& control,
 /// The same parts one by one, for other rows. Within the same ImGui ID.
 /// The box: the number as typed.
 std::optional<double> number_box(const std::string& shown, float width, std::string_view meaning);
-/// The slider over the whole width: the number as moved.
+/// The slider over the whole width: the number as moved, rounded. A double click gives the number
+/// of before it, which the box then has.
 std::optional<double> number_slider(const NumberControl& control, double value);
 /// The width of a box, pixels.
 float number_box_width();
