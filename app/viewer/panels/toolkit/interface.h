@@ -16,7 +16,7 @@ namespace reljef::app {
 struct InterfaceOptions {
     double scale = 1.0; ///< pixels per unit of text
     bool draws = true;  ///< with the current OpenGL context; false: tests
-    /// Panels are drawn on the CPU where they change, and kept. False: OpenGL draws each frame.
+    /// The CPU draws what changes in panels and keeps it. False: OpenGL draws each frame.
     bool keeps_unchanged = true;
     std::function<std::string()> clipboard = {};
     std::function<void(const std::string&)> set_clipboard = {};
