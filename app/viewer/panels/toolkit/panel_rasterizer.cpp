@@ -62,7 +62,8 @@ struct Ink {
 
 Ink ink_of(const glm::vec4& color) {
     const auto byte = [](float value) {
-        return static_cast<unsigned>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+        const float above = std::clamp(value, 0.0F, 255.0F) + 0.5F; // rounded below
+        return static_cast<unsigned>(above);
     };
     return {{byte(color.r), byte(color.g), byte(color.b)}, byte(color.a)};
 }
