@@ -359,18 +359,17 @@ cli::Command add_view_command(CLI::App& program, cli::Interrupt& interrupt) {
         "  reljef view N45E006.hgt --camera 45.60,6.70,5200,20,-18\n"
         "  reljef view dem.tif --imagery photo.tif --path orbit\n"
         "  reljef view urban --technique texture --size 1600x900");
-    const auto has_written_error = std::make_shared<bool>(false);
+    const auto viewed = std::make_shared<Viewed>();
     return {arguments,
-            [arguments, choice, has_written_error, &interrupt] {
+            [arguments, choice, viewed, &interrupt] {
                 choice->frames_given = arguments->count("--frames") > 0;
                 choice->named_terrain = choice->terrain.terrain;
                 return cli::with_standard_input(choice->terrain.terrain, interrupt.token(), [&] {
-                    Viewed viewed = view(*choice, interrupt);
-                    *has_written_error = viewed.has_written_error;
-                    return std::move(viewed.result);
+                    *viewed = view(*choice, interrupt);
+                    return viewed->result;
                 });
             },
-            [has_written_error] { return *has_written_error; }};
+            [viewed] { return viewed->has_written_error; }};
 }
 
 } // namespace reljef::app

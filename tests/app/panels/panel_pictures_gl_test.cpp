@@ -73,8 +73,9 @@ protected:
         return pixels;
     }
 
-    [[nodiscard]] Rgba8 shown_at(glm::ivec2 pixel) const {
-        return picture()[static_cast<std::size_t>((size_.y - 1 - pixel.y) * size_.x + pixel.x)];
+    [[nodiscard]] Rgba8 shown_at(std::size_t column, std::size_t row) const {
+        const auto width = static_cast<std::size_t>(size_.x);
+        return picture()[(static_cast<std::size_t>(size_.y) - 1 - row) * width + column];
     }
 
     void receive(const Event& event) {
@@ -159,12 +160,12 @@ TEST_F(PanelPicturesGlTest, WhatChangedAloneIsDrawnAndLooksAsIfAllWere) {
 
 TEST_F(PanelPicturesGlTest, MarksUnderPanelsAreOverThePictureOfTheWindow) {
     expect_same_pictures("no point yet");
-    EXPECT_EQ(shown_at({300, 300}), background);
+    EXPECT_EQ(shown_at(300, 300), background);
     content_.measure.is_on = true;
     content_.measure.points = {{"a", "ground", glm::dvec2(300.0, 300.0)},
                                {"b", "ground", glm::dvec2(500.0, 420.0)}};
     expect_same_pictures("two points");
-    EXPECT_NE(shown_at({300, 300}), background) << "without a panel there";
+    EXPECT_NE(shown_at(300, 300), background) << "without a panel there";
     content_.measure.points.pop_back();
     expect_same_pictures("one point");
     content_.measure = {};
