@@ -80,11 +80,13 @@ void add_appearance_options(CLI::App& command, session::SceneOptions& choice) {
     add_parsed(command, "--contour-labels", choice.contour_labels,
                word_of<bool>("--contour-labels", {{"on", true}, {"off", false}}),
                "on: writes the height, in metres, on bold contour lines (on)", "on|off");
-    add_parsed(command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
-               "contrast of fine structure on near ground, which the data do not have: 0 (none) to "
-               "2; hits, errors and --compare are without it (1; on maps, pictures of the whole "
-               "terrain and ramps of one colour 0)",
-               "G");
+    add_parsed(
+        command, "--grain", choice.grain, number_in("--grain", 0.0, scene::max_grain),
+        "contrast of fine structure on near ground, which the data do not have: soil, scree, "
+        "grass, rock and snow by slope and colour; 0 (none) to 2; hits, errors and --compare "
+        "are without it (1; on maps, pictures of the whole terrain and ramps of one colour "
+        "0)",
+        "G");
 }
 
 } // namespace reljef::cli

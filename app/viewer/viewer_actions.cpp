@@ -377,9 +377,9 @@ Result<void> Viewer::act(const SetContours& set) {
         set.metres > 0.0 ? std::clamp(set.metres, scene::min_contours, scene::max_contours) : 0.0;
     scene_.terrain->get<scene::TerrainNode>()->contours = metres;
     redraw_ = true;
-    if (set.metres > 0.0 && metres != set.metres) {
-        notes_.note(fmt::format("contours every {} m found, {} to {} m was expected: they are "
-                                "every {} m",
+    if (metres != set.metres) {
+        notes_.note(fmt::format("contours every {} m found, 0 (none) or {} to {} m was expected: "
+                                "they are every {} m",
                                 set.metres, scene::min_contours, scene::max_contours, metres));
     }
     return {};

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<int, 4> frequencies{5, 11, 23, 47};
 constexpr float largest = 1023.0F;
 
-struct Ground {
+struct ReliefSample {
     float height = 0.0F;
     float brightness = 0.0F;
 };
@@ -47,39 +47,39 @@ Octaves octaves_at(glm::vec2 place) {
 }
 
 // Rounded hollows and clods.
-Ground soil_of(const Octave& octave) {
+ReliefSample soil_of(const Octave& octave) {
     return {octave.wave / octave.frequency, 0.4F * octave.wave + octave.mottle};
 }
 
 // Stones of all sizes between dark gaps.
-Ground scree_of(const Octave& octave) {
+ReliefSample scree_of(const Octave& octave) {
     const float stone = std::abs(octave.wave);
     return {stone / octave.frequency, 2.0F * stone + octave.mottle};
 }
 
 // Tufts, dark between them.
-Ground grass_of(const Octave& octave) {
+ReliefSample grass_of(const Octave& octave) {
     return {octave.wave / octave.frequency, 0.8F * octave.wave + octave.mottle};
 }
 
 // Ridges between clefts, which are dark.
-Ground rock_of(const Octave& octave) {
+ReliefSample rock_of(const Octave& octave) {
     const float cleft = std::abs(octave.wave);
     return {-cleft / octave.frequency, 0.5F * octave.mottle - 2.0F * cleft};
 }
 
 // Drifts, of which few are small.
-Ground snow_of(const Octave& octave) {
+ReliefSample snow_of(const Octave& octave) {
     const float drift = octave.wave / std::sqrt(octave.frequency);
     return {drift / octave.frequency, drift};
 }
 
-using GroundOf = Ground (*)(const Octave& octave);
-constexpr std::array<GroundOf, GrainMap::layer_count> grounds{soil_of, scree_of, grass_of, rock_of,
-                                                              snow_of};
+using SampleOf = ReliefSample (*)(const Octave& octave);
+constexpr std::array<SampleOf, GrainMap::layer_count> kinds{soil_of, scree_of, grass_of, rock_of,
+                                                            snow_of};
 
 // Slopes along x and y, and brightness.
-Grid<glm::vec3> slopes_of(const Grid<Ground>& ground) {
+Grid<glm::vec3> slopes_of(const Grid<ReliefSample>& ground) {
     constexpr int last = GrainMap::side - 1;
     constexpr float half = 0.5F * GrainMap::side;
     Grid<glm::vec3> grain(GrainMap::side, GrainMap::side);
@@ -151,10 +151,10 @@ Grid<Octaves> all_octaves() {
     return octaves;
 }
 
-Ground sum_of(const Octaves& octaves, GroundOf ground_of) {
-    Ground sum;
+ReliefSample sum_of(const Octaves& octaves, SampleOf sample_of) {
+    ReliefSample sum;
     for (const Octave& octave : octaves) {
-        const Ground ground = ground_of(octave);
+        const ReliefSample ground = sample_of(octave);
         sum.height += ground.height;
         sum.brightness += ground.brightness;
     }
@@ -162,9 +162,9 @@ Ground sum_of(const Octaves& octaves, GroundOf ground_of) {
 }
 
 Grid<glm::vec3> pattern_of(const Grid<Octaves>& octaves, GrainMap::Layer layer) {
-    Grid<Ground> ground(GrainMap::side, GrainMap::side);
+    Grid<ReliefSample> ground(GrainMap::side, GrainMap::side);
     std::transform(octaves.samples().begin(), octaves.samples().end(), ground.samples().begin(),
-                   [&](const Octaves& at) { return sum_of(at, grounds.at(layer)); });
+                   [&](const Octaves& at) { return sum_of(at, kinds.at(layer)); });
     Grid<glm::vec3> grain = slopes_of(ground);
     normalize(grain, GrainMap::deviation(layer));
     return grain;

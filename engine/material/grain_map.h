@@ -26,7 +26,7 @@ public:
     /// Each lies on those before it.
     enum Layer { soil, scree, grass, rock, snow, layer_count };
 
-    /// Of the slopes, and of the brightness.
+    /// That of the slopes, and that of the brightness.
     static constexpr glm::vec2 deviation(Layer layer) {
         return layer == snow ? glm::vec2(0.07F, 0.03F) : glm::vec2(0.25F);
     }

@@ -195,7 +195,7 @@ sky_picture(const io::SceneDescription& description, const SceneOptions& view) {
     return std::make_shared<const material::SkyPicture>(std::move(*picture));
 }
 
-// Of the sun; absent: it has angles.
+// When the sun stands where it was placed; absent: angles place it.
 std::optional<geo::UniversalTime> sun_time(const io::SceneDescription& description,
                                            const SceneOptions& view) {
     if (!view.sun) {

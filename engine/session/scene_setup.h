@@ -23,7 +23,7 @@ struct Surroundings {
     std::optional<double> visibility; ///< metres; 0: no haze; absent: by the terrain's size
     BaseKind base = BaseKind::plane;
     std::shared_ptr<const material::SkyPicture> sky; ///< null: the sky of the sun's altitude
-    std::optional<geo::UniversalTime> sun_time;      ///< when the sun stood as it does at first
+    std::optional<geo::UniversalTime> sun_time;      ///< that gave the sun its first place
 };
 
 struct TerrainScene {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -56,6 +57,17 @@ glm::dmat3 metres_per_sample(const terrain::Placement& placement, glm::dvec3 sam
     return metres;
 }
 
+// Dimmer light shows no kind of ground.
+constexpr float min_light = 1e-3F;
+
+glm::vec3 reflected_by_level_ground(const std::optional<scene::Light>& sun, glm::dvec3 up) {
+    if (!sun) {
+        return glm::vec3(1.0F);
+    }
+    const auto sine = static_cast<float>(std::max(glm::dot(up, scene::to_light(*sun)), 0.0));
+    return glm::max(sine * sun->color + sun->ambient, glm::vec3(min_light));
+}
+
 } // namespace
 
 glm::dvec3 turned(glm::dvec3 world) {
@@ -78,7 +90,9 @@ GrainView grain_view(const DrawList& list, const scene::TerrainNode& terrain,
     const terrain::Placement& placement = terrain.surface->placement();
     GrainView view;
     view.strength = scene::shown_grain(terrain);
-    view.up = glm::vec3(turned(glm::normalize(directions * placement.up(local_eye))));
+    const glm::dvec3 up = glm::normalize(directions * placement.up(local_eye));
+    view.up = glm::vec3(turned(up));
+    view.level_light = reflected_by_level_ground(list.sun, up);
     if (const auto place = placement.geodetic_from_world(local_eye);
         place && placement.kind() == terrain::PlacementKind::ellipsoid) {
         view.radius = geo::mean_radius_of_earth + place->height;

@@ -24,6 +24,7 @@ struct GrainView {
 
     float strength = 0.0F;          ///< scene::shown_grain()
     glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, unit vector along the turned axes
+    glm::vec3 level_light{1.0F};    ///< that level ground of albedo 1 reflects, linear, above 0
     double radius = 0.0;            ///< from the eye to the Earth's middle, metres; 0: a plane
     int pattern_count = 0;
     /// The widest first. xyz: the eye's place in the pattern, in its widths, modulo 1, or of the

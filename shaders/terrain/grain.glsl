@@ -27,15 +27,15 @@ vec3 widest_noise(vec3 at) {
     return choice_noise * (waves + waves.yzx);
 }
 
-// What ground is, by slope and colour: shares of scree, grass, rock and snow; else it is soil. Excess green hardly
-// changes with the colour of daylight (Woebbecke et al. 1995).
-vec4 cover_of(vec3 lit, GroundPlace place) {
-    float cosine = dot(place.normal, place.up);
-    float sum = max(lit.r + lit.g + lit.b, darkest_lit);
-    return vec4(smoothstep(scree_begin, scree_end, (lit.b - lit.r) / sum),
-                smoothstep(grass_begin, grass_end, 3.0 * lit.g / sum - 1.0),
-                1.0 - smoothstep(rock_end, rock_begin, cosine),
-                smoothstep(snow_begin, snow_end, 3.0 * lit.b * lit.b / sum));
+// Shares of scree, grass, rock and snow; ground that is none of them is soil. Colours count as on level ground. Excess
+// green: Woebbecke et al. 1995.
+vec4 kinds_of(vec3 lit, GroundPlace place) {
+    vec3 color = lit * grain_light.rgb + vec3(dark_red, dark_green, 0.0);
+    float sum = color.r + color.g + color.b;
+    return vec4(smoothstep(scree_begin, scree_end, (color.b - color.r) / sum),
+                smoothstep(grass_begin, grass_end, 3.0 * color.g / sum - 1.0),
+                1.0 - smoothstep(rock_end, rock_begin, dot(place.normal, place.up)),
+                smoothstep(snow_begin, snow_end, 3.0 * color.b * color.b / sum));
 }
 
 // Shares of the level plane, and of yz in the upright ones.
@@ -90,7 +90,7 @@ Look pattern_at(vec3 at, float level, vec2 layer, vec2 chosen, float wander, boo
 }
 
 // The sum of the visible patterns.
-vec3 grain_at(GroundPlace place, vec4 cover) {
+vec3 grain_at(GroundPlace place, vec4 kinds) {
     float longer = 1.0 / max(abs(dot(place.normal, place.view)), flattest_facing);
     float pixel = place.pixel * sqrt(longer) * sqrt(sqrt(longer)); // between its width and its length
     float texels = pixel * float(textureSize(grain_layers, 0).x);
@@ -103,7 +103,7 @@ vec3 grain_at(GroundPlace place, vec4 cover) {
     vec3 sum = vec3(0.0);
     int i = 0;
     do {
-        vec2 layer = layer_of(choices(cover, vec4(noise, -noise.y)));
+        vec2 layer = layer_of(choices(kinds, vec4(noise, -noise.y)));
         Look look = pattern_at(at, level, layer, choices(shares, noise.xy), wander, i == 0);
         sum += look.look;
         noise = look.noise;
@@ -115,7 +115,7 @@ vec3 grain_at(GroundPlace place, vec4 cover) {
     return sum;
 }
 
-// Level water has no grain.
+// The contrast of grain. Level water has none.
 float strength_on(vec3 lit, GroundPlace place) {
     bool is_level = dot(place.normal, place.up) > level_cosine;
     return is_level && lit.b > blue_of_water * lit.r ? 0.0 : grain_up.w;
@@ -124,7 +124,7 @@ float strength_on(vec3 lit, GroundPlace place) {
 // Ground with its grain: slopes change the share of the sun's light, and the brightness changes all light. Ground that
 // the sun hardly reaches is as grainy as if it did: else the steps of normals from cell to cell would show.
 vec3 with_grain(vec3 lit, GroundPlace place) {
-    vec3 grain = grain_at(place, cover_of(lit, place));
+    vec3 grain = grain_at(place, kinds_of(lit, place));
     float strength = strength_on(lit, place);
     float to_sun = max(dot(place.normal, grain_sun.xyz), grain_grazing);
     float grainy = to_sun + strength * grain_slope_scale * grain.x;

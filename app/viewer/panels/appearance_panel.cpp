@@ -90,8 +90,10 @@ PanelActions draw_air(const AppearanceContent& appearance) {
 PanelActions draw_grain(const AppearanceContent& appearance) {
     const auto strength = number_row(
         "Grain of near ground",
-        share_control(scene::max_grain,
-                      "Fine structure that the data do not have. Hits and errors are without it."),
+        share_control(
+            scene::max_grain,
+            "Fine structure that the data do not have, of soil, scree, grass, rock and snow. "
+            "Hits and errors are without it."),
         appearance.grain);
     return strength ? PanelActions{SetGrain{*strength}} : PanelActions();
 }
@@ -119,7 +121,7 @@ PanelActions draw_contours(const AppearanceContent& appearance) {
     ImGui::SameLine(0.0F, 0.0F);
     muted_text(metre);
     if (typed) {
-        actions.emplace_back(SetContours{std::max(*typed, 0.0)});
+        actions.emplace_back(SetContours{*typed});
     }
     ImGui::SetNextItemWidth(-1.0F);
     if (ImGui::BeginCombo("##contours", name_of(appearance.contours).c_str())) {

@@ -57,7 +57,9 @@ struct SetContourLabels {
     bool shown = true;
 };
 struct SetContours {
-    double metres = 0.0; ///< of height from one to the next, the nearest possible; 0: none
+    /// Of height from one line to the next; 0: none. Others than scene::min_contours to max_contours
+    /// become the nearest of them, with a note.
+    double metres = 0.0;
 };
 
 /// Colours of heights.

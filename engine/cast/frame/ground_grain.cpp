@@ -25,6 +25,7 @@ GrainPaint paint_of(const view::GrainView& view, const material::GrainMap& map) 
     paint.pattern_count = view.pattern_count;
     paint.patterns = view.patterns;
     paint.up = view.up;
+    paint.level_light = view.level_light;
     return paint;
 }
 

@@ -107,6 +107,7 @@ struct GrainPaint {
     glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
     glm::vec3 up{0.0F};             ///< at the eye, along the turned axes
     glm::vec3 to_sun{0.0F};         ///< along the turned axes; 0 without a sun
+    glm::vec3 level_light{1.0F};    ///< view::GrainView::level_light
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 

@@ -197,7 +197,7 @@ HWY_INLINE Choice choice(Floats share, Floats noise) {
 
 // Shares of the first look of each choice.
 struct ShareOfChoices {
-    Floats scree; // of what ground is; else it is soil
+    Floats scree; // the kinds of ground; without them it is soil
     Floats grass;
     Floats rock;
     Floats snow;
@@ -205,20 +205,23 @@ struct ShareOfChoices {
     Floats by_y; // of upright planes, yz
 };
 
-// What ground is, by slope and colour. Excess green hardly changes with the colour of daylight
-// (Woebbecke et al. 1995).
+// Colours count as on level ground. Excess green: Woebbecke et al. 1995.
 HWY_INLINE ShareOfChoices shares_of_choices(const GrainPaint& grain,
                                             const std::array<Floats, 3>& normal, const Color& lit) {
     const Floats cosine = dot(normal, all_of(grain.up));
-    const Floats sum = hn::Max(hn::Add(hn::Add(lit.r, lit.g), lit.b), all(darkest_lit));
-    const Floats green = hn::Sub(hn::Div(hn::Mul(all(3.0F), lit.g), sum), all(1.0F));
-    const Floats blue = hn::Div(hn::Mul(all(3.0F), hn::Mul(lit.b, lit.b)), sum);
-    const Floats grey = hn::Div(hn::Sub(lit.b, lit.r), sum);
+    const glm::vec3 light = 1.0F / grain.level_light;
+    const Floats red = hn::MulAdd(lit.r, all(light.r), all(dark_red));
+    const Floats green = hn::MulAdd(lit.g, all(light.g), all(dark_green));
+    const Floats blue = hn::Mul(lit.b, all(light.b));
+    const Floats sum = hn::Add(hn::Add(red, green), blue);
+    const Floats greyness = hn::Div(hn::Sub(blue, red), sum);
+    const Floats excess_green = hn::Sub(hn::Div(hn::Mul(all(3.0F), green), sum), all(1.0F));
+    const Floats whiteness = hn::Div(hn::Mul(all(3.0F), hn::Mul(blue, blue)), sum);
     const Floats turn = hn::Sub(hn::Abs(normal[0]), hn::Abs(normal[1]));
-    return {smooth_step(scree_begin, scree_end, grey),
-            smooth_step(grass_begin, grass_end, green),
+    return {smooth_step(scree_begin, scree_end, greyness),
+            smooth_step(grass_begin, grass_end, excess_green),
             smooth_step(rock_begin, rock_end, cosine),
-            smooth_step(snow_begin, snow_end, blue),
+            smooth_step(snow_begin, snow_end, whiteness),
             smooth_step(upright_end, upright_begin, hn::Abs(normal[2])),
             smooth_step(-upright_turn, upright_turn, turn)};
 }
@@ -276,7 +279,7 @@ HWY_INLINE PatternView pattern_view(const glm::vec4& pattern, const std::array<F
 HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
                             const ShareOfChoices& shares, bool is_bent, Grain& noise,
                             GrainLook& sum) {
-    const LayerChoice cover = layer_of(shares, noise);
+    const LayerChoice kind = layer_of(shares, noise);
     const Choice flat = choice(shares.flat, noise.u);
     const Choice by_y = choice(shares.by_y, noise.v);
     const Lanes is_y = hn::AndNot(flat.is_first, by_y.is_first);
@@ -286,15 +289,15 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
     };
     const PatternPlace place = in_plane(view.at);
     const PatternPlace sun = in_plane(all_of(grain.to_sun));
-    noise = grain_between(grain, cover.layer, is_bent ? bent(place) : place, view.level);
+    noise = grain_between(grain, kind.layer, is_bent ? bent(place) : place, view.level);
     const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
     const Floats strength =
-        hn::Mul(hn::Mul(view.seen, cover.strength), hn::Mul(flat.strength, of_plane));
+        hn::Mul(hn::Mul(view.seen, kind.strength), hn::Mul(flat.strength, of_plane));
     const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
     sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
     sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
     const Lanes is_grass =
-        hn::RebindMask(floats, hn::Eq(cover.layer, all(static_cast<std::int32_t>(grass_layer))));
+        hn::RebindMask(floats, hn::Eq(kind.layer, all(static_cast<std::int32_t>(grass_layer))));
     sum.of_grass =
         hn::MulAdd(hn::IfThenElseZero(is_grass, strength), noise.brightness, sum.of_grass);
 }
@@ -332,7 +335,7 @@ HWY_INLINE GrainLook grain_at(const GrainPaint& grain, const GroundPlace& place,
     return sum;
 }
 
-// Of grain: level water has none.
+// The contrast of grain. Level water has none.
 HWY_INLINE Floats strength_on(const GrainPaint& grain, const std::array<Floats, 3>& normal,
                               const Color& lit) {
     const Lanes is_level = hn::Gt(dot(normal, all_of(grain.up)), all(level_cosine));

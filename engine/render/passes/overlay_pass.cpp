@@ -33,6 +33,7 @@ OverlayBlock overlay_block(const view::DrawList& list, const view::GrainView& vi
             .grain_sun = list.sun ? glm::vec4(view::turned(scene::to_light(*list.sun)), 0.0)
                                   : glm::vec4(0.0F),
             .grain_turn = glm::vec4(view::GrainView::turn, view.pattern_count, view.radius),
+            .grain_light = glm::vec4(1.0F / view.level_light, 0.0F),
             .contours = glm::vec4(0.0F),
             .facade_sun = glm::vec4(0.0F),
             .facade_sky = glm::vec4(0.0F),

@@ -79,10 +79,11 @@ struct OverlayBlock {
 static_assert(offsetof(OverlayBlock, grain_pattern_0) == 0);
 static_assert(offsetof(OverlayBlock, grain_up) == 3 * 16);
 static_assert(offsetof(OverlayBlock, grain_turn) == 5 * 16);
-static_assert(offsetof(OverlayBlock, contours) == 6 * 16);
-static_assert(offsetof(OverlayBlock, facade_sun) == 7 * 16);
-static_assert(offsetof(OverlayBlock, grain_normal_from_slopes) == 9 * 16);
-static_assert(sizeof(OverlayBlock) == 13 * 16);
+static_assert(offsetof(OverlayBlock, grain_light) == 6 * 16);
+static_assert(offsetof(OverlayBlock, contours) == 7 * 16);
+static_assert(offsetof(OverlayBlock, facade_sun) == 8 * 16);
+static_assert(offsetof(OverlayBlock, grain_normal_from_slopes) == 10 * 16);
+static_assert(sizeof(OverlayBlock) == 14 * 16);
 inline constexpr BlockLayout OverlayBlock::layout{"OverlayBlock", bindings::overlay_block_binding,
                                                   sizeof(OverlayBlock)};
 

@@ -56,7 +56,7 @@ Result<void> check_terrain_detail_technique(const Technique& technique);
 
 /// No picture shows closer lines, metres.
 inline constexpr double min_contours = 1e-3;
-/// No terrain is as high, metres.
+/// The largest distance of contours, metres: no terrain is as high.
 inline constexpr double max_contours = 1e6;
 
 /// TerrainNode::grain, at most.

@@ -15,6 +15,7 @@
 #include "app/viewer/panels/toolkit/panel_layout.h"
 #include "app/viewer/render_command_text.h"
 #include "app/viewer/viewer_content.h"
+#include "engine/scene/graph/daylight.h"
 #include "tests/app/effects/keyed_viewer.h"
 
 namespace reljef::app {
@@ -241,6 +242,26 @@ TEST_F(NumberControlTest, ADoubleClickOnASliderBeginsWithTheNumberOfBeforeIt) {
     }
     EXPECT_FALSE(panels.types_text());
     EXPECT_EQ(content.appearance.turbidity, before) << "given up";
+}
+
+TEST_F(NumberControlTest, AClickBesideASliderIsNotTheFirstOfADoubleClickOnIt) {
+    open_view();
+    const double before = content.appearance.turbidity;
+    for (double y = layout.inspector.low.y + 74.0; y < layout.inspector.high.y - 70.0; y += 4.0) {
+        const glm::dvec2 at{layout.inspector.low.x + 200.0, y};
+        panels.draw(content, typed_window, 1.0);
+        click(at - glm::dvec2(0.0, 4.0));
+        for (const PanelAction& action : click(at)) {
+            if (const auto* const set = std::get_if<SetTurbidity>(&action)) {
+                EXPECT_GE(set->turbidity, scene::min_turbidity);
+                EXPECT_LE(set->turbidity, scene::max_turbidity);
+                content.appearance.turbidity = before;
+            }
+        }
+        panels.receive(KeyEvent{.key = Key::escape, .pressed = true});
+        panels.receive(KeyEvent{.key = Key::escape, .pressed = false});
+        draw();
+    }
 }
 
 // "0" would be a factor that is refused.

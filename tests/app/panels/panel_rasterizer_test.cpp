@@ -166,5 +166,44 @@ TEST_F(RasterizerTest, DegenerateTrianglesAndTextureCoordinatesBeyondTheAtlasAre
     EXPECT_EQ(drawn()(3, 3).r, 255); // the last texel
 }
 
+// In floats such a triangle may have no area, or another one.
+TEST_F(RasterizerTest, SliversHaveColorsBetweenThoseOfTheirCorners) {
+    std::mt19937 random(7); // NOLINT(cert-msc32-c,cert-msc51-cpp): the same slivers each time
+    std::uniform_real_distribution<float> place(-800.0F, 800.0F);
+    std::uniform_real_distribution<float> share(0.3F, 0.7F);
+    std::uniform_int_distribution<int> step(-2, 2);
+    constexpr int max_red = 200;
+    constexpr int max_green = 100;
+    for (int round = 0; round < 5000; ++round) {
+        const ImVec2 begin(place(random), place(random));
+        const ImVec2 end(64.0F - begin.x, 64.0F - begin.y); // through the picture
+        const float part = share(random);
+        const float off = static_cast<float>(step(random)) / 256.0F;
+        add_triangle(
+            {begin,
+             end,
+             {begin.x + part * (end.x - begin.x) + off, begin.y + part * (end.y - begin.y) - off}},
+            IM_COL32(max_red, 0, 0, 255));
+        vertices_.back().col = IM_COL32(0, max_green, 0, 255);
+        const Image picture = drawn();
+        for (const Rgba8 pixel : picture.samples()) {
+            if (pixel != ground) {
+                ASSERT_LE(pixel.r, max_red) << round;
+                ASSERT_LE(pixel.g, max_green) << round;
+                ASSERT_EQ(pixel.b, 0) << round;
+            }
+        }
+        vertices_.clear();
+        indices_.clear();
+    }
+}
+
+TEST_F(RasterizerTest, PlacesBeyondAllPicturesAreCut) {
+    constexpr float far = 3e7F;
+    add_triangle({ImVec2(-far, 10.0F), {far, 10.004F}, {far, 12.0F}}, IM_COL32_WHITE);
+    add_triangle({ImVec2(-far, -far), {far, -far}, {0.0F, far}}, IM_COL32(0, 0, 0, 0));
+    EXPECT_EQ(drawn()(0, 0), ground);
+}
+
 } // namespace
 } // namespace reljef::app

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/material/grain_map.h"
+#include "engine/scene/graph/daylight.h"
 #include "engine/scene/motion/poses.h"
 #include "engine/truth/image_error.h"
 #include "tests/cast/frame/compared_pictures.h"
@@ -125,17 +126,23 @@ TEST(GrainNumbers, LayersOfShadersAreThoseOfTheMap) {
     EXPECT_EQ(static_cast<int>(numbers::snow_layer), material::GrainMap::snow);
 }
 
-// How much grain changes a colour: the standard deviation of its channels, in parts of their means.
-glm::dvec3 contrast_of(Rgba8 color, float slope) {
+Grid<float> inclined(float slope) {
     Grid<float> heights(129, 129);
-    for (int row = 0; row < 129; ++row) {
-        for (int col = 0; col < 129; ++col) {
+    for (int row = 0; row < heights.rows(); ++row) {
+        for (int col = 0; col < heights.cols(); ++col) {
             heights(col, row) = 8.0F * slope * static_cast<float>(col);
         }
     }
+    return heights;
+}
+
+// How much grain changes a colour: the standard deviation of its channels, in parts of their means.
+glm::dvec3 contrast_of(Rgba8 color, float slope, double altitude = 40.0) {
     Image image(2, 2);
     std::fill(image.samples().begin(), image.samples().end(), color);
-    OverlayStage stage(std::move(heights), {8.0, 8.0}, std::move(image));
+    OverlayStage stage(inclined(slope), {8.0, 8.0}, std::move(image));
+    const scene::Daylight daylight = scene::daylight_at(altitude, scene::default_turbidity);
+    stage.sun() = {.altitude = altitude, .color = daylight.sun, .ambient = daylight.ambient};
     stage.set_grain(1.0F);
     stage.look_down_at({100.0, 50.0}, 0.5);
     glm::dvec3 sum(0.0);
@@ -164,11 +171,29 @@ TEST_F(GrainGlTest, OnlyGrassChangesItsHue) {
     EXPECT_NEAR(hue_of(contrast_of(green, 1.5F)), 1.0, 0.05) << "rock, as steep as it is";
 }
 
-TEST_F(GrainGlTest, SnowIsSmooth) {
-    const double rough = contrast_of(grey, 0.1F).g;
-    EXPECT_GT(rough, 0.02);
-    EXPECT_LT(contrast_of(white, 0.1F).g, 0.4 * rough);
-    EXPECT_LT(contrast_of(white, 1.5F).g, 0.4 * contrast_of(grey, 1.5F).g) << "steep";
+TEST_F(GrainGlTest, SnowIsSmoothInAnyLight) {
+    for (const double altitude : {60.0, 12.0, 0.0, -3.0}) {
+        for (const float slope : {0.1F, 1.5F}) {
+            const double rough = contrast_of(grey, slope, altitude).g;
+            EXPECT_GT(rough, 0.02) << altitude << ' ' << slope;
+            EXPECT_LT(contrast_of(white, slope, altitude).g, 0.5 * rough)
+                << altitude << ' ' << slope;
+        }
+    }
+}
+
+TEST_F(GrainGlTest, RaysAndShadersShowTheSameKinds) {
+    Image stripes(6, 1);
+    std::ranges::copy(std::array{brown, green, grey, white, green, brown},
+                      stripes.samples().begin());
+    for (const float slope : {0.1F, 1.5F}) {
+        OverlayStage stage(inclined(slope), {8.0, 8.0}, stripes);
+        stage.set_grain(1.0F);
+        stage.look_down_at({0.0, 0.0}, 2.0);
+        const Image rays = stage.drawn();
+        const Image shaders = stage.drawn_by_opengl("exact");
+        EXPECT_LE(test::share_of_others(rays, shaders, 6), 0.02) << slope;
+    }
 }
 
 // The eye moves by whole pixels over the ground: what it still sees must not change, as it would if

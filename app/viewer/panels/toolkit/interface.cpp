@@ -190,7 +190,7 @@ struct Interface::State {
     void draw_frame() {
         gl::bind_window();
         ImDrawData panels = *ImGui::GetDrawData();
-        const bool has_marks = draw_marks(panels);
+        const bool has_background = draw_background(panels);
         const glm::ivec2 size(static_cast<int>(panels.DisplaySize.x),
                               static_cast<int>(panels.DisplaySize.y));
         if (!options.keeps_unchanged || !make_picture(size)) {
@@ -202,7 +202,7 @@ struct Interface::State {
                      [&](const PixelArea& area, Image& drawn) {
                          rasterize(panels, letters(), area, drawn);
                      });
-        is_kept = !has_marks;
+        is_kept = !has_background;
     }
 
     // Whether there is a picture of that size.
@@ -223,17 +223,17 @@ struct Interface::State {
         return {alpha, width, height, width};
     }
 
-    // Draws what lies under the panels, which follows the view, and takes it out.
-    static bool draw_marks(ImDrawData& panels) {
-        const bool has_marks = ImGui::GetBackgroundDrawList()->VtxBuffer.Size > 0;
-        if (has_marks) {
-            ImDrawData marks = panels;
-            marks.CmdListsCount = 1; // the first one
-            draw_with_opengl(marks);
+    // Draws what lies between the view and the panels, such as measured points, and takes it out.
+    static bool draw_background(ImDrawData& panels) {
+        const bool has_background = ImGui::GetBackgroundDrawList()->VtxBuffer.Size > 0;
+        if (has_background) {
+            ImDrawData background = panels;
+            background.CmdListsCount = 1; // the first one
+            draw_with_opengl(background);
             ++panels.CmdLists;
             --panels.CmdListsCount;
         }
-        return has_marks;
+        return has_background;
     }
 
     void read_areas() {

@@ -37,7 +37,7 @@ struct Area {
 /// OpenGL context, while the context is current.
 class Interface {
 public:
-    /// Fails if OpenGL cannot draw panels.
+    /// Fails without a context of OpenGL that can draw panels.
     static Result<Interface> create(const InterfaceOptions& options = {});
     Interface(Interface&& other) noexcept;
     Interface& operator=(Interface&& other) noexcept;

@@ -44,20 +44,25 @@ public:
     explicit KeptNumber(const char* name) : name_(name) {}
 
     void set(std::optional<double> number) const {
-        const auto halves = std::bit_cast<std::array<int, 2>>(
-            number.value_or(std::numeric_limits<double>::quiet_NaN()));
+        const Halves halves = halves_of(number);
         for (int i = 0; i < 2; ++i) {
             ImGui::GetStateStorage()->SetInt(key(i), halves.at(static_cast<std::size_t>(i)));
         }
     }
     [[nodiscard]] std::optional<double> get() const {
         const ImGuiStorage& storage = *ImGui::GetStateStorage();
+        const Halves none = halves_of(std::nullopt);
         const auto number = std::bit_cast<double>(
-            std::array<int, 2>{storage.GetInt(key(0)), storage.GetInt(key(1))});
+            Halves{storage.GetInt(key(0), none[0]), storage.GetInt(key(1), none[1])});
         return std::isfinite(number) ? std::optional(number) : std::nullopt;
     }
 
 private:
+    using Halves = std::array<int, 2>;
+
+    static Halves halves_of(std::optional<double> number) {
+        return std::bit_cast<Halves>(number.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
     [[nodiscard]] ImGuiID key(int half) const {
         return ImGui::GetID(fmt::format("{} {}", name_, half).c_str());
     }
@@ -69,6 +74,7 @@ private:
 constexpr const char* number_of_box = "##typed";
 // Of a slider before it was clicked.
 constexpr const char* number_before = "##before";
+constexpr const char* click_time = "##clicked"; // of that click, seconds
 
 // Numbers that cannot be 0 are not shown as 0.
 std::string box_text(const NumberControl& control, double value) {
@@ -148,11 +154,16 @@ std::optional<double> number_slider(const NumberControl& control, double value) 
         storage.SetBool(request, true); // the box, in the next frame
     }
     const KeptNumber before(number_before);
-    if (is_double) {
+    const KeptNumber clicked(click_time);
+    // For ImGui a click beside the slider and one on it are a double click, too.
+    const bool is_second = clicked.get() && ImGui::GetTime() - *clicked.get() <=
+                                                double(ImGui::GetIO().MouseDoubleClickTime);
+    if (is_double && is_second) {
         return before.get();
     }
     if (is_clicked) {
         before.set(value);
+        clicked.set(ImGui::GetTime());
     }
     return is_moved && moved != value && !storage.GetBool(request)
                ? std::optional(rounded(moved, control.decimals))

@@ -10,6 +10,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/core/check.h"
+
 namespace reljef::app {
 namespace {
 
@@ -30,10 +32,11 @@ std::int64_t in_subpixels(float place) {
 
 // The first pixel whose centre is not before a place in subpixels.
 int first_pixel(std::int64_t place) {
-    return static_cast<int>(quotient(place + half_pixel - 1, subpixels));
+    constexpr std::int64_t max = 1 << 30; // beyond all pictures
+    return static_cast<int>(std::clamp(quotient(place + half_pixel - 1, subpixels), -max, max));
 }
 
-// Of what is drawn: its colour, 0 to 255, and its place in the font atlas, texels.
+// What is drawn: its colour, 0 to 255, and its place in the font atlas, texels.
 struct Shade {
     glm::vec4 color{0.0F};
     glm::vec2 texel{0.0F};
@@ -62,8 +65,7 @@ struct Ink {
 
 Ink ink_of(const glm::vec4& color) {
     const auto byte = [](float value) {
-        const float above = std::clamp(value, 0.0F, 255.0F) + 0.5F; // rounded below
-        return static_cast<unsigned>(above);
+        return static_cast<unsigned>(clamped_int(double(value) + 0.5, 0, 255));
     };
     return {{byte(color.r), byte(color.g), byte(color.b)}, byte(color.a)};
 }
@@ -98,32 +100,6 @@ void fill(std::span<Rgba8> pixels, const Ink& ink) {
     }
 }
 
-// A value that is linear in the pixel's centre.
-struct Plane {
-    Shade origin;
-    Shade by_x;
-    Shade by_y;
-
-    [[nodiscard]] Shade at(glm::vec2 place) const {
-        return {origin.color + place.x * by_x.color + place.y * by_y.color,
-                origin.texel + place.x * by_x.texel + place.y * by_y.texel};
-    }
-    [[nodiscard]] bool is_constant() const {
-        const auto is_zero = [](const Shade& step) {
-            return step.color == glm::vec4(0.0F) && step.texel == glm::vec2(0.0F);
-        };
-        return is_zero(by_x) && is_zero(by_y);
-    }
-};
-
-Shade difference(const Shade& a, const Shade& b) {
-    return {a.color - b.color, a.texel - b.texel};
-}
-
-Shade combined(const Shade& a, float of_a, const Shade& b, float of_b) {
-    return {of_a * a.color + of_b * b.color, of_a * a.texel + of_b * b.texel};
-}
-
 struct Corner {
     glm::i64vec2 place{0}; // subpixels
     Shade shade;
@@ -137,18 +113,25 @@ std::int64_t area_of(const Corners& corners) {
     return a.x * b.y - a.y * b.x;
 }
 
-// Precondition: it has an area. Coordinates count from the first corner, pixels.
-Plane plane_of(const Corners& corners) {
-    const auto in_pixels = [&](const Corner& corner) {
-        return glm::vec2(corner.place - corners[0].place) / static_cast<float>(subpixels);
-    };
-    const glm::vec2 a = in_pixels(corners[1]);
-    const glm::vec2 b = in_pixels(corners[2]);
-    const Shade along_a = difference(corners[1].shade, corners[0].shade);
-    const Shade along_b = difference(corners[2].shade, corners[0].shade);
-    const float area = a.x * b.y - a.y * b.x;
-    return {corners[0].shade, combined(along_a, b.y / area, along_b, -a.y / area),
-            combined(along_a, -b.x / area, along_b, a.x / area)};
+bool have_one_shade(const Corners& corners) {
+    return std::ranges::all_of(corners, [&](const Corner& corner) {
+        return corner.shade.color == corners[0].shade.color &&
+               corner.shade.texel == corners[0].shade.texel;
+    });
+}
+
+// At the centre of a pixel in the triangle, whose area is not 0.
+Shade shade_at(glm::i64vec2 pixel, const Corners& corners) {
+    const glm::i64vec2 centre = subpixels * pixel + half_pixel;
+    Shade shade;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        Corners part = corners;
+        part.at(i).place = centre;
+        const auto share = static_cast<float>(double(area_of(part)) / double(area_of(corners)));
+        shade.color += share * corners.at(i).shade.color;
+        shade.texel += share * corners.at(i).shade.texel;
+    }
+    return shade;
 }
 
 // What lies at the inner side of an edge: x by_x + y by_y + rest >= 0, subpixels.
@@ -272,9 +255,7 @@ private:
         const std::array edges{Edge(corners[0].place, corners[1].place),
                                Edge(corners[1].place, corners[2].place),
                                Edge(corners[2].place, corners[0].place)};
-        const Plane plane = plane_of(corners);
-        const bool is_constant = plane.is_constant();
-        const glm::vec2 origin = glm::vec2(corners[0].place) / static_cast<float>(subpixels);
+        const bool is_constant = have_one_shade(corners);
         for (int y = top; y < bottom; ++y) {
             std::pair<int, int> row(clip_.low.x, clip_.high().x);
             for (const Edge& edge : edges) {
@@ -285,11 +266,11 @@ private:
             }
             const auto inside = pixels(y, row.first, row.second);
             if (is_constant) {
-                fill(inside, ink_of(plane.origin, letters_));
+                fill(inside, ink_of(corners[0].shade, letters_));
                 continue;
             }
             for (int x = row.first; x < row.second; ++x) {
-                blend(ink_of(plane.at(glm::vec2(x, y) + 0.5F - origin), letters_),
+                blend(ink_of(shade_at({x, y}, corners), letters_),
                       inside[static_cast<std::size_t>(x - row.first)]);
             }
         }
