@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdlib>
+#include <string_view>
+
 #include <gtest/gtest.h>
 
 /// Skips the test, with the reason, under AddressSanitizer: for what asks much time of whole
@@ -22,6 +25,12 @@ constexpr int rounds(int in_release, int sanitized) {
     static_cast<void>(sanitized);
     return in_release;
 #endif
+}
+
+/// How often a property is tested by default, and with `./dev test full`, which sets RELJEF_TESTS.
+inline int cases(int by_default, int in_full) {
+    const char* const chosen = std::getenv("RELJEF_TESTS");
+    return chosen != nullptr && std::string_view(chosen) == "full" ? in_full : by_default;
 }
 
 } // namespace reljef::test

@@ -12,6 +12,7 @@
 #include "engine/truth/shading.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/earth_stage.h"
+#include "tests/support/release_only.h"
 
 namespace reljef::render {
 namespace {
@@ -246,19 +247,25 @@ TEST_F(CurvedReliefGlTest, HardShadowIsTheShadowRayOfTheTruth) {
     }
 }
 
-// Over 280 m the Earth is flat.
+// Over 280 m the Earth is flat. By default every other picture is compared: each option from near
+// and from far, with some of the searches.
 TEST_F(CurvedReliefGlTest, OptionsShowOnSmallTerrainsWhatTheyShowOnAPlane) {
     EarthStage bent({.step = 1e-5}, towers());
     EarthStage plane({.step = 1e-5, .placement = terrain::PlacementKind::plane}, towers());
     for (EarthStage* const stage : {&plane, &bent}) {
         stage->scene.add_light({297.0, 25.0, glm::vec3(1.0F), glm::vec3(0.1F)});
     }
+    bool from_far = true;
     for (const char* const technique :
          {"exact:edges=smooth,0.02", "relief:n=256,edges=smooth,0.02", "exact:shadow=hard",
           "cone:n=1024,step=0,shadow=hard", "relief:n=256,shadow=hard", "exact:shadow=soft,0.1",
           "relief:shadow=soft,0.1", "pom:shadow=hard", "exact:fade=0.2..1,shadow=hard",
           "relief:n=256,edges=smooth,0.02,shadow=hard"}) {
+        from_far = !from_far;
         for (const double above : {3.0, 150.0}) {
+            if (test::cases(0, 1) == 0 && (above > 3.0) != from_far) {
+                continue;
+            }
             for (EarthStage* const stage : {&plane, &bent}) {
                 stage->look({120.3, 230.7}, above, {140.0, 40.0});
             }
