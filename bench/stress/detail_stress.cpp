@@ -52,20 +52,16 @@ Result<void> check_detail(StressRun& run, const SceneChoice& choice) {
 }
 
 // Pixels of a square with bricks of any height that are not finite.
-Result<void> check_detail_scale(StressRun& run, double scale) {
-    const auto square = detail_square("brick", static_cast<unsigned>(run.options().suite.threads));
-    if (!square) {
-        return square.error();
-    }
+Result<void> check_detail_scale(StressRun& run, const truth::DetailSquare& square, double scale) {
     scene::Scene scene;
     scene::Material material;
-    material.detail = {.set = square->set,
-                       .repeats = glm::vec2(static_cast<float>(square->repeats)),
+    material.detail = {.set = square.set,
+                       .repeats = glm::vec2(static_cast<float>(square.repeats)),
                        .scale = static_cast<float>(scale)};
     scene::Node& node =
-        scene.add_mesh(scene::plane_mesh(glm::vec2(static_cast<float>(square->side))), material);
-    scene.add_light(square->light);
-    scene.add_camera({.eye = {0.0, -square->side, 0.4 * square->side}});
+        scene.add_mesh(scene::plane_mesh(glm::vec2(static_cast<float>(square.side))), material);
+    scene.add_light(square.light);
+    scene.add_camera({.eye = {0.0, -square.side, 0.4 * square.side}});
     Worst worst;
     for (const scene::TechniqueInfo& info : techniques_of({.terrain = {}, .detail = "brick"})) {
         node.get<scene::MeshNode>()->material.technique = scene::make_technique(info.id);
@@ -95,8 +91,12 @@ Result<void> stress_details(StressRun& run) {
             return done;
         }
     }
+    const auto square = detail_square("brick", static_cast<unsigned>(run.options().suite.threads));
+    if (!square) {
+        return square.error();
+    }
     for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
-        if (auto done = check_detail_scale(run, scale); !done || run.stopped()) {
+        if (auto done = check_detail_scale(run, *square, scale); !done || run.stopped()) {
             return done;
         }
     }

@@ -82,8 +82,8 @@ TEST(BenchBadInput, bad_terrains_cost_the_others_nothing) {
     const std::string one = folder.write("one.asc", "ncols 1\nnrows 1\n" + head + "1\n");
     const std::string two = folder.write("two.asc", "ncols 1\nnrows 2\n" + head + "1\n2\n");
     const std::string four = folder.write("four.asc", "ncols 2\nnrows 2\n" + head + "1 2\n3 4\n");
-    std::string text = "ncols 40\nnrows 40\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
-    for (int i = 0; i < 1600; ++i) {
+    std::string text = "ncols 20\nnrows 20\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
+    for (int i = 0; i < 400; ++i) {
         text += std::to_string((i * 7) % 11) + " ";
     }
     const std::string good = folder.write("good.asc", text);

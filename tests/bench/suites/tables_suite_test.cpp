@@ -27,11 +27,17 @@ protected:
         return options;
     }
 
+    /// Of small_options(), measured once.
+    const Results& small_results() {
+        static const Results measured = run_tables(small_options(), {});
+        return measured;
+    }
+
     test::TemporaryFolder folder_;
 };
 
 TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
-    const Results results = run_tables(small_options(), {});
+    const Results& results = small_results();
     ASSERT_FALSE(results.stopped) << results.stopped->message;
     const std::size_t techniques = scene::terrain_techniques().size();
     ASSERT_EQ(results.rows.size(), 2 * (techniques + 1));
@@ -54,7 +60,7 @@ TEST_F(TablesSuite, has_every_technique_and_the_null_row_of_every_terrain) {
 }
 
 TEST_F(TablesSuite, draws_each_row_with_its_own_technique) {
-    const Results results = run_tables(small_options(), {});
+    const Results& results = small_results();
     ASSERT_FALSE(results.stopped);
     for (const Row& row : results.rows) { // one flat square, 2 by 2 cells, or a box
         const auto technique = scene::parse_technique(row.setting.label).value();
@@ -93,7 +99,7 @@ TEST(TablesCommand, ViewsEitherMoveOrStartCold) {
 }
 
 TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
-    const Results results = run_tables(small_options(), {});
+    const Results& results = small_results();
     ASSERT_FALSE(results.stopped);
     for (const Row& row : results.rows) {
         const bool is_warped = row.setting.technique == "prewarp"; // for each camera position
@@ -103,7 +109,7 @@ TEST_F(TablesSuite, warm_frames_upload_no_terrain) {
 }
 
 TEST_F(TablesSuite, ratio_is_to_texture_on_the_same_terrain) {
-    const Results results = run_tables(small_options(), {});
+    const Results& results = small_results();
     ASSERT_FALSE(results.stopped);
     const std::size_t rows_a_terrain = results.rows.size() / 2;
     for (std::size_t i = 0; i < results.rows.size(); ++i) {
@@ -127,7 +133,7 @@ TEST_F(TablesSuite, texture_is_measured_beside_the_technique_asked_for) {
 
 // The DEM is a plane: triangles draw it exactly, a flat surface is metres off.
 TEST_F(TablesSuite, every_row_tells_its_error) {
-    const Results results = run_tables(small_options(), {});
+    const Results& results = small_results();
     ASSERT_FALSE(results.stopped);
     for (const Row& row : results.rows) {
         ASSERT_TRUE(row.error && row.error->reprojection_px);
