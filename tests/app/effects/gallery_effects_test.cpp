@@ -1,4 +1,5 @@
 // What panels and keys do in the gallery.
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -21,7 +22,7 @@ constexpr glm::ivec2 gallery_window{400, 300};
 void settle_gallery(Viewer& viewer) {
     viewer.advance(1.0 / 60.0);
     while (viewer.is_preparing()) {
-        std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // leaves the work a processor
         viewer.advance(1.0 / 60.0);
     }
 }

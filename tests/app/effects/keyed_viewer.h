@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -71,7 +72,8 @@ struct KeyedViewer {
     void settle() {
         viewer.advance(keyed_step);
         while (viewer.is_preparing()) {
-            std::this_thread::yield();
+            std::this_thread::sleep_for(
+                std::chrono::milliseconds(1)); // leaves the work a processor
             viewer.advance(keyed_step);
         }
     }

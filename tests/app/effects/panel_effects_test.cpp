@@ -1,6 +1,7 @@
 // Each action of the panels has its effect on the viewer. An action without a row here fails the
 // test.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -29,7 +30,7 @@ constexpr double acted_step = 1.0 / 60.0;
 void settle_viewer(Viewer& viewer) {
     viewer.advance(acted_step);
     while (viewer.is_preparing()) {
-        std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // leaves the work a processor
         viewer.advance(acted_step);
     }
 }

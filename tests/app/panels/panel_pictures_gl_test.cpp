@@ -15,6 +15,7 @@
 #include "engine/core/color.h"
 #include "engine/gl/framebuffer.h"
 #include "engine/platform/window.h"
+#include "tests/support/release_only.h"
 
 namespace reljef::app {
 namespace {
@@ -143,7 +144,7 @@ TEST_F(PanelPicturesGlTest, WhatChangedAloneIsDrawnAndLooksAsIfAllWere) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     const PanelLayout layout = layout_for(shown_size, 1.0);
     const glm::dvec2 room = layout.inspector.size();
-    for (int step = 0; step < 80; ++step) {
+    for (int step = 0; step < test::cases(30, 80); ++step) {
         const glm::dvec2 part(share(random), share(random));
         const glm::dvec2 at = layout.inspector.low + part * room;
         receive(MouseMoveEvent{at});

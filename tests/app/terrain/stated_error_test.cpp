@@ -73,7 +73,8 @@ protected:
 };
 
 // Rays of `exact` read the tiles that memory holds, and stated nothing. On the CPU, rays that came
-// in below the ground from outside hit the walls of the next tiles.
+// in below the ground from outside hit the walls of the next tiles. By default they draw
+// the views from outside, and OpenGL the others.
 TEST_F(StatedError, OfExactRaysOverAStreamIsThatOfItsTiles) {
     RELJEF_RELEASE_ONLY("reads a city");
     write_city(folder_.path() / "city.tif");
@@ -83,20 +84,24 @@ TEST_F(StatedError, OfExactRaysOverAStreamIsThatOfItsTiles) {
     EXPECT_THAT(unproven.out, HasSubstr("kept error: not proven"));
     EXPECT_THAT(unproven.err, HasSubstr("are estimates"));
     ASSERT_EQ(run({"index", (folder_.path() / "city.tif").string(), "--memory", "2"}).exit_code, 0);
-    for (const char* const context : {"osmesa", "cpu"}) {
-        for (const std::vector<std::string>& view : {std::vector<std::string>{},
-                                                     {"--eye=0,-700,60", "--look=0,0,0"},
-                                                     {"--eye=-620,-640,12", "--look=0,0,30"},
-                                                     {"--placement", "ellipsoid"},
-                                                     {"--projection", "orthographic"}}) {
+    const std::vector<std::vector<std::string>> views{{},
+                                                      {"--eye=0,-700,60", "--look=0,0,0"},
+                                                      {"--placement", "ellipsoid"},
+                                                      {"--eye=-620,-640,12", "--look=0,0,30"},
+                                                      {"--projection", "orthographic"}};
+    for (const std::string context : {"osmesa", "cpu"}) {
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            if (test::cases(0, 1) == 0 && (i % 2 == 1) != (context == "cpu")) {
+                continue;
+            }
             std::vector<std::string> more = exact;
             more.insert(more.end(), {"--context", context});
-            more.insert(more.end(), view.begin(), view.end());
+            more.insert(more.end(), views[i].begin(), views[i].end());
             const auto drawn = render("city.tif", more);
             const auto shown = number_after(drawn.out, "at most ");
             const auto stated = number_after(drawn.out, "kept error: ");
             ASSERT_TRUE(shown && stated) << drawn.out << drawn.err;
-            EXPECT_LE(*shown, *stated) << context << ' ' << testing::PrintToString(view);
+            EXPECT_LE(*shown, *stated) << context << ' ' << testing::PrintToString(views[i]);
             EXPECT_GT(*stated, 1.0);
             EXPECT_THAT(drawn.err, HasSubstr("1 was expected of exact rays: --memory"));
             EXPECT_THAT(drawn.out, HasSubstr("unproven: 0,"));

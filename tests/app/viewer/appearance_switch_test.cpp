@@ -1,5 +1,6 @@
 #include "app/viewer/appearance/appearance_switch.h"
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -29,7 +30,8 @@ protected:
         int changes = 0;
         while (tested.is_preparing()) {
             changes += tested.update() ? 1 : 0;
-            std::this_thread::yield();
+            std::this_thread::sleep_for(
+                std::chrono::milliseconds(1)); // leaves the work a processor
         }
         return changes;
     }

@@ -23,7 +23,7 @@ namespace {
 void wait_for_maps(Viewer& viewer) {
     viewer.advance(1.0 / 60.0);
     while (viewer.is_preparing()) {
-        std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // leaves the work a processor
         viewer.advance(1.0 / 60.0);
     }
 }

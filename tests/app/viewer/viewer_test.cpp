@@ -1,3 +1,4 @@
+#include <chrono>
 #include <filesystem>
 #include <random>
 #include <thread>
@@ -81,7 +82,8 @@ struct ViewerTest : testing::Test {
     void wait_for_maps() {
         while (viewer.is_preparing()) {
             viewer.advance(frame);
-            std::this_thread::yield();
+            std::this_thread::sleep_for(
+                std::chrono::milliseconds(1)); // leaves the work a processor
         }
     }
     scene::Camera camera() { return *scene.camera->get<scene::Camera>(); }
