@@ -54,13 +54,12 @@ vec4 choices(vec4 shares, vec4 noise) {
     return shares - 0.5 - clamp(noise, -widest_wander, widest_wander);
 }
 
-// x: the last of the layers that was chosen; y: how far from the line to another one.
-vec2 layer_of(vec4 chosen) {
-    vec2 layer = vec2(0.0, 1.0);
-    layer = chosen.x > 0.0 ? vec2(scree_layer, chosen.x) : vec2(layer.x, min(layer.y, -chosen.x));
-    layer = chosen.y > 0.0 ? vec2(grass_layer, chosen.y) : vec2(layer.x, min(layer.y, -chosen.y));
-    layer = chosen.z > 0.0 ? vec2(rock_layer, chosen.z) : vec2(layer.x, min(layer.y, -chosen.z));
-    return chosen.w > 0.0 ? vec2(snow_layer, chosen.w) : vec2(layer.x, min(layer.y, -chosen.w));
+// The last kind that was chosen.
+float layer_of(vec4 chosen) {
+    float layer = chosen.x > 0.0 ? scree_layer : 0.0;
+    layer = chosen.y > 0.0 ? grass_layer : layer;
+    layer = chosen.z > 0.0 ? rock_layer : layer;
+    return chosen.w > 0.0 ? snow_layer : layer;
 }
 
 // Near a mip level, that level alone: most pixels fetch no second one.
@@ -75,18 +74,19 @@ struct Look {
     vec3 noise; // for the choices of the next pattern
 };
 
-// `at`: in widths of the pattern; `wander`: of its level. Grain fades at the lines between looks.
-Look pattern_at(vec3 at, float level, vec2 layer, vec2 chosen, float wander, bool is_bent) {
+// `at`: in widths of the pattern; `wander`: of its level. Grain fades at the lines between planes; kinds of ground have
+// the same noise.
+Look pattern_at(vec3 at, float level, float layer, vec2 chosen, float wander, bool is_bent) {
     bool is_flat = chosen.x > 0.0;
     bool by_y = !is_flat && chosen.y > 0.0;
     vec2 place = vec2(by_y ? at.y : at.x, is_flat ? at.y : at.z);
     vec2 sun = vec2(by_y ? grain_sun.y : grain_sun.x, is_flat ? grain_sun.y : grain_sun.z);
-    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer.x);
+    vec3 in_layer = vec3(is_bent ? bent(place) : place, layer);
     vec3 grain = 2.0 * textureLod(grain_layers, in_layer, steepened(max(level + wander, 0.0))).rgb - 1.0;
-    vec3 clear = min(abs(vec3(layer.y, chosen)) / choice_border, 1.0);
+    vec2 clear = min(abs(chosen) / choice_border, 1.0);
     float seen = clamp(last_seen_level + 1.0 - level, 0.0, 1.0);
-    float strength = seen * clear.x * clear.y * (is_flat ? 1.0 : clear.z);
-    return Look(strength * vec3(-dot(grain.xy, sun), grain.z, layer.x == grass_layer ? grain.z : 0.0), grain);
+    float strength = seen * clear.x * (is_flat ? 1.0 : clear.y);
+    return Look(strength * vec3(-dot(grain.xy, sun), grain.z, layer == grass_layer ? grain.z : 0.0), grain);
 }
 
 // The sum of the visible patterns.
@@ -103,7 +103,7 @@ vec3 grain_at(GroundPlace place, vec4 kinds) {
     vec3 sum = vec3(0.0);
     int i = 0;
     do {
-        vec2 layer = layer_of(choices(kinds, vec4(noise, -noise.y)));
+        float layer = layer_of(choices(kinds, vec4(noise, -noise.y)));
         Look look = pattern_at(at, level, layer, choices(shares, noise.xy), wander, i == 0);
         sum += look.look;
         noise = look.noise;

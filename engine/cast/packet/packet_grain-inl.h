@@ -226,21 +226,13 @@ HWY_INLINE ShareOfChoices shares_of_choices(const GrainPaint& grain,
             smooth_step(-upright_turn, upright_turn, turn)};
 }
 
-// The layer of ground, and its strength beside the line to another one.
-struct LayerChoice {
-    Ints layer;
-    Floats strength;
-};
-
-// The last layer that is chosen.
-HWY_INLINE LayerChoice layer_of(const ShareOfChoices& shares, const Grain& noise) {
-    LayerChoice last{hn::Zero(ints), all(1.0F)};
+// The last kind that is chosen.
+HWY_INLINE Ints layer_of(const ShareOfChoices& shares, const Grain& noise) {
+    Ints last = hn::Zero(ints);
     const auto choose = [&](float layer, Floats share, Floats wander) HWY_ATTR {
-        const Choice chosen = choice(share, wander);
-        last.layer = hn::IfThenElse(hn::RebindMask(ints, chosen.is_first),
-                                    all(static_cast<std::int32_t>(layer)), last.layer);
-        last.strength = hn::IfThenElse(chosen.is_first, chosen.strength,
-                                       hn::Min(last.strength, chosen.strength));
+        const Lanes is_chosen = choice(share, wander).is_first;
+        last = hn::IfThenElse(hn::RebindMask(ints, is_chosen),
+                              all(static_cast<std::int32_t>(layer)), last);
     };
     choose(scree_layer, shares.scree, noise.u);
     choose(grass_layer, shares.grass, noise.v);
@@ -279,7 +271,7 @@ HWY_INLINE PatternView pattern_view(const glm::vec4& pattern, const std::array<F
 HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
                             const ShareOfChoices& shares, bool is_bent, Grain& noise,
                             GrainLook& sum) {
-    const LayerChoice kind = layer_of(shares, noise);
+    const Ints layer = layer_of(shares, noise);
     const Choice flat = choice(shares.flat, noise.u);
     const Choice by_y = choice(shares.by_y, noise.v);
     const Lanes is_y = hn::AndNot(flat.is_first, by_y.is_first);
@@ -289,15 +281,14 @@ HWY_INLINE void add_pattern(const GrainPaint& grain, const PatternView& view,
     };
     const PatternPlace place = in_plane(view.at);
     const PatternPlace sun = in_plane(all_of(grain.to_sun));
-    noise = grain_between(grain, kind.layer, is_bent ? bent(place) : place, view.level);
+    noise = grain_between(grain, layer, is_bent ? bent(place) : place, view.level);
     const Floats of_plane = hn::IfThenElse(flat.is_first, all(1.0F), by_y.strength);
-    const Floats strength =
-        hn::Mul(hn::Mul(view.seen, kind.strength), hn::Mul(flat.strength, of_plane));
+    const Floats strength = hn::Mul(view.seen, hn::Mul(flat.strength, of_plane));
     const Floats away = hn::MulAdd(noise.u, sun.u, hn::Mul(noise.v, sun.v));
     sum.to_sun = hn::NegMulAdd(strength, away, sum.to_sun);
     sum.brightness = hn::MulAdd(strength, noise.brightness, sum.brightness);
     const Lanes is_grass =
-        hn::RebindMask(floats, hn::Eq(kind.layer, all(static_cast<std::int32_t>(grass_layer))));
+        hn::RebindMask(floats, hn::Eq(layer, all(static_cast<std::int32_t>(grass_layer))));
     sum.of_grass =
         hn::MulAdd(hn::IfThenElseZero(is_grass, strength), noise.brightness, sum.of_grass);
 }
