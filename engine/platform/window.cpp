@@ -1,6 +1,7 @@
 #include "engine/platform/window.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
@@ -31,6 +32,7 @@ glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
 struct Input {
     std::vector<Event> events;
     ClickCounter clicks;
+    std::optional<glm::dvec2> pointer; // of the last move, pixels
 };
 
 Input& input_of(GLFWwindow* window) {
@@ -64,15 +66,26 @@ void on_text(GLFWwindow* window, unsigned int character) {
 }
 
 void on_mouse_move(GLFWwindow* window, double x, double y) {
-    queue(window).emplace_back(MouseMoveEvent{in_pixels(window, x, y)});
+    Input& input = input_of(window);
+    input.pointer = in_pixels(window, x, y);
+    input.events.emplace_back(MouseMoveEvent{*input.pointer});
+}
+
+// Where the pointer was at the events before. GLFW tells where it is now, perhaps far ahead of
+// them.
+glm::dvec2 pointer_at_event(GLFWwindow* window) {
+    if (const auto& pointer = input_of(window).pointer) {
+        return *pointer;
+    }
+    glm::dvec2 at{0.0, 0.0};
+    glfwGetCursorPos(window, &at.x, &at.y);
+    return in_pixels(window, at.x, at.y);
 }
 
 void on_mouse_button(GLFWwindow* window, int button, int action, int modifiers) {
-    glm::dvec2 at{0.0, 0.0};
-    glfwGetCursorPos(window, &at.x, &at.y);
     MouseButtonEvent event{.button = mouse_button_from_glfw(button),
                            .pressed = action == GLFW_PRESS,
-                           .position = in_pixels(window, at.x, at.y),
+                           .position = pointer_at_event(window),
                            .modifiers = modifiers_from_glfw(modifiers)};
     if (event.pressed) {
         event.clicks = input_of(window).clicks.press(event.button, event.position, glfwGetTime());
@@ -148,6 +161,7 @@ public:
         glfwSetClipboardString(window_, text.c_str());
     }
     void capture_mouse(bool on) override {
+        input_.pointer.reset(); // it is elsewhere then
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
     }
     [[nodiscard]] std::string clipboard() const override {

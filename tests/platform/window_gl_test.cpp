@@ -106,6 +106,28 @@ TEST_F(WindowGlTest, moving_the_mouse_is_told_in_pixels) {
     EXPECT_TRUE(is_told);
 }
 
+TEST_F(WindowGlTest, a_press_is_where_the_pointer_was_then) {
+    if (!std::filesystem::exists("/usr/bin/xdotool")) {
+        GTEST_SKIP() << "no xdotool";
+    }
+    while (!window().wait_events(milliseconds(0)).empty()) {
+    }
+    const std::string command = fmt::format(
+        "xdotool search --sync --onlyvisible --pid {} --name '^test$' mousemove --window %1 20 30 "
+        "mousedown 1 mousemove --window %1 60 40 mouseup 1",
+        getpid());
+    ASSERT_EQ(std::system(command.c_str()), 0); // NOLINT(cert-env33-c): a fixed program
+    std::vector<glm::dvec2> places;
+    for (int round = 0; round < 50 && places.size() < 2; ++round) {
+        for (const Event& event : window().wait_events(milliseconds(100))) {
+            if (const auto* const button = std::get_if<MouseButtonEvent>(&event)) {
+                places.push_back(button->position);
+            }
+        }
+    }
+    EXPECT_THAT(places, testing::ElementsAre(glm::dvec2(20.0, 30.0), glm::dvec2(60.0, 40.0)));
+}
+
 TEST_F(WindowGlTest, polling_and_waiting_end_where_nothing_happens) {
     // What the window's opening still brings comes first.
     while (!window().wait_events(milliseconds(0)).empty()) {

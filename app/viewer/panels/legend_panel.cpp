@@ -1,11 +1,8 @@
 #include "app/viewer/panels/legend_panel.h"
 
-#include <cmath>
 #include <cstdint>
 
-#include <fmt/format.h>
-
-#include "app/viewer/panels/compass_panel.h"
+#include "app/viewer/panels/panel_text.h"
 #include "app/viewer/panels/toolkit/widgets.h"
 
 namespace reljef::app {
@@ -77,18 +74,12 @@ void draw_legend(const PanelContent& content, const Area& area, const Fonts& fon
     if (!(range > 0.0 && pixels > 0.0)) {
         return;
     }
-    // The round step whose labels keep their distance.
-    double step = scale_bar(range / pixels, label_distance).metres;
-    step = step * pixels < label_distance * range
-               ? scale_bar(range / pixels, 2.5 * label_distance).metres
-               : step;
     const float half_line = 0.5F * ImGui::GetTextLineHeight();
-    for (double height = std::ceil(bottom / step) * step; height <= bottom + range;
-         height += step) {
-        const auto share = static_cast<float>((height - bottom) / range);
+    for (const AxisTick& tick : axis_ticks(bottom, bottom + range, pixels / label_distance)) {
+        const auto share = static_cast<float>((tick.value - bottom) / range);
         const float y = high.y + share * (low.y + 4.0F - high.y);
         ImGui::SetCursorScreenPos({low.x + ramp_width + 10.0F, y - half_line});
-        text(fmt::format("{:.{}f}", height, step < 1.0 ? 1 : 0));
+        text(tick.text);
     }
 }
 
