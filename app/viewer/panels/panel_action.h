@@ -57,8 +57,8 @@ struct SetContourLabels {
     bool shown = true;
 };
 struct SetContours {
-    /// Of height from one line to the next; 0: none. Others than scene::min_contours to max_contours
-    /// become the nearest of them, with a note.
+    /// Of height from one line to the next; 0: none. Others than scene::min_contours to
+    /// max_contours become the nearest of them, with a note.
     double metres = 0.0;
 };
 

@@ -1,5 +1,7 @@
 #include "engine/cast/frame/ground_grain.h"
 
+#include <algorithm>
+
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
@@ -37,6 +39,19 @@ glm::mat3 normal_from_slopes(const view::GrainView& view, const PlacedTile& tile
     return glm::mat3(glm::transpose(glm::inverse(metres)));
 }
 
+bool shows_grain(const view::DrawList& list, const scene::TerrainNode& terrain) {
+    const auto is_near = [&](double distance) {
+        return view::shows_grain(list, terrain, distance);
+    };
+    return std::ranges::any_of(list.tiles,
+                               [&](const view::TileDraw& draw) {
+                                   return draw.terrain == &terrain && is_near(draw.distance);
+                               }) ||
+           std::ranges::any_of(list.terrains, [&](const view::TerrainDraw& draw) {
+               return draw.terrain == &terrain && draw.search && is_near(draw.search->distance);
+           });
+}
+
 } // namespace
 
 void set_normals(const view::GrainView& view, PlacedTiles& placed) {
@@ -47,7 +62,7 @@ void set_normals(const view::GrainView& view, PlacedTiles& placed) {
 
 const GrainPaint* GroundGrain::prepare(const view::DrawList& list, const SeenTerrain& seen,
                                        const view::GrainView& view) {
-    if (scene::shown_grain(*seen.node) <= 0.0F) {
+    if (!shows_grain(list, *seen.node)) {
         return nullptr;
     }
     if (!map_) {

@@ -14,10 +14,11 @@ namespace reljef::cast {
 /// Sets the normals of ground with grain or façades in the paints of tiles.
 void set_normals(const view::GrainView& view, PlacedTiles& placed);
 
-/// The fine structure of near ground, for rays. Its patterns are made once, if a terrain has grain.
+/// The fine structure of near ground, for rays. Its patterns are made once, when they may first be
+/// seen.
 class GroundGrain {
 public:
-    /// Null: the terrain has no grain. Valid as long as this object, until the next call. The tiles
+    /// Null: no tile of the terrain is near enough to show grain. Valid as long as this object, until the next call. The tiles
     /// need their normals: see set_normals().
     const GrainPaint* prepare(const view::DrawList& list, const SeenTerrain& seen,
                               const view::GrainView& view);

@@ -56,7 +56,8 @@ TEST(Contours, AreNoFartherApartAndNoCloserThanPicturesHaveThem) {
     EXPECT_EQ(shown(scene::max_contours), scene::max_contours);
     EXPECT_THAT(tested.notes(), IsEmpty());
     EXPECT_EQ(shown(2.5e6), scene::max_contours);
-    EXPECT_THAT(tested.notes(), HasSubstr("contours every 2500000 m found, 0 (none) or 0.001 to 1000000 m"));
+    EXPECT_THAT(tested.notes(),
+                HasSubstr("contours every 2500000 m found, 0 (none) or 0.001 to 1000000 m"));
     EXPECT_EQ(shown(1e-5), scene::min_contours);
     EXPECT_THAT(tested.notes(), HasSubstr("they are every 0.001 m"));
     EXPECT_EQ(shown(0.0), 0.0);
