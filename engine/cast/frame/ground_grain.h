@@ -18,8 +18,8 @@ void set_normals(const view::GrainView& view, PlacedTiles& placed);
 /// seen.
 class GroundGrain {
 public:
-    /// Null: no tile of the terrain is near enough to show grain. Valid as long as this object, until the next call. The tiles
-    /// need their normals: see set_normals().
+    /// Null: no tile of the terrain is near enough to show grain. Valid as long as this object,
+    /// until the next call. The tiles need their normals: see set_normals().
     const GrainPaint* prepare(const view::DrawList& list, const SeenTerrain& seen,
                               const view::GrainView& view);
 
