@@ -20,10 +20,9 @@ struct FrameQuality {
     friend bool operator==(const FrameQuality&, const FrameQuality&) = default;
 };
 
-/// Chooses the quality of a view. A view at rest has full quality,
-/// but the first one counts as moving. A moving view with several slow
-/// frames in a row gets one sample per pixel, then a half and a third of the resolution. A moving
-/// view that rays draw always has one sample.
+/// Chooses the quality of a view. A view at rest has full quality, but the first one counts as
+/// moving. A moving view with several slow frames in a row gets one sample per pixel, then a half
+/// and a third of the resolution. A moving view that rays draw always has one sample.
 class MotionQuality {
 public:
     static constexpr double max_smooth_ms = 40.0; // slower frames are slow

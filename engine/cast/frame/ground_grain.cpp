@@ -39,7 +39,7 @@ glm::mat3 normal_from_slopes(const view::GrainView& view, const PlacedTile& tile
     return glm::mat3(glm::transpose(glm::inverse(metres)));
 }
 
-bool shows_grain(const view::DrawList& list, const scene::TerrainNode& terrain) {
+bool is_grain_near(const view::DrawList& list, const scene::TerrainNode& terrain) {
     const auto is_near = [&](double distance) {
         return view::shows_grain(list, terrain, distance);
     };
@@ -62,7 +62,7 @@ void set_normals(const view::GrainView& view, PlacedTiles& placed) {
 
 const GrainPaint* GroundGrain::prepare(const view::DrawList& list, const SeenTerrain& seen,
                                        const view::GrainView& view) {
-    if (!shows_grain(list, *seen.node)) {
+    if (!is_grain_near(list, *seen.node)) {
         return nullptr;
     }
     if (!map_) {
