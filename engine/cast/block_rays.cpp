@@ -69,6 +69,15 @@ TileSamples samples_of(const RayTile& tile) {
             .cells = tile.cells()};
 }
 
+// Neighbours in a row are one thread's: their pixels share lines of the cache, which threads would
+// take from each other. A thread has several runs, so that all end together.
+int blocks_in_a_run(int blocks, const ParallelOptions& parallel) {
+    constexpr int runs_a_thread = 16;
+    constexpr int longest = 8; // longer ones gain nothing
+    const int threads = static_cast<int>(thread_count(parallel.threads));
+    return std::clamp(blocks / (runs_a_thread * threads), 1, longest);
+}
+
 bool overlap(const PixelBlock& a, const PixelBlock& b) {
     return glm::all(glm::lessThan(a.first, b.first + b.size)) &&
            glm::all(glm::lessThan(b.first, a.first + a.size));
@@ -228,15 +237,19 @@ int block_count(glm::ivec2 size) {
 
 bool for_each_block(glm::ivec2 size, const ParallelOptions& parallel,
                     const std::function<void(const PixelBlock& block, std::size_t index)>& body) {
-    const int cols = blocks_of(size).x;
-    return parallel_for(
-        block_count(size),
-        [&](int index) {
-            const glm::ivec2 first = block_side * glm::ivec2(index % cols, index / cols);
+    const glm::ivec2 blocks = blocks_of(size);
+    const int run = blocks_in_a_run(block_count(size), parallel);
+    const int runs_a_row = (blocks.x + run - 1) / run;
+    const auto do_run = [&](int index) {
+        const int row = index / runs_a_row;
+        const int first_col = index % runs_a_row * run;
+        for (int col = first_col; col < std::min(first_col + run, blocks.x); ++col) {
+            const glm::ivec2 first = block_side * glm::ivec2(col, row);
             body({first, glm::min(size - first, glm::ivec2(block_side))},
-                 static_cast<std::size_t>(index));
-        },
-        parallel);
+                 static_cast<std::size_t>(row * blocks.x + col));
+        }
+    };
+    return parallel_for(runs_a_row * blocks.y, do_run, parallel);
 }
 
 } // namespace reljef::cast

@@ -191,6 +191,18 @@ struct MapPlaces {
     Floats row;
 };
 
+// Where the texels of each lane's level begin.
+HWY_INLINE Ints begin_of(const TilePaint& paint, Ints level) {
+#if HWY_TARGET == HWY_AVX3
+    static_assert(max_paint_levels >= lane_count);
+    if (paint.level_count <= lane_count) {
+        return hn::TableLookupLanes(hn::LoadU(ints, paint.begin.data()),
+                                    hn::IndicesFromVec(ints, level));
+    }
+#endif
+    return hn::GatherIndex(ints, paint.begin.data(), level);
+}
+
 // Adds the bilinear colours of each lane's level, times their weights.
 template <class Encoding>
 HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints level,
@@ -209,7 +221,7 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
     const Floats part_u = hn::Sub(u, hn::ConvertTo(floats, col));
     const Floats part_v = hn::Sub(v, hn::ConvertTo(floats, row));
     const Ints stride = hn::Add(last_col, all(2));
-    const Ints begin = hn::GatherIndex(ints, paint.begin.data(), level);
+    const Ints begin = begin_of(paint, level);
     const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin);
     const Ints below = hn::Add(index, stride);
     const auto* const first = reinterpret_cast<const std::int32_t*>(paint.texels);
@@ -217,10 +229,12 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
     const Floats left = hn::Sub(weight, right);
     const Floats right_below = hn::Mul(right, part_v);
     const Floats left_below = hn::Mul(left, part_v);
-    add_texel<Encoding>(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
-    add_texel<Encoding>(hn::GatherIndex(ints, first + 1, index), hn::Sub(right, right_below), sum);
-    add_texel<Encoding>(hn::GatherIndex(ints, first, below), left_below, sum);
-    add_texel<Encoding>(hn::GatherIndex(ints, first + 1, below), right_below, sum);
+    const auto above = load_neighbours(ints, first, index);
+    const auto under = load_neighbours(ints, first, below);
+    add_texel<Encoding>(above.first, hn::Sub(left, left_below), sum);
+    add_texel<Encoding>(above.second, hn::Sub(right, right_below), sum);
+    add_texel<Encoding>(under.first, left_below, sum);
+    add_texel<Encoding>(under.second, right_below, sum);
 }
 
 // The values of the map: bilinear in the two levels nearest to each lane's.

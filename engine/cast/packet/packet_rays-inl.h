@@ -48,6 +48,42 @@ HWY_INLINE Ints all(std::int32_t value) {
     return hn::Set(ints, value);
 }
 
+// Values that lie side by side.
+template <class Vector> struct Neighbours {
+    Vector first;
+    Vector second;
+};
+
+#if HWY_TARGET != HWY_SCALAR
+// A pair of values for each index.
+template <class Tag, class U>
+HWY_INLINE hn::Vec<Tag> load_pairs(Tag tag, const U* from, const std::int32_t* index) {
+    if constexpr (hn::MaxLanes(tag) == 2) {
+        return hn::LoadU(tag, from + *index);
+    } else {
+        const hn::Half<Tag> half;
+        constexpr std::size_t pairs = hn::MaxLanes(half) / 2;
+        return hn::Combine(tag, load_pairs(half, from, index + pairs),
+                           load_pairs(half, from, index));
+    }
+}
+#endif
+
+// from[index] and from[index + 1]. A gather instruction takes four bytes for each lane, and longer
+// than these loads of eight.
+template <class Tag, class U>
+HWY_INLINE Neighbours<hn::Vec<Tag>> load_neighbours(Tag tag, const U* from, Ints index) {
+#if HWY_TARGET == HWY_SCALAR
+    return {hn::GatherIndex(tag, from, index), hn::GatherIndex(tag, from + 1, index)};
+#else
+    alignas(64) std::int32_t places[static_cast<std::size_t>(lane_count)];
+    hn::Store(index, ints, places);
+    const auto low = load_pairs(tag, from, places);
+    const auto high = load_pairs(tag, from, places + lane_count / 2);
+    return {hn::ConcatEven(tag, high, low), hn::ConcatOdd(tag, high, low)};
+#endif
+}
+
 HWY_INLINE Lanes no_lanes() {
     return hn::MaskFromVec(hn::Zero(floats));
 }

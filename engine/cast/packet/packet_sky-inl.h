@@ -57,11 +57,12 @@ HWY_INLINE Color sky_picture_color(const SkyPaint& sky, Floats x, Floats y, Floa
     const Floats right_below = hn::Mul(part_col, part_row);
     const Floats left_below = hn::Mul(left, part_row);
     Color sum = all(glm::vec3(0.0F));
-    add_texel<SquareRoots>(hn::GatherIndex(ints, first, index), hn::Sub(left, left_below), sum);
-    add_texel<SquareRoots>(hn::GatherIndex(ints, first + 1, index), hn::Sub(part_col, right_below),
-                           sum);
-    add_texel<SquareRoots>(hn::GatherIndex(ints, first, below), left_below, sum);
-    add_texel<SquareRoots>(hn::GatherIndex(ints, first + 1, below), right_below, sum);
+    const auto above = load_neighbours(ints, first, index);
+    const auto under = load_neighbours(ints, first, below);
+    add_texel<SquareRoots>(above.first, hn::Sub(left, left_below), sum);
+    add_texel<SquareRoots>(above.second, hn::Sub(part_col, right_below), sum);
+    add_texel<SquareRoots>(under.first, left_below, sum);
+    add_texel<SquareRoots>(under.second, right_below, sum);
     return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
 }
 

@@ -45,11 +45,10 @@ HWY_INLINE Corners corners_of(const BlockJob& job, Ints col, Ints row) {
     const Ints index = hn::Add(hn::Mul(row, all(job.tile.height_stride)), col);
     const float* const heights = job.tile.heights;
     const Floats base = all(job.rays.base_height);
-    const auto corner = [&](std::ptrdiff_t offset) HWY_ATTR {
-        return hn::Sub(hn::GatherIndex(floats, heights + offset, index), base);
-    };
-    const std::ptrdiff_t below = job.tile.height_stride;
-    return {corner(0), corner(1), corner(below), corner(below + 1)};
+    const auto north = load_neighbours(floats, heights, index);
+    const auto south = load_neighbours(floats, heights + job.tile.height_stride, index);
+    return {hn::Sub(north.first, base), hn::Sub(north.second, base), hn::Sub(south.first, base),
+            hn::Sub(south.second, base)};
 }
 
 HWY_INLINE Floats height_in(const Corners& corners, Floats col_part, Floats row_part) {

@@ -1,4 +1,6 @@
 // The allocator of the programs.
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -71,6 +73,21 @@ TEST(LargePages, FreedArraysGoBackToTheSystem) {
         EXPECT_GT(resident_bytes(), before + 150 * megabyte);
     }
     EXPECT_LT(resident_bytes(), before + 50 * megabyte);
+}
+
+// Else each draw of a software renderer would ask the system for its memory anew.
+TEST(LargePages, BlocksThatADrawFreesStayForTheNext) {
+    RELJEF_RELEASE_ONLY("sanitizers have allocators of their own");
+    const auto draw = [] {
+        std::vector<std::unique_ptr<std::array<std::uint8_t, 65536>>> blocks(16);
+        for (auto& block : blocks) {
+            block = std::make_unique<std::array<std::uint8_t, 65536>>();
+        }
+        return ::sbrk(0);
+    };
+    const void* const during = draw();
+    EXPECT_EQ(::sbrk(0), during);
+    EXPECT_EQ(draw(), during);
 }
 
 TEST(LargePages, ASizeBeyondAllMemoryThrows) {
