@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -57,6 +58,12 @@ struct Extent {
     double distance = 0.0;
 };
 
+std::span<const float> part_of_row(GridView<const float> heights, int row, int first_col,
+                                   int last_col) {
+    return heights.row(row).subspan(static_cast<std::size_t>(first_col),
+                                    static_cast<std::size_t>(last_col - first_col) + 1);
+}
+
 // Finds the smallest distance of an eye from what it sees of a surface: at most a fifth too small,
 // never too large.
 class NearestPlace {
@@ -83,6 +90,9 @@ private:
 
     // Bilinear cells are extreme at the corners of their parts.
     [[nodiscard]] terrain::HeightRange range(glm::dvec2 first, glm::dvec2 last) const {
+        if (first == glm::floor(first) && last == glm::floor(last)) {
+            return range_of_samples(glm::ivec2(first), glm::ivec2(last));
+        }
         terrain::HeightRange range{std::numeric_limits<double>::infinity(),
                                    -std::numeric_limits<double>::infinity()};
         const glm::ivec2 corners = glm::ivec2(glm::ceil(last)) - glm::ivec2(glm::floor(first)) + 1;
@@ -95,6 +105,19 @@ private:
             }
         }
         return range;
+    }
+
+    [[nodiscard]] terrain::HeightRange range_of_samples(glm::ivec2 first, glm::ivec2 last) const {
+        const auto lower = [](float a, float b) { return std::min(a, b); };
+        const auto higher = [](float a, float b) { return std::max(a, b); };
+        float low = std::numeric_limits<float>::infinity();
+        float high = -low;
+        for (int row = first.y; row <= last.y; ++row) {
+            const auto heights = part_of_row(surface_.heights, row, first.x, last.x);
+            low = std::reduce(heights.begin(), heights.end(), low, lower);
+            high = std::reduce(heights.begin(), heights.end(), high, higher);
+        }
+        return {low, high};
     }
 
     [[nodiscard]] Extent extent(glm::dvec2 first, glm::dvec2 last) const {
@@ -141,15 +164,22 @@ Slopes slopes_from(glm::dvec2 rises, glm::dvec2 cell, double exaggeration) {
     return {exaggeration * glm::length(rises / cell), exaggeration * (rises.x + rises.y)};
 }
 
+// Metres between neighbours of two rows, or of one.
+double largest_rise(std::span<const float> from, std::span<const float> to) {
+    return std::transform_reduce(
+        from.begin(), from.end(), to.begin(), 0.0,
+        [](double a, double b) { return std::max(a, b); },
+        [](double a, double b) { return std::abs(a - b); });
+}
+
 Slopes slopes_in(GridView<const float> heights, glm::ivec2 first, glm::ivec2 last, glm::dvec2 cell,
                  double exaggeration) {
     glm::dvec2 rises(0.0);
     for (int row = first.y; row <= last.y; ++row) {
-        for (int col = first.x; col <= last.x; ++col) {
-            const double here = heights(col, row);
-            rises.x = std::max(rises.x, std::abs(here - heights(std::min(col + 1, last.x), row)));
-            rises.y = std::max(rises.y, std::abs(here - heights(col, std::min(row + 1, last.y))));
-        }
+        const auto here = part_of_row(heights, row, first.x, last.x);
+        const auto below = part_of_row(heights, std::min(row + 1, last.y), first.x, last.x);
+        rises.x = std::max(rises.x, largest_rise(here.first(here.size() - 1), here.subspan(1)));
+        rises.y = std::max(rises.y, largest_rise(here, below));
     }
     return slopes_from(rises, cell, exaggeration);
 }
