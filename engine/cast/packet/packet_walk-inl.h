@@ -409,7 +409,7 @@ HWY_NOINLINE Lanes find_hits(const Rays& given, const BlockJob& job, Walk& moved
     const Rays rays = given; // copies, whose vectors registers may hold
     Walk walk = moved;
     constexpr int levels = 2; // between marches
-    constexpr int max_steps = 32;
+    constexpr int max_steps = 16;
     Lanes hits = no_lanes();
     const int top_level = job.skips_blocks ? job.tile.top_level : 0;
     int top = 0; // a start is near the surface
