@@ -26,12 +26,12 @@ void* allocate(std::size_t size) {
 }
 
 #ifdef __GLIBC__
-// glibc raises its threshold for mapped blocks when they are freed, and keeps later ones. It
-// returns freed blocks from 128 kB on, though, which a software renderer frees in each draw: 80
-// times a frame.
+// glibc raises its threshold for mapped blocks when they are freed, and keeps later ones. A fixed
+// one also fixes the size from which the heap's end is given back: at 128 kB, which would come and
+// go with each smaller array, and 80 times in a frame of a software renderer.
 [[gnu::constructor]] void return_freed_arrays() {
     ::mallopt(M_MMAP_THRESHOLD, int{smallest_array});
-    ::mallopt(M_TRIM_THRESHOLD, int{smallest_array});
+    ::mallopt(M_TRIM_THRESHOLD, 2 * int{smallest_array}); // glibc's proportion
 }
 #endif
 
