@@ -4,11 +4,11 @@
 #include <array>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <future>
 #include <optional>
-#include <regex>
 #include <string>
 #include <utility>
 
@@ -157,14 +157,23 @@ bool is_video(const fs::path& path) {
 }
 
 Result<fs::path> numbered(const fs::path& pattern, int index) {
-    static const std::regex one_number("([^%]*)%0*([1-9]|1[0-2])?d([^%]*)");
+    constexpr std::size_t none = std::string::npos;
+    constexpr int max_width = 12;
     const std::string text = pattern.string();
-    std::smatch parts;
-    if (!std::regex_match(text, parts, one_number)) {
+    const std::size_t percent = text.find('%');
+    const std::size_t begin = percent != none ? text.find_first_not_of('0', percent + 1) : none;
+    const std::size_t end = begin != none ? text.find_first_not_of("0123456789", begin) : none;
+    int width = 0; // stays 0 where there is none
+    if (end != none && end - begin <= 2) {
+        std::from_chars(text.data() + begin, text.data() + end, width);
+    } else {
+        width = max_width + 1;
+    }
+    if (width > max_width || text[end] != 'd' || text.find('%', end) != none) {
         return Error{fmt::format("-o: '{}' found, one number like %04d was expected in it", text)};
     }
-    const int width = parts[2].matched ? std::stoi(parts[2]) : 0;
-    return fs::path(fmt::format("{}{:0{}}{}", parts[1].str(), index, width, parts[3].str()));
+    return fs::path(
+        fmt::format("{}{:0{}}{}", text.substr(0, percent), index, width, text.substr(end + 1)));
 }
 
 Result<std::unique_ptr<FrameSink>> make_frame_sink(const fs::path& output,

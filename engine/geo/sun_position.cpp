@@ -1,10 +1,11 @@
 #include "engine/geo/sun_position.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <regex>
-#include <string>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -62,6 +63,32 @@ Result<void> check(const UniversalTime& time) {
     return {};
 }
 
+// Year, month, day, hours, minutes and seconds of "2026-06-21T12:00:30Z"; seconds and Z may lack.
+std::optional<std::array<int, 6>> numbers_of(std::string_view text) {
+    constexpr std::string_view form = "dddd-dd-ddTdd:dd:dd";
+    constexpr std::size_t without_seconds = form.size() - 3;
+    if (text.ends_with('Z')) {
+        text.remove_suffix(1);
+    }
+    if (text.size() != form.size() && text.size() != without_seconds) {
+        return std::nullopt;
+    }
+    std::array<int, 6> numbers{};
+    std::size_t part = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool is_digit = text[i] >= '0' && text[i] <= '9';
+        if (form[i] == 'd' ? !is_digit : text[i] != form[i]) {
+            return std::nullopt;
+        }
+        if (is_digit) {
+            numbers[part] = 10 * numbers[part] + (text[i] - '0');
+        } else {
+            ++part;
+        }
+    }
+    return numbers;
+}
+
 } // namespace
 
 Result<SunPosition> sun_position(const UniversalTime& time, double latitude, double longitude) {
@@ -95,20 +122,13 @@ Result<SunPosition> sun_by_day(const UniversalTime& time, double latitude, doubl
 }
 
 Result<UniversalTime> universal_time(std::string_view text) {
-    static const std::regex form(R"((\d{4})-(\d\d)-(\d\d)T(\d\d):(\d\d)(?::(\d\d))?Z?)");
-    const std::string whole(text);
-    std::smatch parts;
-    if (!std::regex_match(whole, parts, form)) {
+    const auto numbers = numbers_of(text);
+    if (!numbers) {
         return Error{
             fmt::format("'{}' found, a time in UTC was expected, as 2026-06-21T12:00", text)};
     }
-    const auto number = [&](std::size_t part) {
-        return parts[part].matched ? std::stoi(parts[part].str()) : 0;
-    };
-    const int minutes = number(5);
-    const int seconds = number(6);
-    const UniversalTime time{number(1), number(2), number(3),
-                             number(4) + minutes / 60.0 + seconds / 3600.0};
+    const auto [year, month, day, hours, minutes, seconds] = *numbers;
+    const UniversalTime time{year, month, day, hours + minutes / 60.0 + seconds / 3600.0};
     if (minutes > 59 || seconds > 59) {
         return Error{fmt::format("'{}' found, at most 59 minutes and seconds were expected", text)};
     }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "app/commands.h"
 #include "tests/support/forks/forked_program.h"
+#include "tests/support/text_pattern.h"
 
 namespace reljef::test {
 namespace {
@@ -24,8 +24,7 @@ ProgramResult reljef(const std::vector<std::string>& arguments, const ProgramOpt
 }
 
 std::string without_progress(const std::string& err) {
-    static const std::regex progress("[^\n\r]* [0-9]+ %(, [^\n\r]* left)?[\n\r]+");
-    return std::regex_replace(err, progress, "");
+    return without_matches(err, "[^\n\r]* [0-9]+ %(, [^\n\r]* left)?[\n\r]+");
 }
 
 void expect_refusal(const ProgramResult& result, int exit_code,

@@ -17,11 +17,12 @@ Result<void> finish(FrameSink& sink) {
 TEST(Numbered, replaces_the_number) {
     EXPECT_EQ(numbered("frames/%04d.png", 7)->string(), "frames/0007.png");
     EXPECT_EQ(numbered("%d.png", 12345)->string(), "12345.png");
+    EXPECT_EQ(numbered("%012d", 7)->string(), "000000000007");
 }
 
 TEST(Numbered, refuses_any_other_pattern) {
     for (const char* pattern : {"a.png", "%s.png", "%04d-%d.png", "%n%d.png", "%.png",
-                                "%99999d.png", "%-4d.png", "100%.png"}) {
+                                "%99999d.png", "%13d.png", "%-4d.png", "100%.png", "%1"}) {
         EXPECT_FALSE(numbered(pattern, 1)) << pattern;
     }
 }

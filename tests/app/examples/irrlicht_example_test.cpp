@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <set>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "tests/app/window/driven_window.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_pattern.h"
 
 namespace reljef {
 namespace {
@@ -66,11 +66,12 @@ TEST(IrrlichtExample, HasAtMost120Lines) {
 // "Scene::add_mesh", "session::Device" …
 std::vector<std::string> names_on_page() {
     const std::string page = test::read_bytes(RELJEF_IRRLICHT_PAGE);
-    const std::regex name(
-        R"(\b(?:scene|session|platform|view|material|io|building|Scene|Node|Material)::(\w+))");
     std::vector<std::string> names;
-    for (std::sregex_iterator found(page.begin(), page.end(), name), end; found != end; ++found) {
-        names.push_back((*found)[1]);
+    for (
+        const auto& name : test::matches(
+            page,
+            R"(\b(?:scene|session|platform|view|material|io|building|Scene|Node|Material)::(\w+))")) {
+        names.push_back(name[1]);
     }
     return names;
 }

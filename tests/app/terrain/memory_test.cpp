@@ -1,5 +1,4 @@
 #include <cmath>
-#include <regex>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "tests/app/command_line.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_pattern.h"
 
 namespace reljef::app {
 namespace {
@@ -29,11 +29,11 @@ void fill_hills(int first_row, GridView<float> heights) {
 double megabytes_of(const std::vector<std::string>& arguments) {
     const auto result = test::run_program(RELJEF_BINARY, arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    const std::regex figures("memory: ([0-9.]+) MB of the process at most, ([0-9.]+) MB before");
-    std::smatch found;
     const std::string text = result.out + result.err;
-    EXPECT_TRUE(std::regex_search(text, found, figures)) << text;
-    return found.empty() ? std::nan("") : std::stod(found[1]) - std::stod(found[2]);
+    const auto found =
+        test::matches(text, "memory: ([0-9.]+) MB of the process at most, ([0-9.]+) MB before");
+    EXPECT_FALSE(found.empty()) << text;
+    return found.empty() ? std::nan("") : std::stod(found[0][1]) - std::stod(found[0][2]);
 }
 
 class Memory : public testing::TestWithParam<std::vector<std::string>> {};

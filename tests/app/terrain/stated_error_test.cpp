@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <regex>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "tests/app/command_line.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_pattern.h"
 #include "tests/terrain/chance.h"
 
 namespace reljef {
@@ -44,10 +44,8 @@ void write_city(const std::filesystem::path& path) {
 }
 
 std::optional<double> number_after(const std::string& text, const std::string& before) {
-    std::smatch found;
-    return std::regex_search(text, found, std::regex(before + "([0-9.e+-]+)"))
-               ? std::optional(std::stod(found[1]))
-               : std::nullopt;
+    const auto found = test::matches(text, before + "([0-9.e+-]+)");
+    return found.empty() ? std::nullopt : std::optional(std::stod(found[0][1]));
 }
 
 class StatedError : public testing::Test {
@@ -63,11 +61,12 @@ protected:
     }
     [[nodiscard]] test::ProgramResult render(const std::string& file,
                                              const std::vector<std::string>& more) const {
-        return run({"render", (folder_.path() / file).string(), "--stats", "--size", "160x120",
+        return run({"render", (folder_.path() / file).string(), "--stats", "--size", size_,
                     "--samples", "1", "-o", (folder_.path() / "a.png").string()},
                    more);
     }
 
+    std::string size_ = "160x120"; ///< of the pictures
     test::TemporaryFolder folder_;
     test::ProgramOptions options_;
 };
@@ -78,6 +77,7 @@ protected:
 TEST_F(StatedError, OfExactRaysOverAStreamIsThatOfItsTiles) {
     RELJEF_RELEASE_ONLY("reads a city");
     write_city(folder_.path() / "city.tif");
+    size_ = "96x72";
     const std::vector<std::string> exact{"--technique", "exact",     "--memory",
                                          "2",           "--compare", "errors"};
     const auto unproven = render("city.tif", exact);
@@ -181,6 +181,7 @@ TEST_F(StatedError, OfExactRaysOverASpikeHasTheReasonOfTheSpike) {
 // picture failed.
 TEST_F(StatedError, LeavesATruncatedFileOutOnceAndComparesTheRest) {
     RELJEF_RELEASE_ONLY("waits for a file that fails");
+    size_ = "96x72";
     for (const auto& [name, east] : {std::pair("west.tif", 0.0), {"east.tif", 4990.0}}) {
         std::filesystem::create_directory(folder_.path() / "tiles");
         const io::HeightRaster raster{

@@ -55,7 +55,7 @@ protected:
     [[nodiscard]] Image drawn(const std::string& terrain, std::vector<std::string> how) const {
         const std::string out = path("out.png");
         std::vector<std::string> arguments{"render", path(terrain), "-o",     out,
-                                           "--size", "160x120",     "--pose", "oblique"};
+                                           "--size", "96x72",       "--pose", "oblique"};
         arguments.insert(arguments.end(), how.begin(), how.end());
         const auto result = run(arguments);
         EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -79,7 +79,7 @@ TEST_F(UndeclaredVoids, are_drawn_as_declared_ones_by_all_that_draws_terrain) {
         for (std::vector<std::string> way : ways) {
             way.insert(way.end(), {"--memory", memory});
             const Image declared = drawn(std::string("declared") + of, way);
-            ASSERT_EQ(declared.cols(), 160);
+            ASSERT_EQ(declared.cols(), 96);
             EXPECT_EQ(drawn(std::string("undeclared") + of, way), declared)
                 << of << memory << way[0] << way[1];
         }

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -21,6 +20,7 @@
 #include "tests/gl/gl_fixture.h"
 #include "tests/render/shaders/all_variants.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/text_pattern.h"
 
 namespace reljef::render {
 namespace {
@@ -228,14 +228,13 @@ std::map<std::string, int> member_offsets(std::string_view file) {
     const auto found = std::find_if(shaders.begin(), shaders.end(),
                                     [&](const EmbeddedShader& s) { return s.name == file; });
     const std::string text(found == shaders.end() ? "" : found->text);
-    static const std::regex member(R"((float|vec4|mat4) (\w+)(\[\d+\])?;)");
     std::map<std::string, int> offsets;
     int offset = 0;
-    for (std::sregex_iterator match(text.begin(), text.end(), member), end; match != end; ++match) {
-        const std::string type = match->str(1);
+    for (const auto& member : test::matches(text, R"((float|vec4|mat4) (\w+)(\[\d+\])?;)")) {
+        const std::string& type = member[1];
         offset = type == "float" ? offset : (offset + 15) / 16 * 16; // std140
-        const std::string length = match->str(3);
-        offsets[match->str(2) + (length.empty() ? "" : "[0]")] = offset;
+        const std::string& length = member[3];
+        offsets[member[2] + (length.empty() ? "" : "[0]")] = offset;
         const int count = length.empty() ? 1 : std::stoi(length.substr(1));
         offset += count * (type == "float" ? 4 : type == "mat4" ? 64 : 16);
     }

@@ -1,13 +1,13 @@
 #include "engine/render/shaders/shader_library.h"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "tests/render/shaders/all_variants.h"
+#include "tests/support/text_pattern.h"
 
 namespace reljef::render {
 namespace {
@@ -139,22 +139,17 @@ TEST(EmbeddedShaders, HaveNamesAndTexts) {
 }
 
 TEST(EmbeddedShaders, NameTheBindingsOfAllBlocksAndMaps) {
-    static const std::regex constant(R"(const u?int (\w+) =)");
-    static const std::regex literal(R"(binding\s*=\s*\d)");
-    static const std::regex map(R"((.*)uniform sampler2D (\w+))");
     std::string bindings;
     std::string others;
     for (const EmbeddedShader& shader : embedded_shaders()) {
         (shader.name == "frame/bindings.inc" ? bindings : others) += shader.text;
     }
-    EXPECT_FALSE(std::regex_search(others, literal));
-    for (std::sregex_iterator match(others.begin(), others.end(), map), end; match != end;
-         ++match) {
-        EXPECT_NE(match->str(1).find("_unit)"), std::string::npos) << match->str();
+    EXPECT_TRUE(test::matches(others, R"(binding\s*=\s*\d)").empty());
+    for (const auto& map : test::matches(others, R"((.*)uniform sampler2D (\w+))")) {
+        EXPECT_NE(map[1].find("_unit)"), std::string::npos) << map[0];
     }
-    for (std::sregex_iterator match(bindings.begin(), bindings.end(), constant), end; match != end;
-         ++match) {
-        EXPECT_NE(others.find(match->str(1)), std::string::npos) << match->str(1);
+    for (const auto& constant : test::matches(bindings, R"(const u?int (\w+) =)")) {
+        EXPECT_NE(others.find(constant[1]), std::string::npos) << constant[1];
     }
 }
 
