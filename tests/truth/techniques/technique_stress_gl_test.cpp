@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/scene/technique/terrain_techniques.h"
+#include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
 #include "tests/truth/techniques/relief_stage.h"
 
@@ -172,7 +173,7 @@ TEST_F(TechniqueStressGlTest, AnyOptionsGoTogetherAndShadingMovesNoHit) {
     ReliefStage stage(test::hills(65, 65, 12.0), small_setting());
     test::Chance chance(11);
     const auto catalogue = scene::terrain_techniques();
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < test::cases(30, 60); ++i) {
         const auto index = chance.whole(0, static_cast<int>(catalogue.size()) - 1);
         scene::Technique technique =
             scene::make_technique(catalogue[static_cast<std::size_t>(index)].id);
