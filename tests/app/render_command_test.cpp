@@ -36,7 +36,7 @@ TEST_P(EveryRaster, gives_a_picture) {
     const test::TemporaryFolder folder;
     const auto file = (folder.path() / "picture.png").string();
     const auto result = test::reljef({"render", test::data_path(GetParam()).string(), "--size",
-                                      "320x240", "--context", "osmesa", "-o", file});
+                                      "160x120", "--context", "osmesa", "-o", file});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto image = io::read_image(file);
     ASSERT_TRUE(image) << image.error().message;
@@ -66,7 +66,7 @@ TEST(RenderCommand, drapes_imagery) {
     const auto draped = (folder.path() / "draped.png").string();
     const auto dem = test::data_path("natural/craterlake-elev-16bit-30m.tif").string();
     const std::vector<std::string> common{"render",  dem,         "--size",
-                                          "320x240", "--context", "osmesa"};
+                                          "160x120", "--context", "osmesa"};
     auto arguments = common;
     arguments.insert(arguments.end(), {"-o", plain});
     ASSERT_EQ(test::reljef(arguments).exit_code, 0);
@@ -82,10 +82,11 @@ TEST(RenderCommand, drapes_imagery) {
 TEST(RenderCommand, sequence_and_contact_sheet) {
     RELJEF_RELEASE_ONLY("the gallery and the flights have other tests");
     const test::TemporaryFolder folder;
-    const auto result = test::reljef({"render", "urban", "--path", "orbit", "--frames", "3",
-                                      "--size", "160x120", "--context", "osmesa", "--technique",
-                                      "texture", "-o", (folder.path() / "f" / "%03d.png").string(),
-                                      "--contact-sheet", (folder.path() / "sheet.png").string()});
+    const auto result =
+        test::reljef({"render", test::small_terrain(folder, "urban"), "--path", "orbit", "--frames",
+                      "3", "--size", "160x120", "--context", "osmesa", "--technique", "texture",
+                      "-o", (folder.path() / "f" / "%03d.png").string(), "--contact-sheet",
+                      (folder.path() / "sheet.png").string()});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "f" / "002.png"));
     EXPECT_NE(*io::read_image(folder.path() / "f" / "000.png"),
@@ -315,9 +316,10 @@ TEST(RenderCommand, a_picture_does_not_appear_beside_hits_that_cannot_be_written
 TEST(RenderCommand, same_command_same_bits) {
     RELJEF_RELEASE_ONLY("the same command has other tests");
     const test::TemporaryFolder folder;
+    const std::string natural = test::small_terrain(folder, "natural");
     for (const char* name : {"a.png", "b.png"}) {
-        ASSERT_EQ(test::reljef({"render", "natural", "--size", "200x150", "--context", "osmesa",
-                                "-o", (folder.path() / name).string()})
+        ASSERT_EQ(test::reljef({"render", natural, "--size", "200x150", "--context", "osmesa", "-o",
+                                (folder.path() / name).string()})
                       .exit_code,
                   0);
     }
