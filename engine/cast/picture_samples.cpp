@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "engine/core/check.h"
 #include "engine/view/sample_count.h"
 
@@ -72,16 +74,19 @@ void FirstSamples::resize(glm::ivec2 size) {
 
 void FirstSamples::write_nearness(const BlockPixels& pixels, const PixelBlock& block,
                                   const PixelBlock& of) {
-    const glm::ivec2 low = of.first - block.first;
-    const glm::ivec2 high = low + of.size;
+    const glm::ivec2 low = glm::clamp(of.first - block.first, glm::ivec2(0), block.size);
+    const glm::ivec2 high = glm::clamp(of.first + of.size - block.first, low, block.size);
+    constexpr float beside = std::numeric_limits<float>::quiet_NaN();
     for (int row = 0; row < block.size.y; ++row) {
         const float* const from =
             pixels.nearness.data() + static_cast<std::size_t>(row) * block_side;
         float* const to = nearness_at(block.first + glm::ivec2(0, row));
-        for (int col = 0; col < block.size.x; ++col) {
-            const bool is_inside = col >= low.x && col < high.x && row >= low.y && row < high.y;
-            to[col] = is_inside ? from[col] : std::numeric_limits<float>::quiet_NaN();
-        }
+        const bool is_inside = row >= low.y && row < high.y;
+        const int begin = is_inside ? low.x : block.size.x;
+        const int end = is_inside ? high.x : block.size.x;
+        std::fill(to, to + begin, beside);
+        std::copy(from + begin, from + end, to + begin);
+        std::fill(to + end, to + block.size.x, beside);
     }
 }
 

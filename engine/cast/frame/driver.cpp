@@ -382,7 +382,9 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed,
         painter.paint(block, index);
     });
     if (painter.has_samples()) {
-        picture_ = first_.picture;
+        if (picture_.cols() != list.size.x || picture_.rows() != list.size.y) {
+            picture_ = Image(list.size.x, list.size.y);
+        }
         for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
             painter.sample(block, index, picture_);
         });

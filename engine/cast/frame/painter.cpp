@@ -92,6 +92,12 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
     }
 }
 
+void copy_block(const Image& from, const PixelBlock& block, Image& to) {
+    for (int row = block.first.y; row < block.first.y + block.size.y; ++row) {
+        std::copy_n(&from(block.first.x, row), block.size.x, &to(block.first.x, row));
+    }
+}
+
 void write_depths(const BlockPixels& pixels, const PixelBlock& block, double anchor,
                   Grid<float>& depths) {
     for (int row = 0; row < block.size.y; ++row) {
@@ -169,6 +175,7 @@ std::size_t Painter::count(const PixelBlock& block, std::size_t index,
 }
 
 void Painter::sample(const PixelBlock& block, std::size_t index, Image& picture) {
+    copy_block(first_.picture, block, picture);
     SampledPixels sampled;
     sampled.samples = samples_.samples;
     sampled.places = samples_.places;
