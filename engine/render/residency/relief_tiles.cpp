@@ -162,7 +162,7 @@ Result<void> ReliefTiles::prepare(const view::DrawList& list, const view::Terrai
                                   bool with_light, TileMaps& lights, view::FrameStats& stats) {
     const std::shared_ptr<scene::TileStream>& source = draw.terrain->stream;
     const scene::Technique& technique = draw.search->technique;
-    Stream& stream = streams_[source.get()];
+    Stream& stream = streams_[key_of(draw)];
     stream.owner = source;
     stream.drawn = frame_;
     const glm::dvec3 eye(glm::inverse(draw.world_from_local) * glm::dvec4(list.camera.eye, 1.0));
@@ -431,7 +431,7 @@ Result<void> ReliefTiles::prepare_pages(Stream& stream, const std::vector<Drawn>
 }
 
 const ResidentReliefTiles& ReliefTiles::tiles(const view::TerrainDraw& draw) const {
-    return streams_.at(draw.terrain->stream.get()).resident;
+    return streams_.at(key_of(draw)).resident;
 }
 
 } // namespace reljef::render

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -28,8 +29,9 @@ struct ResidentReliefTiles {
     std::optional<gl::TextureArray> normals = {};     ///< for point lights
 };
 
-/// The tiles of streams that rays search, in GPU memory. A tile stays until its layer is needed, or
-/// the stream drops it. All are dropped after some frames unused.
+/// The tiles of streams that rays search, in GPU memory, for each terrain that shows them. A tile
+/// stays until its layer is needed, or the stream drops it. All are dropped after some frames
+/// unused.
 class ReliefTiles {
 public:
     /// `with_light`: for pictures. Fails without GL memory.
@@ -96,8 +98,14 @@ private:
     static Result<void> prepare_pages(Stream& stream, const std::vector<Drawn>& tiles,
                                       view::FrameStats& stats);
 
+    // Terrains that share a stream have other tiles, pages, maps and light.
+    using Key = std::pair<const scene::TerrainNode*, const scene::TileStream*>;
+    static Key key_of(const view::TerrainDraw& draw) {
+        return {draw.terrain, draw.terrain->stream.get()};
+    }
+
     std::uint64_t frame_ = 0;
-    std::map<const scene::TileStream*, Stream> streams_;
+    std::map<Key, Stream> streams_;
 };
 
 } // namespace reljef::render

@@ -1,5 +1,8 @@
 #include "engine/render/residency/tile_maps.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "engine/render/residency/uploads.h"
 
 namespace reljef::render {
@@ -87,8 +90,22 @@ Result<void> TileMaps::prepare(const view::DrawList& list, view::FrameStats& sta
     std::erase_if(entries_, [&](const auto& entry) {
         return entry.second.owner.expired() || entry.second.drawn + kept_frames_of_maps < frame_;
     });
-    std::erase_if(lights_, [](const auto& entry) { return entry.second.owner.expired(); });
+    forget_lights(list);
     return {};
+}
+
+void TileMaps::forget_lights(const view::DrawList& list) {
+    for (SharedLight& light : lights_) {
+        const bool is_shown = std::any_of(
+            list.terrains.begin(), list.terrains.end(), [&](const view::TerrainDraw& draw) {
+                return draw.terrain->stream == light.owner.lock() &&
+                       view::light_on(list, draw.world_from_local) == light.light;
+            });
+        light.shown = is_shown ? frame_ : light.shown;
+    }
+    std::erase_if(lights_, [&](const SharedLight& light) {
+        return light.owner.expired() || light.shown + kept_frames_of_maps < frame_;
+    });
 }
 
 Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::TileDraw& draw,
@@ -138,19 +155,20 @@ Result<void> TileMaps::prepare_ground(const view::DrawList& list, const view::Ti
 void TileMaps::add_light(const std::shared_ptr<scene::TileStream>& stream,
                          const scene::TerrainLight& light,
                          std::shared_ptr<const scene::TerrainIrradiance> irradiance) {
-    lights_[stream.get()] = {stream, light, std::move(irradiance)};
+    lights_.push_back({stream, frame_, light, std::move(irradiance)});
 }
 
 const scene::TerrainIrradiance&
 TileMaps::irradiance_of(const std::shared_ptr<scene::TileStream>& stream,
                         const scene::TerrainLight& light) {
-    SharedLight& shared = lights_[stream.get()];
-    if (shared.irradiance == nullptr || shared.light != light) {
-        shared = {
-            stream, light,
-            std::make_shared<const scene::TerrainIrradiance>(stream->maker().overview(), light)};
+    const auto found = std::find_if(lights_.begin(), lights_.end(), [&](const SharedLight& other) {
+        return other.owner.lock() == stream && other.light == light;
+    });
+    if (found != lights_.end()) {
+        return *found->irradiance;
     }
-    return *shared.irradiance;
+    auto made = std::make_shared<const scene::TerrainIrradiance>(stream->maker().overview(), light);
+    return *lights_.emplace_back(SharedLight{stream, frame_, light, std::move(made)}).irradiance;
 }
 
 const ResidentTileMaps& TileMaps::tile(const view::TileDraw& draw) const {

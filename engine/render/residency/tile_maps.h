@@ -3,7 +3,8 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <utility>
+#include <tuple>
+#include <vector>
 
 #include <glm/vec4.hpp>
 
@@ -29,8 +30,8 @@ struct ResidentTileMaps {
 view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
                                const scene::TerrainIrradiance* irradiance);
 
-/// The maps of loaded tiles in GPU memory. Made on first use, and again when the sun moves. Dropped
-/// when the stream drops the tile or after some frames unused.
+/// The maps of loaded tiles in GPU memory, for each terrain that shows them. Made on first use, and
+/// again when the sun moves. Dropped when the stream drops the tile or after some frames unused.
 class TileMaps {
 public:
     Result<void> prepare(const view::DrawList& list, view::FrameStats& stats);
@@ -39,7 +40,7 @@ public:
                    const scene::TerrainLight& light,
                    std::shared_ptr<const scene::TerrainIrradiance> irradiance);
 
-    /// A stream's light, computed once; dropped with the stream.
+    /// A stream's light, computed once; dropped with the stream or after some frames unused.
     const scene::TerrainIrradiance& irradiance_of(const std::shared_ptr<scene::TileStream>& stream,
                                                   const scene::TerrainLight& light);
 
@@ -47,7 +48,8 @@ public:
     [[nodiscard]] const ResidentTileMaps& tile(const view::TileDraw& draw) const;
 
 private:
-    using Key = std::pair<const scene::TileStream*, terrain::TreeTile>;
+    // Terrains that share a stream may be turned towards the sun differently.
+    using Key = std::tuple<const scene::TerrainNode*, const scene::TileStream*, terrain::TreeTile>;
     struct Entry {
         std::weak_ptr<const scene::TerrainTile> owner;
         std::uint64_t drawn = 0; // last frame
@@ -56,20 +58,23 @@ private:
     };
     struct SharedLight {
         std::weak_ptr<scene::TileStream> owner;
-        std::optional<scene::TerrainLight> light;
+        std::uint64_t shown = 0; // last frame
+        scene::TerrainLight light;
         std::shared_ptr<const scene::TerrainIrradiance> irradiance;
     };
     static Key key_of(const view::TileDraw& draw) {
-        return {draw.terrain->stream.get(), draw.tile->id};
+        return {draw.terrain, draw.terrain->stream.get(), draw.tile->id};
     }
     Entry& entry_of(const view::TileDraw& draw);
     Result<void> prepare_light(const view::DrawList& list, const view::TileDraw& draw, Entry& entry,
                                view::FrameStats& stats);
     Result<void> prepare_ground(const view::DrawList& list, const view::TileDraw& draw,
                                 Entry& entry, view::FrameStats& stats);
+    void forget_lights(const view::DrawList& list);
+
     std::uint64_t frame_ = 0;
     std::map<Key, Entry> entries_;
-    std::map<const scene::TileStream*, SharedLight> lights_;
+    std::vector<SharedLight> lights_;
 };
 
 } // namespace reljef::render

@@ -33,7 +33,7 @@ view::GridMesh whole_mesh(const view::TileDraw& draw) {
 
 TerrainMeshes::Key TerrainMeshes::key_of(const view::TileDraw& draw) {
     if (!draw.tile->borrows) {
-        return {draw.terrain->stream.get(), draw.flat, draw.coarse, nullptr, std::nullopt};
+        return {draw.terrain->stream.get(), draw.flat, draw.coarse, draw.terrain, std::nullopt};
     }
     const void* const source = draw.terrain->surface.get();
     return draw.coarse ? Key{source, draw.flat, true, draw.terrain,

@@ -32,9 +32,10 @@ public:
     }
 
 private:
-    // The source of the tiles, whether they are flat, and whether they are cut. If tiles in memory
-    // are cut, the node and the parameters are part of the key, so that a technique that is
-    // selected again is ready.
+    // The source of the tiles, whether they are flat, and whether they are cut. The node is part of
+    // the key of tiles that depend on its view: those of streams, which have seams, and cut ones.
+    // So are the parameters of tiles in memory that are cut: a technique that is selected again is
+    // ready.
     using Key = std::tuple<const void*, bool, bool, const scene::TerrainNode*,
                            std::optional<scene::TechniqueParameters>>;
     static Key key_of(const view::TileDraw& draw);
