@@ -401,5 +401,32 @@ TEST_F(StreamedReliefGlTest, UnchangedTilesAreNotUploadedAgain) {
     EXPECT_EQ(driver.read_color(), first);
 }
 
+// Its box is 20,000 km high and 128 m wide, and the eye is inside: corners cut at the picture's
+// border are rounded.
+TEST_F(StreamedReliefGlTest, TallReliefIsSeenUpToThePicturesBorder) {
+    constexpr glm::ivec2 picture{1024, 768}; // smaller ones showed no hole
+    Driver driver = test::must(Driver::create({.size = picture, .shader_dir = {}}));
+    Scene scene;
+    Node& terrain =
+        test::add_terrain(scene, test::plane_heightfield(test::hills(65, 65, 12.0), {2.0, 2.0}), {},
+                          {.placement = {}, .exaggeration = 1e6});
+    Camera camera = pose(Pose::low, terrain);
+    camera.near = 1e-3;
+    scene.add_camera(camera);
+    for (const char* const technique : {"exact", "cone"}) {
+        terrain.get<scene::TerrainNode>()->material.technique =
+            test::must(scene::parse_technique(technique));
+        const HitBuffer hits = test::must(driver.draw_hits(view::select(scene, picture))).hits;
+        int holes = 0;
+        for (int row = 1; row + 1 < picture.y; ++row) {
+            const bool is_ground_beside = !hits(picture.x - 2, row - 1).is_sky() &&
+                                          !hits(picture.x - 2, row).is_sky() &&
+                                          !hits(picture.x - 2, row + 1).is_sky();
+            holes += hits(picture.x - 1, row).is_sky() && is_ground_beside ? 1 : 0;
+        }
+        EXPECT_EQ(holes, 0) << technique;
+    }
+}
+
 } // namespace
 } // namespace reljef::render

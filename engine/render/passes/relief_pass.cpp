@@ -75,8 +75,35 @@ Box local_box(const view::TerrainDraw& draw, const ReliefSpace& space) {
                                   glm::dvec2(visible.high), {visible.low.z, visible.high.z});
 }
 
-ReliefBlock relief_block(const view::TerrainDraw& draw, const ReliefSpace& space) {
-    const Box local = local_box(draw, space);
+// What the picture may show of a box: where the eye is inside a box much larger than what it sees,
+// corners cut at the picture's border would be rounded by pixels.
+Box seen_part(const Box& local, const scene::Camera& camera, glm::ivec2 size,
+              const glm::dmat4& world_from_local) {
+    if (!is_perspective(camera)) {
+        return local;
+    }
+    const glm::dmat4 local_from_world = glm::inverse(world_from_local);
+    const glm::dvec3 eye = local_eye(camera, world_from_local);
+    constexpr double rounding = 0x1p-20; // of the box, as floats
+    const glm::dvec3 beside =
+        rounding * glm::max(glm::abs(local.low), glm::abs(local.high)) + camera.near;
+    Box part{eye - beside, eye + beside};
+    for (const glm::dvec2 corner :
+         {glm::dvec2(0.0), glm::dvec2(size.x, 0.0), glm::dvec2(0.0, size.y), glm::dvec2(size)}) {
+        const glm::dvec3 way(local_from_world *
+                             glm::dvec4(scene::view_ray(camera, size, corner).direction, 0.0));
+        for (int axis = 0; axis < 3; ++axis) {
+            (way[axis] < 0.0 ? part.low : part.high)[axis] =
+                (way[axis] < 0.0 ? local.low : local.high)[axis];
+        }
+    }
+    return {glm::max(part.low, local.low), glm::min(part.high, local.high)};
+}
+
+ReliefBlock relief_block(const FrameContext& frame, const view::TerrainDraw& draw,
+                         const ReliefSpace& space) {
+    const Box local = seen_part(local_box(draw, space), frame.list.camera, frame.list.size,
+                                draw.world_from_local);
     return {.box_low = glm::vec4(glm::vec3(local.low), 0.0F),
             .box_high = glm::vec4(glm::vec3(local.high), 0.0F),
             .box_begin = glm::vec4(glm::vec3(space.box.low), 0.0F),
@@ -191,7 +218,7 @@ Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw
     state.set_wireframe(false);
     set_heights(**program, frame, draw);
     set_origin(**program, drawn);
-    if (auto set = state.set(relief_block(draw, space)); !set) {
+    if (auto set = state.set(relief_block(frame, draw, space)); !set) {
         return set;
     }
     if (const auto& course = draw.search->course) {
@@ -322,7 +349,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
-    if (auto set = frame.state.set(relief_block(draw, space)); !set) {
+    if (auto set = frame.state.set(relief_block(frame, draw, space)); !set) {
         return set;
     }
     return frame.state.set(technique_block(technique, reference_height(technique)));
