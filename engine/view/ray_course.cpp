@@ -177,6 +177,17 @@ double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 met
     return std::sqrt(square);
 }
 
+// What the terms of degree 4 add to the sample of a place.
+glm::dvec3 quartic_at(const RayCourse& course, glm::dvec3 relative) {
+    const glm::dvec3 at = course.unit_from_relative * relative;
+    glm::dvec3 sum(0.0);
+    for (std::size_t term = index_of({degree, 0, 0}); term < monomials.size(); ++term) {
+        const auto [x, y, z] = monomials[term];
+        sum += power(at.x, x) * power(at.y, y) * power(at.z, z) * course.terms[term];
+    }
+    return sum;
+}
+
 // World metres of a step of each coordinate of a sample.
 glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
     const glm::dvec3 here = placement.world_from_sample(sample);
@@ -326,6 +337,37 @@ LightCourse light_over(const Box& seen, const terrain::Placement& placement, glm
     return light;
 }
 
+// Where a polynomial is compared with the map.
+struct CourseCheck {
+    const terrain::Placement& placement;
+    const std::vector<glm::dvec3>& samples;
+    const std::vector<glm::dvec3>& places; // of these, local; the last one is the eye
+    glm::dmat3 world_turn;                 // from local directions
+    double pixel;                          // radians
+};
+
+// With what is measured at places of the surface.
+RayCourse measured(RayCourse course, const CourseCheck& check) {
+    const glm::dvec3 eye = check.places.back();
+    double quartic = 0.0; // radians
+    course.min_metres = metres_at(check.placement, check.samples.front());
+    for (std::size_t i = 0; i < check.samples.size(); ++i) {
+        const glm::dvec3 relative = check.world_turn * (check.places[i] - eye);
+        const glm::dvec3 found = check.placement.world_from_sample(course.sample(relative));
+        const double distance = glm::distance(check.places[i], eye);
+        const glm::dvec3 metres = metres_at(check.placement, check.samples[i]);
+        if (distance > 0.0) { // at the eye it is exact
+            course.error = std::max(course.error, glm::distance(found, check.places[i]) / distance);
+            quartic =
+                std::max(quartic, glm::length(metres * quartic_at(course, relative)) / distance);
+        }
+        course.min_metres = glm::min(course.min_metres, metres);
+        course.curvature = std::max(course.curvature, curvature_at(course, relative, metres));
+    }
+    course.needs_quartic = quartic > max_quartic_error * check.pixel;
+    return course;
+}
+
 } // namespace
 
 glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
@@ -385,20 +427,8 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
         course.light->terms = terms_along(course.terms, course.unit_from_relative *
                                                             (course.light->reach * sun->to_sun));
     }
-    const glm::dmat3 world_turn(world_from_local);
-    course.min_metres = metres_at(placement, checked.front());
-    for (std::size_t i = 0; i < checked.size(); ++i) {
-        const glm::dvec3 relative = world_turn * (places[i] - eye);
-        const glm::dvec3 found = placement.world_from_sample(course.sample(relative));
-        const double distance = glm::distance(places[i], eye);
-        if (distance > 0.0) { // at the eye it is exact
-            course.error = std::max(course.error, glm::distance(found, places[i]) / distance);
-        }
-        const glm::dvec3 metres = metres_at(placement, checked[i]);
-        course.min_metres = glm::min(course.min_metres, metres);
-        course.curvature = std::max(course.curvature, curvature_at(course, relative, metres));
-    }
     const double pixel = metres_a_pixel(camera, size).y;
+    course = measured(course, {placement, checked, places, glm::dmat3(world_from_local), pixel});
     return course.error <= max_course_error * pixel ? std::optional(course) : std::nullopt;
 }
 

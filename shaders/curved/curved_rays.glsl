@@ -1,4 +1,5 @@
-// Rays over the curved Earth: in the search space they are polynomials of degree 4 in their part.
+// Rays over the curved Earth: in the search space they are polynomials of degree 4 in their part. View rays have
+// the terms of degree 4 with QUARTIC only.
 layout(std140, binding = course_block_binding) uniform CourseBlock {
 #include "frame/course_block.inc"
 };
@@ -67,7 +68,12 @@ Monomials monomials_of(vec3 relative) {
 Curve view_curve(vec3 relative) {
     Monomials m = monomials_of(relative);
     vec3 terms[4] = vec3[4](FIRST_DEGREE(course_terms, 0, m), SECOND_DEGREE(course_terms, 3, m),
-                            THIRD_DEGREE(course_terms, 9, m), FOURTH_DEGREE(course_terms, 19, m));
+                            THIRD_DEGREE(course_terms, 9, m),
+#ifdef QUARTIC
+                            FOURTH_DEGREE(course_terms, 19, m));
+#else
+                            vec3(0.0));
+#endif
     return Curve(course_eye.xyz, terms, course_begin.xyz, course_end.xyz,
                  sqrt(length(relative)) * course_eye.w);
 }

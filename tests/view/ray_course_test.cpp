@@ -1,5 +1,6 @@
 #include "engine/view/ray_course.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -198,6 +199,32 @@ TEST(RayCourse, IsNoneWhereNoPolynomialIsPreciseOrRaysAreParallel) {
                             glm::dmat4(1.0), at_pole, all_samples()));
     EXPECT_FALSE(ray_course(camera_at(placement.world_from_sample({600.0, 600.0, 1e7})), size,
                             glm::dmat4(1.0), placement, all_samples()));
+}
+
+// Of a degree and of ten degrees of ground.
+TEST(RayCourse, LeavesOutTheFourthDegreeOnlyWhereNoPixelShowsIt) {
+    test::Chance chance(4);
+    for (const double step : {1.0 / 1200.0, 1.0 / 120.0}) {
+        const terrain::Placement placement = placed(47.0, step);
+        const glm::dvec3 eye = placement.world_from_sample({600.0, 1150.0, 32'000.0});
+        const auto course =
+            ray_course(camera_at(eye), size, glm::dmat4(1.0), placement, all_samples());
+        ASSERT_TRUE(course) << step;
+        EXPECT_EQ(course->needs_quartic, step > 0.001);
+        RayCourse cubic = *course;
+        std::fill(cubic.terms.begin() + 19, cubic.terms.end(), glm::dvec3(0.0));
+        double worst = 0.0; // radians
+        for (int i = 0; i < 3000; ++i) {
+            const glm::dvec3 part(chance.between(0, 1), chance.between(0, 1), chance.between(0, 1));
+            const glm::dvec3 sample = course->samples.low + part * course->samples.size();
+            const glm::dvec3 relative = placement.world_from_sample(sample) - eye;
+            const glm::dvec3 found = placement.world_from_sample(course->sample(relative));
+            const glm::dvec3 without = placement.world_from_sample(cubic.sample(relative));
+            worst = std::max(worst, glm::distance(found, without) / glm::length(relative));
+        }
+        const double pixels = worst / metres_a_pixel(camera_at(eye), size).y;
+        EXPECT_EQ(pixels > 1.1 * max_quartic_error, course->needs_quartic) << pixels;
+    }
 }
 
 } // namespace

@@ -22,8 +22,9 @@ bool is_streamed(const view::TerrainDraw& draw) {
 }
 
 ShaderFeatures surface_features(const view::TerrainDraw& draw) {
-    return (is_streamed(draw) ? feature_streamed : 0U) |
-           (draw.search->course ? feature_curved : 0U);
+    const auto& course = draw.search->course;
+    return (is_streamed(draw) ? feature_streamed : 0U) | (course ? feature_curved : 0U) |
+           (course && course->needs_quartic ? feature_quartic : 0U);
 }
 
 // A draw's search space. Its origin is near the eye, where floats are precise.
@@ -88,8 +89,10 @@ Box seen_part(const Box& local, const scene::Camera& camera, glm::ivec2 size,
     const glm::dvec3 beside =
         rounding * glm::max(glm::abs(local.low), glm::abs(local.high)) + camera.near;
     Box part{eye - beside, eye + beside};
+    const glm::dvec2 low(-1.0); // samples of a pixel are seen beside its middle
+    const glm::dvec2 high = glm::dvec2(size) + 1.0;
     for (const glm::dvec2 corner :
-         {glm::dvec2(0.0), glm::dvec2(size.x, 0.0), glm::dvec2(0.0, size.y), glm::dvec2(size)}) {
+         {low, glm::dvec2(high.x, low.y), glm::dvec2(low.x, high.y), high}) {
         const glm::dvec3 way(local_from_world *
                              glm::dvec4(scene::view_ray(camera, size, corner).direction, 0.0));
         for (int axis = 0; axis < 3; ++axis) {

@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 12> file_names{
     "mesh/textured_mesh",       "mesh/relief_mesh",       "mesh/relief_hull", "mesh/sun_depth",
     "terrain/textured_terrain", "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeatures.
-constexpr std::array<std::string_view, 34> feature_names{
-    "LIT",         "FOG",          "HIT",          "EXACT",      "PARALLAX",     "BISECT",
-    "SECANT",      "LIMITED",      "ITERATED",     "VIEW_STEPS", "FADE",         "HARD_SHADOW",
-    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",  "WARPED",     "CONE",         "NORMAL_MAP",
-    "BUMP",        "EMBOSS",       "WRAP",         "BEAMS",      "LAYERS",       "MULTISAMPLED",
-    "STREAMED",    "CURVED",       "COUNT",        "SLIVER",     "CORNER_DEPTH", "OVERLAY",
-    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS", "SKY_PICTURE"};
-static_assert(std::bit_width(feature_sky_picture) == feature_names.size());
+constexpr std::array<std::string_view, 35> feature_names{
+    "LIT",         "FOG",          "HIT",          "EXACT",       "PARALLAX",     "BISECT",
+    "SECANT",      "LIMITED",      "ITERATED",     "VIEW_STEPS",  "FADE",         "HARD_SHADOW",
+    "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",  "WARPED",      "CONE",         "NORMAL_MAP",
+    "BUMP",        "EMBOSS",       "WRAP",         "BEAMS",       "LAYERS",       "MULTISAMPLED",
+    "STREAMED",    "CURVED",       "COUNT",        "SLIVER",      "CORNER_DEPTH", "OVERLAY",
+    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS", "SKY_PICTURE", "QUARTIC"};
+static_assert(std::bit_width(feature_quartic) == feature_names.size());
 
 std::string header_of(ShaderFeatures features) {
     std::string header = "#version 450 core\n";
@@ -222,6 +222,12 @@ ShaderFeatures beams_of(ShaderFeatures features, ShaderFeatures search) {
     return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
 }
 
+// Of a terrain's search space.
+ShaderFeatures space_features_of(ShaderFeatures features) {
+    const bool is_curved = (features & feature_curved) != 0;
+    return features & (feature_streamed | feature_curved | (is_curved ? feature_quartic : 0U));
+}
+
 ShaderFeatures lighting_of(ShaderFeatures features) {
     for (const ShaderFeatures method : {feature_normal_map, feature_bump, feature_emboss}) {
         if ((features & method) != 0) {
@@ -286,9 +292,9 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
         return search | options_of(variant.features, search) | beams_of(variant.features, search) |
                overlay_of(variant.features) | points |
                mesh_shadows_on_relief(variant.features, options_of(variant.features, search)) |
-               (variant.features & (feature_streamed | feature_curved));
+               space_features_of(variant.features);
     case ShaderKind::beams:
-        return variant.features & (feature_streamed | feature_curved);
+        return space_features_of(variant.features);
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap | points |
                mesh_shadows_of(variant.features);

@@ -90,6 +90,8 @@ inline constexpr ShaderFeatures feature_point_lights = 1ULL << 31U;
 /// of its own on triangles, and ground hides it from them and from meshes (render::GroundShadow).
 inline constexpr ShaderFeatures feature_mesh_shadows = 1ULL << 32U;
 inline constexpr ShaderFeatures feature_sky_picture = 1ULL << 33U; ///< the sky is a picture
+/// Of bent view rays: polynomials of degree 4 instead of 3 (view::RayCourse::needs_quartic).
+inline constexpr ShaderFeatures feature_quartic = 1ULL << 34U;
 
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;

@@ -27,10 +27,10 @@ inline ShaderFeatures possible_features(ShaderKind kind) {
         return any | feature_multisampled | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::relief:
         return any | relief | feature_beams | feature_multisampled | feature_streamed |
-               feature_curved | feature_counting | feature_overlay | feature_facades |
-               feature_point_lights | feature_mesh_shadows;
+               feature_curved | feature_quartic | feature_counting | feature_overlay |
+               feature_facades | feature_point_lights | feature_mesh_shadows;
     case ShaderKind::beams:
-        return any | feature_streamed | feature_curved | feature_counting;
+        return any | feature_streamed | feature_curved | feature_quartic | feature_counting;
     case ShaderKind::relief_mesh:
         return any | relief | feature_layers | feature_wrap | feature_multisampled |
                feature_point_lights | feature_mesh_shadows;
