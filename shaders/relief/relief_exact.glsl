@@ -19,6 +19,10 @@ bool stays(inout vec3 start, inout Walk walk) {
     return all(greaterThanEqual(walk.block, ivec2(0))) && all(lessThanEqual(walk.block, beyond));
 }
 
+ivec2 existing(ivec2 block, int level) {
+    return min(block, last_cell >> level);
+}
+
 float max_height_in(Walk walk) {
     count_taps(1.0);
     return texelFetch(max_mipmap, walk.block, walk.level).r;

@@ -38,6 +38,14 @@ bool stays(inout vec3 start, inout Walk walk) {
     return true;
 }
 
+ivec2 existing(ivec2 block, int level) {
+#ifdef WRAP
+    return min(block, last_cell >> level);
+#else
+    return block;
+#endif
+}
+
 float max_height_in(Walk walk) {
     count_taps(1.0);
     ivec2 block = clamp(walk.block, ivec2(0), last_cell >> walk.level);

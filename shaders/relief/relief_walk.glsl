@@ -44,6 +44,17 @@ vec2 exits_of(vec3 start, vec2 inverse, ivec2 forward, Walk walk);
 // After a step into the next block: whether it exists.
 bool stays(inout vec3 start, inout Walk walk);
 float max_height_in(Walk walk);
+// A block that exists: the nearest one.
+ivec2 existing(ivec2 block, int level);
+
+// A level down, to the block at the entry. Where the ray enters over the last row or column, rounding may put it
+// beyond.
+void descend(vec3 start, vec3 span, inout Walk walk) {
+    --walk.level;
+    vec2 middle = vec2(((2 * walk.block + 1) << walk.level) - origin_cell);
+    vec2 p = start.xy + walk.part * span.xy;
+    walk.block = existing(2 * walk.block + ivec2(greaterThanEqual(p, middle)), walk.level);
+}
 
 // Steps into the next block, and a level up at the border of a parent block. False if there is none.
 bool move_on(vec2 exits, ivec2 forward, inout vec3 start, inout Walk walk) {
@@ -89,10 +100,7 @@ bool find_exact_hit(vec3 start, vec3 span, out float part, out vec2 place) {
             if (over) {
                 inside = move_on(exits, course.forward, start, walk);
             } else if (!reached) {
-                --walk.level;
-                vec2 middle = vec2(((2 * walk.block + 1) << walk.level) - origin_cell);
-                vec2 p = start.xy + walk.part * span.xy;
-                walk.block = 2 * walk.block + ivec2(greaterThanEqual(p, middle));
+                descend(start, span, walk);
             }
         }
         if (reached) {

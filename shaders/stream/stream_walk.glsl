@@ -12,11 +12,8 @@ bool stays(inout vec3 start, inout Walk walk) {
     return all(greaterThanEqual(walk.block, ivec2(0))) && all(lessThanEqual(walk.block, beyond));
 }
 
-void descend(vec3 start, vec3 span, inout Walk walk) {
-    --walk.level;
-    vec2 middle = vec2(((2 * walk.block + 1) << walk.level) - origin_cell);
-    vec2 p = start.xy + walk.part * span.xy;
-    walk.block = 2 * walk.block + ivec2(greaterThanEqual(p, middle));
+ivec2 existing(ivec2 block, int level) {
+    return min(block, last_cell >> level);
 }
 
 float crossing_in(vec3 start, vec3 span, Walk walk, StreamedTile tile, float leave, inout bool above) {

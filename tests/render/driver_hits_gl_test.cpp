@@ -294,6 +294,44 @@ TEST_P(DriverHitsGlTest, HasNoHolesBetweenTiles) {
     EXPECT_EQ(holes, 0) << "pixels of 20 pictures";
 }
 
+// A level plain around a pyramid, whose rays come in over the sides of its box where rows, or
+// columns, meet: what floats round puts their places beside the border and into either cell.
+TEST_P(DriverHitsGlTest, RaysThatComeInBetweenTwoCellsOfTheBorderFindTheGround) {
+    constexpr int side = 256;       // so the last cell is the first of two
+    constexpr double spacing = 0.3; // metres, no float
+    Scene scene;
+    Node& terrain = test::add_terrain(
+        scene, test::plane_heightfield(
+                   test::made_heights(
+                       side, side,
+                       [](int col, int row) {
+                           const int nearest = std::min({col, row, side - 1 - col, side - 1 - row});
+                           return 0.4 * nearest;
+                       }),
+                   {spacing, spacing}));
+    give_samples(terrain);
+    terrain.get<scene::TerrainNode>()->material.technique =
+        scene::make_technique(scene::TechniqueId::exact);
+    const Box& bounds = surface_of(terrain).bounds();
+    Node& camera = scene.add_camera();
+    session::SceneRenderer made = driver();
+    int holes = 0;
+    for (int i = 0; i < 40; ++i) {
+        // The rays of neighbouring pixels come in two samples apart.
+        Camera view = camera_at({bounds.high.x + size.y * spacing, 0.0, 1.0 + 0.37 * i},
+                                {0.0, 0.0, 1.0 + 0.37 * i});
+        view.eye.y = view.target.y = spacing * (i + 0.5);
+        view.vertical_fov = 90.0;
+        for (int turn = 0; turn < i % 4; ++turn) {
+            view.eye = {-view.eye.y, view.eye.x, view.eye.z};
+            view.target = {-view.target.y, view.target.x, view.target.z};
+        }
+        *camera.get<Camera>() = view;
+        holes += holes_in(hits_of(made, scene, size), view, bounds);
+    }
+    EXPECT_EQ(holes, 0) << "pixels of 40 pictures";
+}
+
 TEST_P(DriverHitsGlTest, TheLeastHeightfieldIsDrawn) {
     Scene scene;
     Grid<float> heights(2, 2, 0.0F);
