@@ -8,29 +8,21 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "engine/io/index/index_pass.h"
+#include "engine/io/index/indexed_tile.h"
 
 namespace reljef::session {
 namespace {
 
-/// Bilinear between samples with a height; NaN if the nearest one has none, as io::read_tree_tile.
-/// Precondition: the place is not negative.
+/// Bilinear. Precondition: the place is not negative.
 float height_between(const Grid<float>& samples, glm::dvec2 place) {
-    const glm::ivec2 nearest(glm::round(place));
     const glm::ivec2 low(place);
     const glm::dvec2 part = place - glm::dvec2(low);
     double sum = 0.0;
-    double shares = 0.0;
     for (const glm::ivec2 corner : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
         const glm::dvec2 along = glm::mix(1.0 - part, part, glm::dvec2(corner));
-        const float height = samples.clamped(low.x + corner.x, low.y + corner.y);
-        const double share = std::isnan(height) ? 0.0 : along.x * along.y;
-        sum += share > 0.0 ? share * height : 0.0;
-        shares += share;
+        sum += along.x * along.y * samples.clamped(low.x + corner.x, low.y + corner.y);
     }
-    return std::isnan(samples.clamped(nearest.x, nearest.y))
-               ? std::numeric_limits<float>::quiet_NaN()
-               : static_cast<float>(sum / shares);
+    return static_cast<float>(sum);
 }
 
 bool is_possible(const terrain::TileProof& proof) {
@@ -70,7 +62,7 @@ std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) cons
                                source_.file.string(), at.col, at.row, at.level));
         return std::nullopt;
     }
-    return proof;
+    return io::proof_with_fill(source_, index_, at);
 }
 
 void ProvenTiles::contradict(const std::string& error) const {
@@ -102,8 +94,27 @@ std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
         content.parts = found->parts;
     }
     content.errors = found->errors;
-    content.heights =
-        tile.level < level_of_samples_ ? part(tile, found->heights) : std::move(found->heights);
+    const bool is_part = tile.level < level_of_samples_;
+    if (is_part) {
+        const Part shown = part(tile, {found->heights.cols(), found->heights.rows()});
+        content.heights = Grid<float>(shown.count.x, shown.count.y);
+        const bool has_voids = !found->was_void.empty();
+        content.was_void =
+            has_voids ? Grid<std::uint8_t>(shown.count.x, shown.count.y) : Grid<std::uint8_t>();
+        for (int row = 0; row < shown.count.y; ++row) {
+            for (int col = 0; col < shown.count.x; ++col) {
+                const glm::dvec2 place = shown.place({col, row});
+                const glm::ivec2 nearest(glm::round(place));
+                content.heights(col, row) = height_between(found->heights, place);
+                if (has_voids) {
+                    content.was_void(col, row) = found->was_void.clamped(nearest.x, nearest.y);
+                }
+            }
+        }
+    } else {
+        content.heights = std::move(found->heights);
+        content.was_void = std::move(found->was_void);
+    }
     return content;
 }
 
@@ -112,23 +123,18 @@ std::optional<FileError> ProvenTiles::take_error() const {
     return std::exchange(error_, std::nullopt);
 }
 
-// `samples`: of the tile of all samples, with one sample around it.
-Grid<float> ProvenTiles::part(terrain::TreeTile tile, const Grid<float>& samples) const {
+glm::dvec2 ProvenTiles::Part::place(glm::ivec2 vertex) const {
+    return (glm::dvec2(first + vertex) - 1.0) / static_cast<double>(cells_of_sample) + 1.0;
+}
+
+ProvenTiles::Part ProvenTiles::part(terrain::TreeTile tile, glm::ivec2 samples) const {
     const int cells_of_sample = 1 << (level_of_samples_ - tile.level);
-    const glm::ivec2 cells = (glm::ivec2(samples.cols(), samples.rows()) - 3) * cells_of_sample;
+    const glm::ivec2 cells = (samples - 3) * cells_of_sample;
     const glm::ivec2 first = glm::ivec2(tile.col % cells_of_sample, tile.row % cells_of_sample) *
                              terrain::tree_tile_cells;
     const glm::ivec2 count =
         glm::min(cells - first, glm::ivec2(terrain::tree_tile_cells)) + 3; // one step around, too
-    Grid<float> heights(count.x, count.y);
-    for (int row = 0; row < count.y; ++row) {
-        for (int col = 0; col < count.x; ++col) {
-            const glm::dvec2 vertex = glm::dvec2(first + glm::ivec2(col, row)) - 1.0;
-            heights(col, row) =
-                height_between(samples, vertex / static_cast<double>(cells_of_sample) + 1.0);
-        }
-    }
-    return heights;
+    return {first, count, cells_of_sample};
 }
 
 } // namespace reljef::session

@@ -225,9 +225,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
                                  {.around = ground.wrap.around && is_curved});
     scene::TileBuilder maker(std::move(overview), tree, source.stream->plan.reduction, imagery,
                              ground.wrap);
-    // Over a plane, the overview's poles lie farther from its rows than those of the terrain.
-    const bool moves_rows = !is_curved && ground.wrap.rows() > 0;
-    const auto proofs = moves_rows ? nullptr : source.proofs;
+    const auto proofs = source.proofs;
     const TileReader reader(source, proofs, ground, maker);
     scene::TileStreamOptions options;
     options.memory_budget = source.stream->memory_budget;
@@ -423,8 +421,7 @@ const char* why_unproven(const std::vector<scene::TileStreamStats>& streams) {
     const bool is_indexed =
         !streams.empty() &&
         std::ranges::all_of(streams, [](const auto& stream) { return stream.is_all_proven; });
-    return is_indexed ? "they have voids, where nothing is proven"
-                      : "'reljef index' proves them except on voids and flat globes";
+    return is_indexed ? "files or their index cannot be read" : "'reljef index' proves them";
 }
 
 std::vector<scene::TileStreamStats> stream_stats(const scene::Scene& scene) {

@@ -144,7 +144,8 @@ Result<StreamedSurface::Read> StreamedSurface::read(glm::ivec2 at,
     Read read{std::make_shared<Loaded>(), std::move(content->notes)};
     Grid<float>& heights = read.loaded->heights;
     heights = Grid<float>(cells.x + 1, cells.y + 1);
-    const scene::FilledHeights filled = builder.filled(tile, std::move(content->heights));
+    const scene::FilledHeights filled =
+        builder.filled(tile, std::move(content->heights), std::move(content->was_void));
     for (int row = 0; row <= cells.y; ++row) {
         for (int col = 0; col <= cells.x; ++col) {
             heights(col, row) = filled.heights(col + 1, row + 1);

@@ -337,9 +337,10 @@ Result<void> StreamedTruth::shade_tile(const Eye& eye, const TileHits& hits, Bat
     std::optional<scene::TerrainTile> whole;
     scene::FilledHeights filled;
     if (content->picture.texels.empty()) {
-        filled = stream.maker().filled(hits.tile, content->heights);
+        filled = stream.maker().filled(hits.tile, content->heights, content->was_void);
     } else {
-        whole = stream.maker().make(hits.tile, content->heights, content->picture);
+        whole =
+            stream.maker().make(hits.tile, content->heights, content->picture, content->was_void);
     }
     for (const std::uint32_t ray : hits.rays) {
         const TerrainHit hit{*batch.hits[ray], batch.sun_at(ray)};

@@ -48,7 +48,7 @@ struct TileDraw {
     double triangle_error = 0.0;    ///< left for its triangles, pixels; 0 without an error bound
 
     /// Whether `error` is proven, of every pixel.
-    [[nodiscard]] bool is_proven() const { return tile->is_proven_everywhere(); }
+    [[nodiscard]] bool is_proven() const { return tile->is_proven; }
 };
 
 /// Maximum of SurfaceSearch::tiles.

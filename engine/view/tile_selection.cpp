@@ -416,7 +416,7 @@ RayTilesError error_of_ray_tiles(const scene::TerrainNode& terrain, const scene:
                                  std::span<const std::shared_ptr<const scene::TerrainTile>> tiles) {
     RayTilesError found;
     const auto add = [&](const scene::TerrainTile& tile, double error) {
-        if (tile.is_proven_everywhere()) {
+        if (tile.is_proven) {
             found.proven = std::max(found.proven.value_or(0.0), error);
         } else {
             ++found.unproven;

@@ -12,7 +12,19 @@ struct MadeGlobe {
     bool on_lines = false; ///< the outermost rows lie on the poles and the first column at -180°
     bool repeats = false;  ///< the first column again at the end
     bool has_poles = true;
+    /// About how much of it has no height: in rings of all sizes, which also cover a pole and lie
+    /// across the seam; 0: nothing.
+    double voids = 0.0;
 
+    [[nodiscard]] bool is_void(int col, int row) const {
+        const double latitude_here = latitude(row) * std::numbers::pi / 180.0;
+        const double longitude_here = longitude(col) * std::numbers::pi / 180.0;
+        const double wave = std::sin(3.0 * longitude_here + 1.7) * std::cos(9.0 * latitude_here) +
+                            std::sin(40.0 * longitude_here) * std::cos(37.0 * latitude_here);
+        const bool is_at_pole = latitude(row) > 82.0;
+        return voids > 0.0 &&
+               (is_at_pole || wave > 1.6 - 2.0 * voids || (col * 7 + row * 13) % 97 == 0);
+    }
     [[nodiscard]] double col_step() const { return 360.0 / cols; }
     [[nodiscard]] double row_step() const {
         return (has_poles ? 180.0 : 150.0) / (on_lines ? rows - 1 : rows);

@@ -15,7 +15,7 @@
 
 namespace reljef::io {
 
-inline constexpr std::uint32_t index_version = 5; // increase when heights or errors change
+inline constexpr std::uint32_t index_version = 6; // increase when heights or errors change
 
 struct IndexHeader {
     std::array<char, 8> magic{'r', 'e', 'l', 'i', 'n', 'd', 'e', 'x'};

@@ -36,20 +36,4 @@ struct IndexShare {
 Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options,
                                const IndexShare& share = {});
 
-/// A tile as an index has it.
-struct IndexedTile {
-    Grid<float> heights; ///< at its vertices and one step around them, metres; NaN: void
-    std::optional<terrain::TileProof> proof; ///< absent: unproven
-    terrain::PartShares parts{};             ///< of the proof
-    std::vector<FileError> errors;           ///< then the heights are unusable
-    std::size_t bytes_read = 0;              ///< of samples
-};
-
-/// Reads a tile's heights, from samples below ErrorIndex::first_stored_level, and checks them
-/// against its proof: a contradiction is an error of the index file, without a proof. Absent if the
-/// index has no such heights.
-std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const ErrorIndex& index,
-                                             terrain::TreeTile tile,
-                                             const std::stop_token& stop = {});
-
 } // namespace reljef::io

@@ -26,8 +26,8 @@ struct TileSummary {
     terrain::TreeTile id;       ///< if it borrows: of level 0, in tiles of terrain::tile_cells
     Box bounds;                 ///< local metres
     terrain::HeightRange range; ///< true metres
-    /// Scene metres. If proven, no sample that is no void is farther above or below the tile's
-    /// surface, and range and bounds contain all samples and what fills voids. Otherwise an
+    /// Scene metres. If proven, no sample, and nothing that fills voids, is farther above or below
+    /// the tile's surface, and range and bounds contain all of both. Otherwise an
     /// estimate against the next finer level: the largest distance of every second vertex from the
     /// middle between its neighbours.
     double error = 0.0;
@@ -36,15 +36,7 @@ struct TileSummary {
     double coarse_texel = 0.0;
     bool is_proven = false;
     bool is_finest = false; ///< finer tiles would show nothing more, because files cannot be read
-    bool has_voids = false; ///< if proven: whether there are, and their fill may be farther off
-    /// If proven: its vertices are all samples, and what fills voids is the terrain's surface.
-    bool is_all_samples = false;
     terrain::BlockShares block_shares = terrain::whole_shares; ///< of `error`, if proven
-
-    /// Whether `error` is proven at voids, too.
-    [[nodiscard]] bool is_proven_everywhere() const {
-        return is_proven && (!has_voids || is_all_samples);
-    }
 };
 
 /// A tile of a terrain's quadtree, ready to be drawn.

@@ -167,6 +167,20 @@ std::size_t bytes_of_tile(int texels_per_cell) {
     return bytes_per_tile + static_cast<std::size_t>(bytes_per_texel * more);
 }
 
+namespace {
+
+// Over a plane, rows of the overview are one spacing apart, also those of added poles. Rows of the
+// terrain lie between them as latitudes do, so that its poles are nearer than the overview's:
+// otherwise they would be no even rows, and no error of a coarser tile would hold.
+geo::WrappedRows even_rows(geo::GlobalWrap wrap, int overview_rows) {
+    const int source_rows = overview_rows - wrap.rows();
+    wrap.north = wrap.north_rows();
+    wrap.south = wrap.south_rows();
+    return {wrap, source_rows};
+}
+
+} // namespace
+
 TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain::TileTree tree,
                          int reduction, const ImageryDetail& imagery, const geo::GlobalWrap& wrap)
     : overview_(std::move(overview)), tree_(tree), reduction_{reduction, {}, {}}, imagery_(imagery),
@@ -180,6 +194,10 @@ TileBuilder::TileBuilder(std::shared_ptr<const TerrainSurface> overview, terrain
     reduction_.rows = {wrap, (tree.rows() - 1) / imagery.refinement + 1 - wrap.rows()};
     if (const auto& georeference = overview_->heightfield().georeference) {
         reduction_.overview_rows = georeference->geodetic.rows();
+        if (overview_->placement().kind() == terrain::PlacementKind::plane) {
+            reduction_.overview_rows =
+                even_rows(reduction_.overview_rows.wrap(), overview_->heightfield().heights.rows());
+        }
     }
 }
 
@@ -284,32 +302,12 @@ TileSummary TileBuilder::summary(terrain::TreeTile tile, const terrain::TileProo
     TileSummary summary;
     summary.id = tile;
     summary.range = {proof.low, proof.high};
-    if (proof.has_voids) {
-        const terrain::HeightRange filled = overview_range(tile);
-        summary.range.low = std::min(summary.range.low, filled.low);
-        summary.range.high = std::max(summary.range.high, filled.high);
-    }
     summary.bounds =
         bounds(tile, {summary.range.low - proof.error, summary.range.high + proof.error});
     summary.error = overview_->placement().exaggeration() * proof.error;
     summary.is_proven = true;
-    summary.has_voids = proof.has_voids;
-    summary.is_all_samples = tile.level == level_of_samples();
     summary.block_shares = proof.block_shares;
     return summary;
-}
-
-// Of the overview's samples on a tile and around it: they fill its voids.
-terrain::HeightRange TileBuilder::overview_range(terrain::TreeTile tile) const {
-    const Grid<float>& heights = overview_->heightfield().heights;
-    const glm::ivec2 last_cell(heights.cols() - 2, heights.rows() - 2);
-    const auto cell = [&](glm::ivec2 vertex, int more) {
-        const glm::ivec2 at(glm::floor(on_overview(sample(tile, vertex))));
-        return glm::clamp(at + more, glm::ivec2(0), last_cell);
-    };
-    const terrain::MinMax filled =
-        overview_->pyramid().bounds(cell({0, 0}, -1), cell(tree_.cells(tile), 1));
-    return {filled.low, filled.high};
 }
 
 Grid<float> TileBuilder::overview_heights(terrain::TreeTile tile) const {
@@ -393,7 +391,11 @@ bool TileBuilder::is_outside(glm::dvec2 overview_sample) const {
     return false;
 }
 
-FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights) const {
+FilledHeights TileBuilder::filled(terrain::TreeTile tile, Grid<float> heights,
+                                  Grid<std::uint8_t> was_void) const {
+    if (!was_void.empty()) {
+        return {std::move(heights), std::move(was_void)};
+    }
     const auto samples = heights.samples();
     if (std::all_of(samples.begin(), samples.end(), [](float h) { return std::isfinite(h); })) {
         return {std::move(heights), {}};
@@ -469,13 +471,14 @@ TerrainTile TileBuilder::make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
 }
 
 TerrainTile TileBuilder::make(terrain::TreeTile tile, Grid<float> heights,
-                              const TilePicture& picture) const {
+                              const TilePicture& picture, Grid<std::uint8_t> was_void) const {
     const glm::ivec2 cells = tree_.cells(tile);
     check(heights.cols() == cells.x + 3 && heights.rows() == cells.y + 3,
           "a tile's heights with one around were expected");
     const double share = overview_->imagery_share();
     const bool with_overview = picture.texels.empty() || (!picture.whole && share == 1.0);
-    TerrainTile made = make_part(tile, {0, 0}, filled(tile, std::move(heights)), with_overview);
+    TerrainTile made = make_part(
+        tile, {0, 0}, filled(tile, std::move(heights), std::move(was_void)), with_overview);
     const Grid<float>& placed = made.heightfield.heights;
     made.range = terrain::height_range(placed, {});
     made.heightfield.range = made.range;

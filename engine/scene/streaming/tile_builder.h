@@ -97,11 +97,15 @@ public:
     /// overview; 0 for other tiles.
     [[nodiscard]] double overview_error(terrain::TreeTile tile) const;
     /// A tile's heights with voids filled from its own heights and the overview's. `heights`:
-    /// metres at the vertices and one step around them; NaN: void.
-    [[nodiscard]] FilledHeights filled(terrain::TreeTile tile, Grid<float> heights) const;
-    /// `heights`: as for filled(). Precondition: the picture is empty or has picture_size.
+    /// metres at the vertices and one step around them; NaN: void. `was_void`: where heights are
+    /// filled already (1); empty: they are not.
+    [[nodiscard]] FilledHeights filled(terrain::TreeTile tile, Grid<float> heights,
+                                       Grid<std::uint8_t> was_void = {}) const;
+    /// `heights`, `was_void`: as for filled(). Precondition: the picture is empty or has
+    /// picture_size.
     [[nodiscard]] TerrainTile make(terrain::TreeTile tile, Grid<float> heights,
-                                   const TilePicture& picture = {}) const;
+                                   const TilePicture& picture = {},
+                                   Grid<std::uint8_t> was_void = {}) const;
     /// The four vertices from `vertex` on, without imagery of the tile.
     [[nodiscard]] TerrainTile make_cell(terrain::TreeTile tile, glm::ivec2 vertex,
                                         const FilledHeights& filled) const;
@@ -109,7 +113,8 @@ public:
     /// Between two vertices of a tile.
     [[nodiscard]] Box bounds(terrain::TreeTile tile, glm::ivec2 first_vertex,
                              glm::ivec2 last_vertex, terrain::HeightRange range) const;
-    /// Of a tile with a proof, whether it was read or not, without its images.
+    /// Of a tile with a proof, whether it was read or not, without its images. The range of the
+    /// proof contains what fills voids.
     [[nodiscard]] TileSummary summary(terrain::TreeTile tile,
                                       const terrain::TileProof& proof) const;
     /// A vertex at another height, local metres.
@@ -124,7 +129,6 @@ private:
     [[nodiscard]] Image vertex_colors(const TerrainTile& tile, glm::ivec2 first,
                                       const FilledHeights& filled, bool with_overview) const;
     [[nodiscard]] int texels_per_cell(int level) const;
-    [[nodiscard]] terrain::HeightRange overview_range(terrain::TreeTile tile) const;
     std::shared_ptr<const TerrainSurface> overview_;
     terrain::TileTree tree_;
     terrain::Reduction reduction_;

@@ -307,7 +307,8 @@ void TileStream::load(terrain::TreeTile tile, std::unique_lock<std::mutex>& lock
 
 TileStream::Made TileStream::make(terrain::TreeTile tile, TileContent& content,
                                   const Made& before) const {
-    TerrainTile made = maker_.make(tile, std::move(content.heights), content.picture);
+    TerrainTile made =
+        maker_.make(tile, std::move(content.heights), content.picture, std::move(content.was_void));
     made.of_overview = content.of_overview;
     made.is_finest = content.is_finest;
     if (content.of_overview) {

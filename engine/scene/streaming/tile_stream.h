@@ -28,7 +28,8 @@ namespace reljef::scene {
 /// `picture_errors` only, the tile is drawn, and its picture is read again (and its heights, if
 /// they are the overview's).
 struct TileContent {
-    Grid<float> heights; ///< at its vertices and one step around them; NaN: void
+    Grid<float> heights;              ///< at its vertices and one step around them; NaN: void
+    Grid<std::uint8_t> was_void = {}; ///< 1: filled already; empty: nothing is
     TilePicture picture;
     std::vector<FileError> errors;         ///< one per file
     std::vector<FileError> picture_errors; ///< also of heights that the overview replaces
@@ -74,7 +75,7 @@ struct TileStreamStats {
     int cancelled = 0; ///< requests withdrawn before their tiles arrived
     int evicted = 0;
     std::size_t bytes_read = 0; ///< from files
-    bool is_all_proven = false; ///< but for tiles with voids
+    bool is_all_proven = false;
 };
 
 /// The loaded tiles of a terrain, and the threads that read requested ones. Tiles are shared and

@@ -117,6 +117,10 @@ void repeat_border_rows(Grid<float>& heights, int first, int last) {
     }
 }
 
+/// Metres. A coarser vertex must not be a void beside a finer one that is none, and a pole has one
+/// height at all levels: what is known nowhere near it does not depend on anything.
+constexpr float height_of_void_pole = 0.0F;
+
 /// A level of a globe over the next finer one, near its seam and its poles.
 class ClosedStep {
 public:
@@ -160,7 +164,9 @@ private:
             std::copy(from.begin(), from.end(), pole.row(i).begin());
         }
         const Grid<float> mean = means_around(pole);
-        std::copy(mean.row(0).begin(), mean.row(0).end(), heights.row(row).begin());
+        for (int col = 0; col < heights.cols(); ++col) {
+            heights(col, row) = std::isnan(mean(col, 0)) ? height_of_void_pole : mean(col, 0);
+        }
     }
 
     /// With an odd number of finer cells around, the last cell of this level has only one of them.

@@ -22,8 +22,8 @@ struct PlacedVertices {
 
 /// The vertices of a level that have all vertices of the next finer one around them. `coarser`: of
 /// the result. Those beyond the raster repeat its border; on a globe they are those of the other
-/// side of the seam, and a row on a pole is the mean of that row alone. Precondition: an odd number
-/// of vertices a side.
+/// side of the seam, and a row on a pole is the mean of that row alone, 0 where it is void.
+/// Precondition: an odd number of vertices a side.
 Grid<float> coarser_heights(const Grid<float>& finer, const PlacedVertices& coarser);
 
 } // namespace reljef::terrain

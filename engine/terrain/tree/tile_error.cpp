@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/terrain/tree/level_fill.h"
 #include "engine/terrain/tree/level_residuals.h"
 #include "engine/terrain/tree/level_step.h"
 
@@ -203,20 +204,58 @@ struct PlacedChunk {
     Chunk chunk;
 };
 
-/// A level of a chunk, `levels` above its base, without tiles. `finer`: the level below it.
-ChunkLevel level_above(const PlacedChunk& placed, int levels, const Grid<float>& finer,
-                       const BorderedHeights& base) {
+/// Vertices of a level of a chunk, `levels` above its base. `finer`: of the level below it.
+ChunkLevel level_above(const PlacedChunk& placed, int levels, const Grid<float>& finer) {
     const auto& [tree, chunk] = placed;
-    const glm::ivec2 corner = first_vertex(chunk);
-    const glm::ivec2 first = corner / (1 << levels);
+    const glm::ivec2 first = first_vertex(chunk) / (1 << levels);
     const glm::ivec2 cells = chunk_size(tree, chunk) / (1 << levels);
     ChunkLevel level;
     level.border = ((finer.rows() - 1) / 2 - cells.y - 1) / 2;
     level.heights = coarser_heights(finer, {tree, chunk.base + levels, first - level.border});
-    level.residuals = residuals_over(
-        base, {level.heights, level.border},
-        {coarser_axis(tree, chunk, levels, 0), coarser_axis(tree, chunk, levels, 1)}, cells);
     return level;
+}
+
+/// The base of a chunk and its levels without voids. Differences of levels do not depend on what
+/// fills the highest one.
+std::array<Grid<float>, levels_per_chunk + 1>
+without_voids(const PlacedChunk& placed, const Grid<float>& base, const ChunkProof& proof) {
+    const auto& [tree, chunk] = placed;
+    std::array<Grid<float>, levels_per_chunk + 1> filled;
+    LevelVertices coarser;
+    for (int i = levels_per_chunk; i >= 0; --i) {
+        const auto* const made =
+            i > 0 ? &proof.levels.at(static_cast<std::size_t>(i - 1)) : nullptr;
+        const int border = made != nullptr ? made->border : chunk_border;
+        LevelVertices level{chunk.base + i, first_vertex(chunk) / (1 << i) - border,
+                            made != nullptr ? made->heights : base};
+        if (i == levels_per_chunk) {
+            const auto heights = level.heights.samples();
+            std::replace_if(
+                heights.begin(), heights.end(), [](float h) { return std::isnan(h); }, 0.0F);
+        } else {
+            level = filled_from(tree, std::move(level), coarser);
+        }
+        filled.at(static_cast<std::size_t>(i)) = level.heights;
+        coarser = std::move(level);
+    }
+    return filled;
+}
+
+void add_residuals(const PlacedChunk& placed, const Grid<float>& base, const Residuals* own,
+                   ChunkProof& proof) {
+    const auto& [tree, chunk] = placed;
+    const bool is_filled = has_voids(base);
+    const auto filled = is_filled ? without_voids(placed, base, proof)
+                                  : std::array<Grid<float>, levels_per_chunk + 1>();
+    for (int levels = 1; levels <= levels_per_chunk; ++levels) {
+        ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(levels - 1));
+        const Grid<float>& heights =
+            is_filled ? filled.at(static_cast<std::size_t>(levels)) : made.heights;
+        made.residuals = residuals_over(
+            {is_filled ? filled[0] : base, chunk_border, own}, {heights, made.border},
+            {coarser_axis(tree, chunk, levels, 0), coarser_axis(tree, chunk, levels, 1)},
+            chunk_size(tree, chunk) / (1 << levels));
+    }
 }
 
 } // namespace
@@ -258,9 +297,10 @@ ChunkProof prove_chunk(const TileTree& tree, Chunk chunk, const ChunkInput& inpu
     const Grid<float>* finer = &base;
     for (int i = 0; i < levels_per_chunk; ++i) {
         ChunkLevel& made = proof.levels.at(static_cast<std::size_t>(i));
-        made = level_above({tree, chunk}, i + 1, *finer, {base, chunk_border, input.residuals});
+        made = level_above({tree, chunk}, i + 1, *finer);
         finer = &made.heights;
     }
+    add_residuals({tree, chunk}, base, input.residuals, proof);
     const Grid<TileProof>* below = input.tiles != nullptr ? input.tiles : &ranges.tiles();
     float largest = ranges.largest();
     for (const TileProof& tile : below->samples()) {
@@ -301,6 +341,10 @@ float mixed(float a, float b, double share) {
 /// Bilinear on a tile; vertices without a share may be voids.
 float surface_at(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
                  glm::ivec2 sample) {
+    if (tile.level == 0) {
+        const glm::ivec2 vertex = sample - TileTree::first(tile) + 1;
+        return heights(vertex.x, vertex.y);
+    }
     const glm::ivec2 cell =
         glm::min((sample - TileTree::first(tile)) / TileTree::step(tile), tree.cells(tile) - 1);
     const glm::dvec2 low = tree.place(tree.sample(tile, cell));
@@ -420,7 +464,40 @@ std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeT
     return std::nullopt;
 }
 
+/// Of an error that grows by what each share may grow by.
+template <std::size_t count>
+std::array<std::uint8_t, count> wider_shares(const std::array<std::uint8_t, count>& shares,
+                                             float error, float wider) {
+    std::array<float, count> errors{};
+    std::transform(shares.begin(), shares.end(), errors.begin(), [error](std::uint8_t share) {
+        return error * (static_cast<float>(share) / 255.0F);
+    });
+    return wider > error ? shares_of(errors, wider - error, wider) : shares;
+}
+
 } // namespace
+
+PartShares parts_of(const TileTree& tree, TreeTile tile, const TileProof& proof,
+                    const Grid<float>& heights, const Grid<float>& samples) {
+    const FoundInSamples found = found_in(tree, tile, heights, samples);
+    return shares_of(found.errors, rounding_of(found.proof), proof.error);
+}
+
+TileProof with_fill(const TileProof& proof, HeightRange filled, int level) {
+    TileProof wider = proof;
+    wider.low = std::min(proof.low, std::nextafter(static_cast<float>(filled.low), -infinite));
+    wider.high = std::max(proof.high, std::nextafter(static_cast<float>(filled.high), infinite));
+    if (level > 0) { // the finest level is the surface
+        const float rounding = rounding_of(wider) * static_cast<float>(level + levels_per_chunk);
+        wider.error = std::nextafter(proof.error + rounding, infinite);
+        wider.block_shares = wider_shares(proof.block_shares, proof.error, wider.error);
+    }
+    return wider;
+}
+
+PartShares parts_of_wider(const PartShares& parts, const TileProof& proof, const TileProof& wider) {
+    return wider_shares(parts, proof.error, wider.error);
+}
 
 bool are_parts_of(const PartShares& parts, const BlockShares& blocks) {
     BlockShares largest{};

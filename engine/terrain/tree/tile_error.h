@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/core/grid.h"
+#include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/tree/tile_tree.h"
 
 // The heights of a tree's levels, and a proven bound of how far each tile is from the samples.
@@ -22,7 +23,8 @@
 // Lattices are nested: the difference of two levels is bilinear in each cell of the finer one, and
 // extreme at its vertices. Each cell of the first three levels has the exact range of the
 // difference of its samples from the surface. The next three levels move the ranges of the third by
-// the range of the difference of the two levels over each of its cells, and so on.
+// the range of the difference of the two levels over each of its cells, and so on. Voids are filled
+// (level_fill.h), and what fills them counts as samples do.
 
 namespace reljef::terrain {
 
@@ -57,9 +59,10 @@ struct TileProof {
     /// Lowest and highest sample that is no void; low > high: there is none.
     float low = std::numeric_limits<float>::infinity();
     float high = -std::numeric_limits<float>::infinity();
-    /// No such sample is farther above or below the tile's bilinear surface.
+    /// No sample, and nothing that fills voids, is farther above or below the tile's bilinear
+    /// surface.
     float error = 0.0F;
-    /// Whether there are voids. What fills them may be outside of the heights and the error.
+    /// Whether there are voids. What fills them may be outside of the heights.
     bool has_voids = false;
     BlockShares block_shares = whole_shares;
     /// `low` and `high` may be this much farther apart on either side, metres.
@@ -73,7 +76,7 @@ struct TileProof {
     friend bool operator==(const TileProof&, const TileProof&) = default;
 };
 
-/// Per cell, the range of samples minus surface, metres; low > high: no samples.
+/// Per cell, the range of samples minus surface, metres; low > high: outside the raster.
 struct Residuals {
     Grid<float> low;
     Grid<float> high;
@@ -136,6 +139,16 @@ int sample_border(int level);
 /// Heights at the vertices of a tile and one step around them, from its samples and sample_border()
 /// samples around them; both repeat the raster's border.
 Grid<float> heights_from_samples(const TileTree& tree, TreeTile tile, Grid<float> samples);
+
+/// The parts of a tile whose voids are filled. `heights`, `samples`: as for check_proof, filled.
+PartShares parts_of(const TileTree& tree, TreeTile tile, const TileProof& proof,
+                    const Grid<float>& heights, const Grid<float>& samples);
+
+/// The proof of a tile with voids: its range contains what fills them, from `filled.low` to
+/// `filled.high` metres, and its error what floats round of that.
+TileProof with_fill(const TileProof& proof, HeightRange filled, int level);
+/// The parts of a proof for the same one with a larger error.
+PartShares parts_of_wider(const PartShares& parts, const TileProof& proof, const TileProof& wider);
 
 /// Whether the largest shares of the parts of each block are those of the blocks.
 bool are_parts_of(const PartShares& parts, const BlockShares& blocks);

@@ -144,13 +144,7 @@ constexpr double errors_of_gaps = 16.0;
 // Scene metres.
 double error_of(const TileDraw& draw) {
     const scene::TerrainTile& tile = *draw.tile;
-    if (!tile.is_proven) {
-        return errors_of_gaps * tile.error;
-    }
-    // Voids are filled differently at each level.
-    const double range =
-        draw.terrain->surface->placement().exaggeration() * (tile.range.high - tile.range.low);
-    return tile.has_voids ? std::max(tile.error, range) : tile.error;
+    return tile.is_proven ? tile.error : errors_of_gaps * tile.error;
 }
 
 // Metres along the vertical, at a place in local metres.

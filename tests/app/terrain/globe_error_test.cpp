@@ -26,13 +26,18 @@ constexpr std::size_t memory_of_globe_truth = std::size_t{4} << 20U;
 
 /// An ESRI grid of whole metres, and its coordinate system. Its cells are square.
 void write(const test::MadeGlobe& globe, const test::TemporaryFolder& folder) {
+    constexpr int no_height = -9999;
     std::string text =
-        fmt::format("ncols {}\nnrows {}\nxllcenter {:.12f}\nyllcenter {:.12f}\ncellsize {:.15f}\n",
+        fmt::format("ncols {}\nnrows {}\nxllcenter {:.12f}\nyllcenter {:.12f}\ncellsize {:.15f}\n"
+                    "NODATA_value {}\n",
                     globe.cols + (globe.repeats ? 1 : 0), globe.rows, globe.longitude(0),
-                    globe.latitude(globe.rows - 1), globe.col_step());
+                    globe.latitude(globe.rows - 1), globe.col_step(), no_height);
     for (int row = 0; row < globe.rows; ++row) {
         for (int col = 0; col < globe.cols + (globe.repeats ? 1 : 0); ++col) {
-            text += fmt::format("{} ", globe.height(col % globe.cols, row));
+            const int around = col % globe.cols;
+            text += fmt::format("{} ", globe.is_void(around, row)
+                                           ? no_height
+                                           : static_cast<int>(globe.height(around, row)));
         }
         text += "\n";
     }
@@ -42,11 +47,17 @@ void write(const test::MadeGlobe& globe, const test::TemporaryFolder& folder) {
                               "UNIT[\"degree\",0.0174532925199433]]");
 }
 
-class GlobeError : public testing::TestWithParam<test::MadeGlobe> {
+struct PlacedGlobe {
+    test::MadeGlobe globe;
+    terrain::PlacementKind placement = terrain::PlacementKind::ellipsoid;
+};
+
+class GlobeError : public testing::TestWithParam<PlacedGlobe> {
 protected:
     void SetUp() override {
         RELJEF_RELEASE_ONLY("draws dozens of views");
-        write(GetParam(), folder_);
+        write(GetParam().globe, folder_);
+        choice_.placement = GetParam().placement;
         choice_.terrain = (folder_.path() / "globe.asc").string();
         choice_.memory_megabytes = 2;
         choice_.streamed = true;
@@ -109,7 +120,7 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
     test::Chance chance(17);
     constexpr int views = 12;
     for (int i = 0; i < views; ++i) {
-        const double high = GetParam().has_poles ? 90.0 : 60.0;
+        const double high = GetParam().globe.has_poles ? 90.0 : 60.0;
         const std::array latitudes{high, -high, chance.between(-high, high), chance.between(-5, 5)};
         const std::array longitudes{chance.between(-180.0, 180.0), 180.0, -179.9, 179.9};
         const double latitude = std::clamp(
@@ -128,15 +139,23 @@ TEST_P(GlobeError, of_no_pixel_is_more_than_the_frame_states) {
         camera.up = placement.north(*eye);
         expect_kept(*scene, frames, *truth);
     }
-    EXPECT_GT(shown_, views * globe_picture.x * globe_picture.y / 2);
+    const bool has_edges = GetParam().placement == terrain::PlacementKind::plane;
+    EXPECT_GT(shown_, views * globe_picture.x * globe_picture.y / (has_edges ? 4 : 2));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Globes, GlobeError,
-    testing::Values(test::MadeGlobe{.cols = 700, .rows = 350},
-                    test::MadeGlobe{.cols = 640, .rows = 321, .on_lines = true},
-                    test::MadeGlobe{.cols = 640, .rows = 321, .on_lines = true, .repeats = true},
-                    test::MadeGlobe{.cols = 648, .rows = 270, .has_poles = false}));
+    testing::Values(
+        PlacedGlobe{{.cols = 700, .rows = 350}},
+        PlacedGlobe{{.cols = 640, .rows = 321, .on_lines = true}},
+        PlacedGlobe{{.cols = 640, .rows = 321, .on_lines = true, .repeats = true}},
+        PlacedGlobe{{.cols = 648, .rows = 270, .has_poles = false}},
+        PlacedGlobe{{.cols = 700, .rows = 350, .voids = 0.1}},
+        PlacedGlobe{{.cols = 640, .rows = 321, .on_lines = true, .voids = 0.3}},
+        PlacedGlobe{{.cols = 648, .rows = 270, .has_poles = false, .voids = 0.5}},
+        PlacedGlobe{{.cols = 700, .rows = 350}, terrain::PlacementKind::plane},
+        PlacedGlobe{{.cols = 700, .rows = 350, .voids = 0.2}, terrain::PlacementKind::plane},
+        PlacedGlobe{{.cols = 640, .rows = 321, .on_lines = true}, terrain::PlacementKind::plane}));
 
 } // namespace
 } // namespace reljef::app

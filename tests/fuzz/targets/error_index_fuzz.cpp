@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "engine/io/index/index_pass.h"
+#include "engine/io/index/indexed_tile.h"
 #include "tests/fuzz/fuzz_input.h"
 #include "tests/fuzz/fuzz_targets.h"
 #include "tests/fuzz/made_dem.h"

@@ -7,6 +7,7 @@
 
 #include "engine/io/index/column_runs.h"
 #include "engine/io/index/index_pass.h"
+#include "engine/io/index/indexed_tile.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/release_only.h"
 #include "tests/support/temporary_folder.h"

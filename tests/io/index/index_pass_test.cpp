@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/io/index/indexed_tile.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/plain_permissions.h"

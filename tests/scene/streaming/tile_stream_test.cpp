@@ -184,20 +184,18 @@ TEST(TileStreams, ProvenTilesHaveTheSameSummaryUnreadReadAndEvicted) {
     EXPECT_FALSE(stream.recall({0, 3, 3})); // unread, unproven
 }
 
-// What fills a void may be higher than all samples of its tile.
-TEST(TileStreams, BoundsOfProvenTilesContainWhatFillsVoids) {
+// What fills a void may be higher than all samples of its tile: the range of a proof contains it.
+TEST(TileStreams, BoundsOfProvenTilesContainTheRangeOfTheirProof) {
     const TileBuilder builder = maker();
     terrain::TileProof proof;
     proof.low = 1e4F;
     proof.high = 1e4F;
     const TreeTile tile{0, 3, 3};
     EXPECT_EQ(builder.summary(tile, proof).range.low, 1e4);
-    proof.has_voids = true;
-    const TileSummary summary = builder.summary(tile, proof);
-    const TerrainTile made = builder.make(tile, builder.overview_heights(tile));
-    EXPECT_LE(summary.range.low, made.range.low);
-    EXPECT_EQ(summary.range.high, 1e4);
-    EXPECT_LE(summary.bounds.low.z, made.bounds.low.z);
+    const TileSummary summary = builder.summary(tile, terrain::with_fill(proof, {-5.0, 2e4}, 0));
+    EXPECT_LE(summary.range.low, -5.0);
+    EXPECT_GE(summary.range.high, 2e4);
+    EXPECT_LE(summary.bounds.low.z, -5.0);
 }
 
 TEST(TileStreams, CancelWhatIsPassedBy) {
