@@ -94,27 +94,12 @@ std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
         content.parts = found->parts;
     }
     content.errors = found->errors;
-    const bool is_part = tile.level < level_of_samples_;
-    if (is_part) {
-        const Part shown = part(tile, {found->heights.cols(), found->heights.rows()});
-        content.heights = Grid<float>(shown.count.x, shown.count.y);
-        const bool has_voids = !found->was_void.empty();
-        content.was_void =
-            has_voids ? Grid<std::uint8_t>(shown.count.x, shown.count.y) : Grid<std::uint8_t>();
-        for (int row = 0; row < shown.count.y; ++row) {
-            for (int col = 0; col < shown.count.x; ++col) {
-                const glm::dvec2 place = shown.place({col, row});
-                const glm::ivec2 nearest(glm::round(place));
-                content.heights(col, row) = height_between(found->heights, place);
-                if (has_voids) {
-                    content.was_void(col, row) = found->was_void.clamped(nearest.x, nearest.y);
-                }
-            }
-        }
-    } else {
-        content.heights = std::move(found->heights);
-        content.was_void = std::move(found->was_void);
-    }
+    scene::FilledHeights shown =
+        tile.level < level_of_samples_
+            ? part(tile, found->heights, found->was_void)
+            : scene::FilledHeights{std::move(found->heights), std::move(found->was_void)};
+    content.heights = std::move(shown.heights);
+    content.was_void = std::move(shown.was_void);
     return content;
 }
 
@@ -123,18 +108,30 @@ std::optional<FileError> ProvenTiles::take_error() const {
     return std::exchange(error_, std::nullopt);
 }
 
-glm::dvec2 ProvenTiles::Part::place(glm::ivec2 vertex) const {
-    return (glm::dvec2(first + vertex) - 1.0) / static_cast<double>(cells_of_sample) + 1.0;
-}
-
-ProvenTiles::Part ProvenTiles::part(terrain::TreeTile tile, glm::ivec2 samples) const {
+scene::FilledHeights ProvenTiles::part(terrain::TreeTile tile, const Grid<float>& samples,
+                                       const Grid<std::uint8_t>& was_void) const {
     const int cells_of_sample = 1 << (level_of_samples_ - tile.level);
-    const glm::ivec2 cells = (samples - 3) * cells_of_sample;
+    const glm::ivec2 cells = (glm::ivec2(samples.cols(), samples.rows()) - 3) * cells_of_sample;
     const glm::ivec2 first = glm::ivec2(tile.col % cells_of_sample, tile.row % cells_of_sample) *
                              terrain::tree_tile_cells;
     const glm::ivec2 count =
         glm::min(cells - first, glm::ivec2(terrain::tree_tile_cells)) + 3; // one step around, too
-    return {first, count, cells_of_sample};
+    scene::FilledHeights shown{Grid<float>(count.x, count.y), {}};
+    if (!was_void.empty()) {
+        shown.was_void = Grid<std::uint8_t>(count.x, count.y);
+    }
+    for (int row = 0; row < count.y; ++row) {
+        for (int col = 0; col < count.x; ++col) {
+            const glm::dvec2 vertex = glm::dvec2(first + glm::ivec2(col, row)) - 1.0;
+            const glm::dvec2 place = vertex / static_cast<double>(cells_of_sample) + 1.0;
+            shown.heights(col, row) = height_between(samples, place);
+            if (!was_void.empty()) {
+                const glm::ivec2 nearest(glm::round(place));
+                shown.was_void(col, row) = was_void.clamped(nearest.x, nearest.y);
+            }
+        }
+    }
+    return shown;
 }
 
 } // namespace reljef::session

@@ -36,16 +36,10 @@ private:
     void contradict(const std::string& error) const;
     /// The tile of the index that a tile of the stream is, or is a part of.
     [[nodiscard]] terrain::TreeTile indexed(terrain::TreeTile tile) const;
-    /// The vertices that a tile finer than the samples has of a tile of all samples. `samples`: as
-    /// TileContent::heights.
-    struct Part {
-        glm::ivec2 first{0}; ///< vertex
-        glm::ivec2 count{0}; ///< with one step around
-        int cells_of_sample = 1;
-        /// The place of a vertex among the samples.
-        [[nodiscard]] glm::dvec2 place(glm::ivec2 vertex) const;
-    };
-    [[nodiscard]] Part part(terrain::TreeTile tile, glm::ivec2 samples) const;
+    /// The vertices that a tile finer than the samples has of a tile of all samples, with one step
+    /// around them. `was_void`: as TileContent::was_void.
+    [[nodiscard]] scene::FilledHeights part(terrain::TreeTile tile, const Grid<float>& samples,
+                                            const Grid<std::uint8_t>& was_void) const;
 
     io::IndexSource source_;
     io::ErrorIndex index_;
