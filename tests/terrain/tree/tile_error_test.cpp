@@ -9,11 +9,10 @@
 
 #include "tests/support/release_only.h"
 #include "tests/terrain/chance.h"
+#include "tests/terrain/tree/rough_terrain.h"
 
 namespace reljef::terrain {
 namespace {
-
-constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
 /// A height of a level; beyond it those of the other side of a globe, or of the border.
 float height_around(const TileTree& tree, const Grid<float>& heights, glm::ivec2 at) {
@@ -278,36 +277,6 @@ ExactProof exact_proof(const TileTree& tree, TreeTile tile, const Grid<float>& s
     }
     proof.error = static_cast<float>(error);
     return proof;
-}
-
-Grid<float> made_terrain(test::Chance& chance, int cols, int rows) {
-    Grid<float> heights(cols, rows);
-    const double rough = std::exp(chance.between(-3.0, 5.0));
-    const double wave = chance.between(0.005, 0.3);
-    const double base = chance.between(-500.0, 4000.0);
-    const bool whole = chance.one_in(2);
-    for (int row = 0; row < rows; ++row) {
-        for (int col = 0; col < cols; ++col) {
-            const double height = base + 300.0 * std::sin(wave * col) * std::cos(0.7 * wave * row) +
-                                  chance.between(-rough, rough);
-            heights(col, row) = static_cast<float>(whole ? std::round(height) : height);
-        }
-    }
-    return heights;
-}
-
-void add_voids(test::Chance& chance, Grid<float>& heights) {
-    for (int n = chance.whole(1, 8); n > 0; --n) {
-        const int cols = chance.whole(1, std::min(300, heights.cols()));
-        const int rows = chance.whole(1, std::min(300, heights.rows()));
-        const int left = chance.whole(0, heights.cols() - cols);
-        const int top = chance.whole(0, heights.rows() - rows);
-        for (int row = top; row < top + rows; ++row) {
-            for (int col = left; col < left + cols; ++col) {
-                heights(col, row) = chance.one_in(500) ? heights(col, row) : no_height;
-            }
-        }
-    }
 }
 
 /// Checks all tiles of a terrain; returns bound over exact error of the coarser ones.
