@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -27,6 +28,14 @@ protected:
     }
     /// `raise`: metres.
     void write_cell(const std::string& name, int west, int south, int raise = 0) const {
+        static std::map<std::tuple<int, int, int>, std::string> made; // once for all tests
+        std::string& bytes = made[{west, south, raise}];
+        if (bytes.empty()) {
+            bytes = cell_bytes(west, south, raise);
+        }
+        folder_.write("tiles/" + name, bytes);
+    }
+    static std::string cell_bytes(int west, int south, int raise) {
         constexpr int side = 1201;
         std::string bytes;
         for (int row = 0; row < side; ++row) {
@@ -40,7 +49,7 @@ protected:
                 bytes.push_back(static_cast<char>(height & 0xff));
             }
         }
-        folder_.write("tiles/" + name, bytes);
+        return bytes;
     }
     /// For the application's own calls, whose caches XDG_CACHE_HOME keeps here.
     [[nodiscard]] session::SourceOptions streamed_choice() const {
