@@ -71,7 +71,8 @@ if(RELJEF_SANITIZE)
   endif()
 endif()
 
-# Programs and tests only call the engine, where the time goes: they need not be optimised as it is.
+# Programs, tests and the session only call the other rooms, where the time goes: they need not be
+# optimised as these are.
 add_library(reljef_quick_build INTERFACE)
 target_compile_options(reljef_quick_build INTERFACE $<$<CONFIG:Release>:-O1>)
 target_link_libraries(reljef_quick_build INTERFACE reljef_quickly_sanitized)

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
-#include "engine/io/index/indexed_tile.h"
-
 namespace reljef::session {
 namespace {
 
@@ -20,7 +18,8 @@ float height_between(const Grid<float>& samples, glm::dvec2 place) {
     double sum = 0.0;
     for (const glm::ivec2 corner : {glm::ivec2(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
         const glm::dvec2 along = glm::mix(1.0 - part, part, glm::dvec2(corner));
-        sum += along.x * along.y * samples.clamped(low.x + corner.x, low.y + corner.y);
+        const double share = along.x * along.y;
+        sum += share > 0.0 ? share * samples.clamped(low.x + corner.x, low.y + corner.y) : 0.0;
     }
     return static_cast<float>(sum);
 }
@@ -41,7 +40,7 @@ bool agrees(const terrain::TileProof& proof, const terrain::TileProof& parent) {
 } // namespace
 
 ProvenTiles::ProvenTiles(io::IndexSource source, io::ErrorIndex index, int refinement)
-    : source_(std::move(source)), index_(std::move(index)),
+    : source_(std::move(source)), index_(std::move(index)), tiles_(source_, index_),
       level_of_samples_(std::countr_zero(static_cast<unsigned>(refinement))) {}
 
 terrain::TreeTile ProvenTiles::indexed(terrain::TreeTile tile) const {
@@ -49,20 +48,25 @@ terrain::TreeTile ProvenTiles::indexed(terrain::TreeTile tile) const {
     return {std::max(0, tile.level - level_of_samples_), tile.col >> finer, tile.row >> finer};
 }
 
-std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) const {
-    const terrain::TreeTile at = indexed(tile);
+bool ProvenTiles::may_be_proven(terrain::TreeTile at) const {
     const auto proof = is_wrong_ ? std::nullopt : index_.find(at);
     if (!proof) {
-        return std::nullopt;
+        return false;
     }
     const auto parent = index_.find({at.level + 1, at.col / 2, at.row / 2});
     if (!is_possible(*proof) || (parent && !agrees(*proof, *parent))) {
         contradict(fmt::format("{}: tile ({},{}) of level {}: found heights beyond those of the "
                                "coarser tile, heights within them were expected",
                                source_.file.string(), at.col, at.row, at.level));
-        return std::nullopt;
+        return false;
     }
-    return io::proof_with_fill(source_, index_, at);
+    return true;
+}
+
+std::optional<terrain::TileProof> ProvenTiles::find(terrain::TreeTile tile) const {
+    const terrain::TreeTile at = indexed(tile);
+    const auto proof = may_be_proven(at) ? tiles_.proof(at) : std::nullopt;
+    return proof && is_possible(*proof) ? proof : std::nullopt;
 }
 
 void ProvenTiles::contradict(const std::string& error) const {
@@ -74,10 +78,10 @@ void ProvenTiles::contradict(const std::string& error) const {
 
 std::optional<scene::TileContent> ProvenTiles::read(terrain::TreeTile tile,
                                                     const std::stop_token& stop) const {
-    if (!find(tile)) {
+    if (!may_be_proven(indexed(tile))) {
         return std::nullopt;
     }
-    auto found = io::read_indexed_tile(source_, index_, indexed(tile), stop);
+    auto found = tiles_.read(indexed(tile), stop);
     if (!found) {
         return std::nullopt;
     }

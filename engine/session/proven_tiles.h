@@ -7,6 +7,7 @@
 #include <stop_token>
 
 #include "engine/io/index/error_index.h"
+#include "engine/io/index/indexed_tile.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/terrain/tree/tile_error.h"
 
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] std::optional<FileError> take_error() const;
 
 private:
+    /// Whether a tile of the index may be proven, as far as the index tells.
+    [[nodiscard]] bool may_be_proven(terrain::TreeTile at) const;
     void contradict(const std::string& error) const;
     /// The tile of the index that a tile of the stream is, or is a part of.
     [[nodiscard]] terrain::TreeTile indexed(terrain::TreeTile tile) const;
@@ -43,6 +46,7 @@ private:
 
     io::IndexSource source_;
     io::ErrorIndex index_;
+    io::IndexedTiles tiles_; ///< of these two
     int level_of_samples_;
     mutable std::atomic<bool> is_wrong_{false};
     mutable std::mutex mutex_;

@@ -44,8 +44,8 @@ struct FrameStats {
     int tiles_missing = 0;   ///< streamed tiles that are not loaded; coarser ones are drawn
     int tiles_cut = 0;       ///< tiles with new triangles
     /// Drawn tiles whose error is an estimate, and those that an unproven search shows. Their
-    /// pixels, and those of walls beside them, may be farther off than `kept_error`. Coarse tiles
-    /// with voids count, and all tiles of a terrain whose samples are averages.
+    /// pixels, and those of walls beside them, may be farther off than `kept_error`. All tiles of a
+    /// terrain whose samples are averages count.
     int tiles_unproven = 0;
     /// No pixel of the other tiles and of meshes is farther off, pixels; absent: there is no error
     /// bound, or no other tile.

@@ -1,6 +1,8 @@
 #include "engine/session/proven_tiles.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -56,6 +58,19 @@ protected:
     std::unique_ptr<const ProvenTiles> proofs_;
     io::WrappedGrid ground_;
 };
+
+// Within two vertices. `voids`: 1: a void; empty: none.
+bool is_near_void(const Grid<std::uint8_t>& voids, glm::ivec2 vertex) {
+    constexpr int reach = 2;
+    for (int row = vertex.y - reach; row <= vertex.y + reach && !voids.empty(); ++row) {
+        for (int col = vertex.x - reach; col <= vertex.x + reach; ++col) {
+            if (voids.clamped(col, row) != 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
 
 /// Height of a tile's surface at a sample of its tree.
 double surface_of(const terrain::TileTree& tree, terrain::TreeTile tile, const Grid<float>& heights,
@@ -116,13 +131,15 @@ TEST_F(RefinedTree, TilesBelowTheSamplesAreThoseReadWithoutAnIndex) {
             for (int col = 0; col < plain.heights.cols(); ++col) {
                 const double found = content->heights(col, row);
                 const double expected = plain.heights(col, row);
-                const bool has_voids = !content->was_void.empty(); // around them, fills differ
-                const bool was_void = has_voids && content->was_void(col, row) != 0;
+                const bool was_void =
+                    !content->was_void.empty() && content->was_void(col, row) != 0;
                 voids += was_void ? 1 : 0;
                 EXPECT_TRUE(std::isfinite(found));
                 EXPECT_EQ(was_void, std::isnan(expected)) << tile.level << " " << tile.col << " "
                                                           << tile.row << ": " << col << " " << row;
-                worst = has_voids ? worst : std::max(worst, std::abs(found - expected));
+                if (!is_near_void(content->was_void, {col, row})) { // there, fills differ
+                    worst = std::max(worst, std::abs(found - expected));
+                }
             }
         }
         EXPECT_LT(worst, 1e-3) << tile.level << " " << tile.col << " " << tile.row;

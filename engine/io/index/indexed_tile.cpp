@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <limits>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,11 +15,45 @@
 #include "engine/terrain/tree/level_fill.h"
 
 namespace reljef::io {
-namespace {
 
 using terrain::LevelVertices;
 using terrain::TileProof;
 using terrain::TreeTile;
+
+/// The filled heights of stored tiles: tiles in them need these again.
+class IndexedTiles::Fills {
+public:
+    /// Null: they cannot be filled.
+    using Filled = std::shared_ptr<const LevelVertices>;
+
+    template <class Make> Filled find_or_make(TreeTile tile, const Make& make) {
+        {
+            const std::lock_guard lock(mutex_);
+            const auto found = std::find_if(last_.begin(), last_.end(),
+                                            [&](const Entry& entry) { return entry.tile == tile; });
+            if (found != last_.end()) {
+                return found->filled;
+            }
+        }
+        Filled filled = make();
+        const std::lock_guard lock(mutex_);
+        last_.push_front({tile, filled});
+        last_.resize(std::min(last_.size(), kept_tiles));
+        return filled;
+    }
+
+private:
+    static constexpr std::size_t kept_tiles = 32; // 18 kB each
+    struct Entry {
+        TreeTile tile;
+        Filled filled;
+    };
+
+    std::mutex mutex_;
+    std::deque<Entry> last_;
+};
+
+namespace {
 
 /// A tile whose voids are not filled.
 struct TileWithVoids {
@@ -34,11 +71,12 @@ Grid<std::uint8_t> voids_of(const Grid<float>& heights) {
     return voids;
 }
 
-/// Reads tiles of an index, and fills their voids.
-class FilledTiles {
+/// Reads tiles of an index, and fills their voids. `Fills`: IndexedTiles::Fills.
+template <class Fills> class FilledTiles {
 public:
-    FilledTiles(const IndexSource& source, const ErrorIndex& index, std::stop_token stop)
-        : source_(source), index_(index), stop_(std::move(stop)) {}
+    FilledTiles(const IndexSource& source, const ErrorIndex& index, Fills& fills,
+                std::stop_token stop)
+        : source_(source), index_(index), fills_(fills), stop_(std::move(stop)) {}
 
     /// Absent if the index does not have it.
     [[nodiscard]] std::optional<TileWithVoids> read(TreeTile tile) {
@@ -67,19 +105,38 @@ public:
         if (tile == source_.tree.root()) {
             return filled_root(std::move(vertices));
         }
-        const TreeTile parent{tile.level + 1, tile.col / 2, tile.row / 2};
-        auto coarser = read(parent);
-        if (!coarser || !coarser->errors.empty()) {
-            return std::nullopt;
-        }
-        const auto around = filled(parent, std::move(coarser->vertices));
-        return around ? std::optional(filled_from(source_.tree, std::move(vertices), *around))
-                      : std::nullopt;
+        const auto around = filled_parent({tile.level + 1, tile.col / 2, tile.row / 2});
+        return around != nullptr
+                   ? std::optional(filled_from(source_.tree, std::move(vertices), *around))
+                   : std::nullopt;
     }
+
+    /// A stored tile. Null if it or coarser ones cannot be read.
+    [[nodiscard]] typename Fills::Filled filled_stored(TreeTile tile) {
+        return fills_.find_or_make(tile, [&] { return made_filled(tile); });
+    }
+
+    /// Of coarser tiles, if these cannot be read.
+    [[nodiscard]] const std::vector<FileError>& errors() const { return errors_; }
     /// Of samples, so far.
     [[nodiscard]] std::size_t bytes_read() const { return bytes_read_; }
 
 private:
+    [[nodiscard]] typename Fills::Filled filled_parent(TreeTile parent) {
+        return parent.level < ErrorIndex::first_stored_level ? made_filled(parent)
+                                                             : filled_stored(parent);
+    }
+
+    [[nodiscard]] typename Fills::Filled made_filled(TreeTile tile) {
+        auto found = read(tile);
+        if (!found || !found->errors.empty()) {
+            errors_ = found ? std::move(found->errors) : std::move(errors_);
+            return nullptr;
+        }
+        auto made = filled(tile, std::move(found->vertices));
+        return made ? std::make_shared<const LevelVertices>(std::move(*made)) : nullptr;
+    }
+
     void read_samples(TreeTile tile, TileWithVoids& found) {
         const int border = terrain::sample_border(tile.level);
         const glm::ivec2 size =
@@ -108,7 +165,9 @@ private:
 
     const IndexSource& source_;
     const ErrorIndex& index_;
+    Fills& fills_;
     std::stop_token stop_;
+    std::vector<FileError> errors_;
     std::size_t bytes_read_ = 0;
 };
 
@@ -132,29 +191,47 @@ void check_with_proof(const IndexSource& source, TreeTile tile, const TileWithVo
     }
 }
 
-/// The heights of a tile that covers another one, or those of the tile, over the other one.
-terrain::HeightRange range_over(const terrain::TileTree& tree, TreeTile tile,
-                                const LevelVertices& vertices) {
+/// The heights of a tile that covers another one, or those of the tile, over the other one. Absent
+/// if some are no numbers, or infinite.
+std::optional<terrain::HeightRange> range_over(const terrain::TileTree& tree, TreeTile tile,
+                                               const LevelVertices& vertices) {
     const int step = 1 << vertices.level;
     const glm::ivec2 first = terrain::TileTree::first(tile) / step - vertices.first;
     const glm::ivec2 last =
         (tree.sample(tile, tree.cells(tile)) + step - 1) / step - vertices.first;
-    terrain::HeightRange range{vertices.heights(first.x, first.y),
-                               vertices.heights(first.x, first.y)};
+    terrain::HeightRange range{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
     for (int row = first.y; row <= last.y; ++row) {
         for (int col = first.x; col <= last.x; ++col) {
             const double height = vertices.heights(col, row);
+            if (!std::isfinite(height)) {
+                return std::nullopt;
+            }
             range = {std::min(range.low, height), std::max(range.high, height)};
         }
     }
     return range;
 }
 
+/// Of a small terrain all heights, and void poles.
+terrain::HeightRange range_of_all(const terrain::TileTree& tree, const TileProof& proof) {
+    const bool has_heights = proof.low <= proof.high;
+    if (has_heights && !tree.wrap().begins_at_pole && !tree.wrap().ends_at_pole) {
+        return {proof.low, proof.high};
+    }
+    return {has_heights ? std::min(proof.low, 0.0F) : 0.0F,
+            has_heights ? std::max(proof.high, 0.0F) : 0.0F};
+}
+
 } // namespace
 
-std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const ErrorIndex& index,
-                                             TreeTile tile, const std::stop_token& stop) {
-    FilledTiles tiles(source, index, stop);
+IndexedTiles::IndexedTiles(const IndexSource& source, const ErrorIndex& index)
+    : source_(source), index_(index), fills_(std::make_unique<Fills>()) {}
+
+IndexedTiles::~IndexedTiles() = default;
+
+std::optional<IndexedTile> IndexedTiles::read(TreeTile tile, const std::stop_token& stop) const {
+    FilledTiles tiles(source_, index_, *fills_, stop);
     auto found = tiles.read(tile);
     if (!found) {
         return std::nullopt;
@@ -162,64 +239,69 @@ std::optional<IndexedTile> read_indexed_tile(const IndexSource& source, const Er
     IndexedTile result;
     result.errors = found->errors;
     result.bytes_read = tiles.bytes_read();
-    result.proof = index.find(tile);
+    result.proof = index_.find(tile);
     result.parts = found->parts;
+    if (result.proof && result.errors.empty()) {
+        check_with_proof(source_, tile, *found, result);
+    }
     if (!result.proof || !result.errors.empty()) {
         result.heights = std::move(found->vertices.heights);
         return result;
     }
-    check_with_proof(source, tile, *found, result);
-    const Grid<float>& heights = found->vertices.heights;
-    const bool has_void_samples = result.proof && result.proof->has_voids;
-    if (terrain::has_voids(heights)) {
-        result.was_void = voids_of(heights);
+    if (terrain::has_voids(found->vertices.heights)) {
+        result.was_void = voids_of(found->vertices.heights);
     }
-    auto filled = tiles.filled(tile, std::move(found->vertices));
+    auto filled = tiles.filled(tile, found->vertices);
+    result.bytes_read = tiles.bytes_read();
     if (!filled) {
-        return std::nullopt;
+        if (tiles.errors().empty()) {
+            return std::nullopt;
+        }
+        result.errors = tiles.errors();
+        result.proof.reset();
+        result.heights = std::move(found->vertices.heights);
+        return result;
     }
-    if (has_void_samples && tile.level > 0 && !found->samples.empty()) {
-        const Grid<float> samples =
-            filled_samples(source.tree, tile, std::move(found->samples), filled->heights);
-        result.parts = parts_of(source.tree, tile, *result.proof, filled->heights, samples);
-    }
-    if (const auto wider = has_void_samples ? proof_with_fill(source, index, tile) : std::nullopt) {
-        result.parts = parts_of_wider(result.parts, *result.proof, *wider);
+    if (result.proof->has_voids) {
+        if (tile.level > 0 && !found->samples.empty()) {
+            const Grid<float> samples =
+                filled_samples(source_.tree, tile, std::move(found->samples), filled->heights);
+            result.parts = parts_of(source_.tree, tile, *result.proof, filled->heights, samples);
+        }
+        const auto wider = proof(tile);
+        if (wider) {
+            result.parts = parts_of_wider(result.parts, *result.proof, *wider);
+        }
+        result.proof = wider;
     }
     result.heights = std::move(filled->heights);
-    result.bytes_read = tiles.bytes_read();
     return result;
 }
 
-std::optional<TileProof> proof_with_fill(const IndexSource& source, const ErrorIndex& index,
-                                         TreeTile tile) {
-    auto proof = index.find(tile);
+std::optional<TileProof> IndexedTiles::proof(TreeTile tile) const {
+    auto proof = index_.find(tile);
     if (!proof || !proof->has_voids) {
         return proof;
     }
     TreeTile over = tile; // the finest one with stored heights
-    while (over.level < std::min(ErrorIndex::first_stored_level, source.tree.root().level)) {
+    while (over.level < std::min(ErrorIndex::first_stored_level, source_.tree.root().level)) {
         over = {over.level + 1, over.col / 2, over.row / 2};
     }
-    const auto coarse = index.find(over);
+    const auto coarse = index_.find(over);
     if (!coarse) {
         return std::nullopt;
     }
-    // Of a small terrain, of all heights, and of void poles.
-    const bool has_heights = coarse->low <= coarse->high;
-    terrain::HeightRange range{has_heights ? std::min(coarse->low, 0.0F) : 0.0F,
-                               has_heights ? std::max(coarse->high, 0.0F) : 0.0F};
-    if (over.level >= ErrorIndex::first_stored_level) {
-        FilledTiles tiles(source, index, {});
-        auto stored = tiles.read(over);
-        const auto filled = stored ? tiles.filled(over, std::move(stored->vertices)) : std::nullopt;
-        if (!filled) {
-            return std::nullopt;
-        }
-        range = range_over(source.tree, tile, *filled);
-        range = {range.low - coarse->error, range.high + coarse->error};
+    if (over.level < ErrorIndex::first_stored_level) {
+        return terrain::with_fill(*proof, range_of_all(source_.tree, *coarse), tile.level);
     }
-    return terrain::with_fill(*proof, range, tile.level);
+    const auto filled =
+        FilledTiles(source_, index_, *fills_, std::stop_token()).filled_stored(over);
+    const auto range = filled != nullptr ? range_over(source_.tree, tile, *filled) : std::nullopt;
+    if (!range) {
+        return std::nullopt;
+    }
+    return terrain::with_fill(*proof, {range->low - coarse->error, range->high + coarse->error},
+                              tile.level);
 }
 
 } // namespace reljef::io

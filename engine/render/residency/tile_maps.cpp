@@ -1,6 +1,7 @@
 #include "engine/render/residency/tile_maps.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "engine/render/residency/uploads.h"
@@ -103,9 +104,21 @@ void TileMaps::forget_lights(const view::DrawList& list) {
             });
         light.shown = is_shown ? frame_ : light.shown;
     }
-    std::erase_if(lights_, [&](const SharedLight& light) {
-        return light.owner.expired() || light.shown + kept_frames_of_maps < frame_;
-    });
+    // A light that moves leaves none behind.
+    const auto is_followed = [&](const SharedLight& light) {
+        return light.shown < frame_ &&
+               std::any_of(lights_.begin(), lights_.end(), [&](const SharedLight& other) {
+                   return other.shown == frame_ && !other.owner.owner_before(light.owner) &&
+                          !light.owner.owner_before(other.owner);
+               });
+    };
+    std::vector<SharedLight> kept;
+    std::copy_if(lights_.begin(), lights_.end(), std::back_inserter(kept),
+                 [&](const SharedLight& light) {
+                     return !light.owner.expired() && !is_followed(light) &&
+                            light.shown + kept_frames_of_maps >= frame_;
+                 });
+    lights_ = std::move(kept);
 }
 
 Result<void> TileMaps::prepare_light(const view::DrawList& list, const view::TileDraw& draw,
@@ -155,6 +168,9 @@ Result<void> TileMaps::prepare_ground(const view::DrawList& list, const view::Ti
 void TileMaps::add_light(const std::shared_ptr<scene::TileStream>& stream,
                          const scene::TerrainLight& light,
                          std::shared_ptr<const scene::TerrainIrradiance> irradiance) {
+    std::erase_if(lights_, [&](const SharedLight& other) {
+        return other.owner.lock() == stream && other.light == light;
+    });
     lights_.push_back({stream, frame_, light, std::move(irradiance)});
 }
 

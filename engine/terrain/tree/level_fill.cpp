@@ -1,9 +1,7 @@
 #include "engine/terrain/tree/level_fill.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>

@@ -84,8 +84,10 @@ void error_index_target(std::string_view input) {
     expect(!found || (found->low == stage.top.low && found->high == stage.top.high &&
                       found->error == stage.top.error),
            "the proof that was written, or none");
+    const io::IndexedTiles tiles(stage.source, **index);
     for (int level = 0; level <= stage.source.tree.root().level; ++level) {
-        static_cast<void>(io::read_indexed_tile(stage.source, **index, {level, 0, 0}));
+        static_cast<void>(tiles.read({level, 0, 0}));
+        static_cast<void>(tiles.proof({level, 0, 0}));
     }
 }
 

@@ -101,7 +101,7 @@ protected:
         return samples;
     }
     [[nodiscard]] Grid<float> heights_of(TreeTile tile) const {
-        const auto read = read_indexed_tile(*source_, *index_, tile);
+        const auto read = IndexedTiles(*source_, *index_).read(tile);
         EXPECT_TRUE(read && read->proof && read->errors.empty());
         return read ? read->heights : Grid<float>(1, 1);
     }
@@ -116,7 +116,7 @@ protected:
 TEST_P(GlobeIndex, NoSampleContradictsIt) {
     EXPECT_TRUE(index_->is_complete());
     for (const TreeTile tile : all_tiles()) {
-        const auto read = read_indexed_tile(*source_, *index_, tile);
+        const auto read = IndexedTiles(*source_, *index_).read(tile);
         ASSERT_TRUE(read && read->proof);
         ASSERT_TRUE(read->errors.empty()) << read->errors.front().message;
         const Grid<float> samples = samples_of(tile);

@@ -139,7 +139,7 @@ void expect_complete(const IndexSource& source) {
     for (const TreeTile tile : all_tiles(source.tree)) {
         EXPECT_TRUE((*index)->find(tile)) << tile.level << " " << tile.col << " " << tile.row;
         if (tile.level >= ErrorIndex::first_stored_level) {
-            const auto read = read_indexed_tile(source, **index, tile);
+            const auto read = IndexedTiles(source, **index).read(tile);
             ASSERT_TRUE(read && read->proof && read->errors.empty());
         }
     }
@@ -215,7 +215,7 @@ TEST_F(IndexPass, NoSampleContradictsIt) {
         if (tile.level < 3 && (tile.col + tile.row) % 5 != 0) {
             continue;
         }
-        const auto read = read_indexed_tile(terrain, **index, tile);
+        const auto read = IndexedTiles(terrain, **index).read(tile);
         ASSERT_TRUE(read && read->proof);
         EXPECT_TRUE(read->errors.empty()) << read->errors.front().message;
         const Grid<float> samples = samples_of(tile, terrain.tree);
@@ -335,7 +335,7 @@ TEST_F(IndexPass, FindsNonsenseBehindValidChecksums) {
         {[](int, std::span<float> heights) { std::fill(heights.begin(), heights.end(), 5.0F); }});
     ASSERT_TRUE(index->write({0, 0, 0}, nonsense));
     for (const int level : {0, 1, 2}) {
-        const auto read = read_indexed_tile(terrain, *index, {level, 0, 0});
+        const auto read = IndexedTiles(terrain, *index).read({level, 0, 0});
         ASSERT_TRUE(read);
         EXPECT_FALSE(read->proof);
         ASSERT_EQ(read->errors.size(), 1U);
@@ -357,10 +357,10 @@ TEST_F(IndexPass, FindsErrorsOfPartsThatAreNotThoseOfTheBlocks) {
         }});
     const TreeTile tile{ErrorIndex::first_stored_level, 0, 0};
     ASSERT_TRUE(index->write({0, 0, 0}, proof));
-    EXPECT_TRUE(read_indexed_tile(terrain, *index, tile)->proof);
+    EXPECT_TRUE(IndexedTiles(terrain, *index).read(tile)->proof);
     proof.levels.back().parts(0, 0).fill(0);
     ASSERT_TRUE(index->write({0, 0, 0}, proof));
-    const auto read = read_indexed_tile(terrain, *index, tile);
+    const auto read = IndexedTiles(terrain, *index).read(tile);
     ASSERT_TRUE(read);
     EXPECT_FALSE(read->proof);
     ASSERT_EQ(read->errors.size(), 1U);
@@ -373,7 +373,7 @@ TEST_F(IndexPass, AnIndexThatWasCutIsMadeAnew) {
     fs::resize_file(terrain.file, fs::file_size(terrain.file) / 2);
     const auto index = ErrorIndex::open(terrain);
     ASSERT_TRUE(index && *index);
-    EXPECT_FALSE(read_indexed_tile(terrain, **index, terrain.tree.root()));
+    EXPECT_FALSE(IndexedTiles(terrain, **index).read(terrain.tree.root()));
     fs::resize_file(terrain.file, 100);
     EXPECT_FALSE((*index)->find(terrain.tree.root()));
     ASSERT_TRUE(make_index(terrain, {}));

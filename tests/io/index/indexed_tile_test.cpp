@@ -54,9 +54,9 @@ private:
     }
 
     void expect_proven(TreeTile tile) {
-        const auto read = read_indexed_tile(source_, *index_, tile);
+        const auto read = IndexedTiles(source_, *index_).read(tile);
         ASSERT_TRUE(read && read->proof && read->errors.empty());
-        const auto proof = proof_with_fill(source_, *index_, tile);
+        const auto proof = IndexedTiles(source_, *index_).proof(tile);
         ASSERT_TRUE(proof);
         if (tile.level == 0) {
             join(tile, *read);
