@@ -34,7 +34,7 @@ public:
     [[nodiscard]] std::optional<FileError> take_error() const;
 
 private:
-    /// Whether a tile of the index may be proven, as far as the index tells.
+    /// Whether the index has a possible proof of a tile. It may lack what fills its voids.
     [[nodiscard]] bool may_be_proven(terrain::TreeTile at) const;
     void contradict(const std::string& error) const;
     /// The tile of the index that a tile of the stream is, or is a part of.
