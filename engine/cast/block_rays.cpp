@@ -245,8 +245,9 @@ bool for_each_block(glm::ivec2 size, const ParallelOptions& parallel,
         const int first_col = index % runs_a_row * run;
         for (int col = first_col; col < std::min(first_col + run, blocks.x); ++col) {
             const glm::ivec2 first = block_side * glm::ivec2(col, row);
+            const int number = row * blocks.x + col;
             body({first, glm::min(size - first, glm::ivec2(block_side))},
-                 static_cast<std::size_t>(row * blocks.x + col));
+                 static_cast<std::size_t>(number));
         }
     };
     return parallel_for(runs_a_row * blocks.y, do_run, parallel);
