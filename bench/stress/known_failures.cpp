@@ -23,8 +23,6 @@ constexpr std::array known_failures{
     KnownFailure{"eye near the ground", "pixels of sky over ground", "polygons:lods", "",
                  not_fixed},
     KnownFailure{"", "pixels of sky over ground", "cone", "", not_fixed},
-    KnownFailure{"scale", "pixels of sky over ground", "exact", "", not_fixed},
-    KnownFailure{"scale", "% of pixels wrong", "exact", "", not_fixed},
 };
 
 bool matches(std::string_view word, std::string_view of_row) {

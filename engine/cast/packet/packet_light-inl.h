@@ -185,6 +185,32 @@ template <class Encoding> HWY_INLINE void add_texel(Ints texel, Floats weight, C
     sum.b = hn::MulAdd(Encoding::value(b), weight, sum.b);
 }
 
+// Four texels around a place: the upper left one, the one below it, and how far the place is from
+// these to the next ones.
+struct TexelPlaces {
+    Ints index;
+    Ints below;
+    Floats part_col; // [0, 1]
+    Floats part_row;
+};
+
+// Adds the bilinear colour, times its weight.
+template <class Encoding>
+HWY_INLINE void add_bilinear(const std::uint32_t* texels, const TexelPlaces& places, Floats weight,
+                             Color& sum) {
+    const auto* const first = reinterpret_cast<const std::int32_t*>(texels);
+    const Floats right = hn::Mul(weight, places.part_col);
+    const Floats left = hn::Sub(weight, right);
+    const Floats right_below = hn::Mul(right, places.part_row);
+    const Floats left_below = hn::Mul(left, places.part_row);
+    const auto above = load_neighbours(ints, first, places.index);
+    const auto under = load_neighbours(ints, first, places.below);
+    add_texel<Encoding>(above.first, hn::Sub(left, left_below), sum);
+    add_texel<Encoding>(above.second, hn::Sub(right, right_below), sum);
+    add_texel<Encoding>(under.first, left_below, sum);
+    add_texel<Encoding>(under.second, right_below, sum);
+}
+
 // Places on the map, texels of level 0 from its corner.
 struct MapPlaces {
     Floats col;
@@ -218,23 +244,12 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
     const Floats v = inside(places.row, last_row);
     const Ints col = hn::ConvertTo(ints, u);
     const Ints row = hn::ConvertTo(ints, v);
-    const Floats part_u = hn::Sub(u, hn::ConvertTo(floats, col));
-    const Floats part_v = hn::Sub(v, hn::ConvertTo(floats, row));
     const Ints stride = hn::Add(last_col, all(2));
-    const Ints begin = begin_of(paint, level);
-    const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin);
-    const Ints below = hn::Add(index, stride);
-    const auto* const first = reinterpret_cast<const std::int32_t*>(paint.texels);
-    const Floats right = hn::Mul(weight, part_u);
-    const Floats left = hn::Sub(weight, right);
-    const Floats right_below = hn::Mul(right, part_v);
-    const Floats left_below = hn::Mul(left, part_v);
-    const auto above = load_neighbours(ints, first, index);
-    const auto under = load_neighbours(ints, first, below);
-    add_texel<Encoding>(above.first, hn::Sub(left, left_below), sum);
-    add_texel<Encoding>(above.second, hn::Sub(right, right_below), sum);
-    add_texel<Encoding>(under.first, left_below, sum);
-    add_texel<Encoding>(under.second, right_below, sum);
+    const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin_of(paint, level));
+    add_bilinear<Encoding>(paint.texels,
+                           {index, hn::Add(index, stride), hn::Sub(u, hn::ConvertTo(floats, col)),
+                            hn::Sub(v, hn::ConvertTo(floats, row))},
+                           weight, sum);
 }
 
 // The values of the map: bilinear in the two levels nearest to each lane's.

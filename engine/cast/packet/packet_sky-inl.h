@@ -47,22 +47,14 @@ HWY_INLINE Color sky_picture_color(const SkyPaint& sky, Floats x, Floats y, Floa
     const FacePlaces places = face_places(sky, turned(0), turned(1), turned(2));
     const Ints col = hn::ConvertTo(ints, places.col);
     const Ints row = hn::ConvertTo(ints, places.row);
-    const Floats part_col = hn::Sub(places.col, hn::ConvertTo(floats, col));
-    const Floats part_row = hn::Sub(places.row, hn::ConvertTo(floats, row));
     const Ints stride = all(sky.side + 2);
     const Ints index = hn::Add(hn::Mul(row, stride), col);
-    const Ints below = hn::Add(index, stride);
-    const auto* const first = reinterpret_cast<const std::int32_t*>(sky.texels);
-    const Floats left = hn::Sub(all(1.0F), part_col);
-    const Floats right_below = hn::Mul(part_col, part_row);
-    const Floats left_below = hn::Mul(left, part_row);
     Color sum = all(glm::vec3(0.0F));
-    const auto above = load_neighbours(ints, first, index);
-    const auto under = load_neighbours(ints, first, below);
-    add_texel<SquareRoots>(above.first, hn::Sub(left, left_below), sum);
-    add_texel<SquareRoots>(above.second, hn::Sub(part_col, right_below), sum);
-    add_texel<SquareRoots>(under.first, left_below, sum);
-    add_texel<SquareRoots>(under.second, right_below, sum);
+    add_bilinear<SquareRoots>(sky.texels,
+                              {index, hn::Add(index, stride),
+                               hn::Sub(places.col, hn::ConvertTo(floats, col)),
+                               hn::Sub(places.row, hn::ConvertTo(floats, row))},
+                              all(1.0F), sum);
     return scaled(sum, all(1.0F / (1023.0F * 1023.0F)));
 }
 

@@ -129,8 +129,11 @@ private:
 
     [[nodiscard]] typename Fills::Filled made_filled(TreeTile tile) {
         auto found = read(tile);
-        if (!found || !found->errors.empty()) {
-            errors_ = found ? std::move(found->errors) : std::move(errors_);
+        if (!found) {
+            return nullptr;
+        }
+        if (!found->errors.empty()) {
+            errors_ = std::move(found->errors);
             return nullptr;
         }
         auto made = filled(tile, std::move(found->vertices));
