@@ -136,6 +136,7 @@ public:
         job.sun = tile.sun_tiles.empty() ? nullptr : &tile.sun;
         job.albedo = tile.albedo ? &*tile.albedo : nullptr;
         job.normals = tile.albedo ? &tile.normals : nullptr;
+        job.sun_share = tile.sun_share ? &*tile.sun_share : nullptr;
         job.sun_tiles = tile.sun_tiles;
         if (skips_.certain && !tile.certain_sun.empty()) {
             job.certain_sun = tile.certain_sun.data();

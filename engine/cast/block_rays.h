@@ -28,6 +28,7 @@ struct PlacedTile {
     TilePaint sun = {};                             ///< BlockJob::sun, if there are `sun_tiles`
     std::optional<TilePaint> albedo = {};           ///< BlockJob::albedo
     TilePaint normals = {};                         ///< BlockJob::normals, if there is an albedo
+    std::optional<TilePaint> sun_share = {};        ///< BlockJob::sun_share
     std::vector<SunTile> sun_tiles = {};            ///< those that may hide the sun from it
     std::span<const std::int32_t> certain_sun = {}; ///< BlockJob::certain_sun; may be empty
     int certain_stride = 0;

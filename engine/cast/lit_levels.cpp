@@ -67,14 +67,6 @@ private:
     std::array<std::uint32_t, 256> bits_{};
 };
 
-std::uint32_t packed_normal(glm::vec3 normal) {
-    const auto bits = [](float component) {
-        const float inside = std::clamp(component, -1.0F, 1.0F);
-        return static_cast<std::uint32_t>(std::lround(inside * normal_zero) + normal_zero);
-    };
-    return bits(normal.x) | bits(normal.y) << 10U | bits(normal.z) << 20U;
-}
-
 glm::vec3 same(glm::vec3 texel) {
     return texel;
 }
@@ -83,6 +75,14 @@ glm::vec3 same(glm::vec3 texel) {
 
 std::uint32_t packed_roots(glm::vec3 linear) {
     return root_bits(linear.r) | root_bits(linear.g) << 10U | root_bits(linear.b) << 20U;
+}
+
+std::uint32_t packed_normal(glm::vec3 normal) {
+    const auto bits = [](float component) {
+        const float inside = std::clamp(component, -1.0F, 1.0F);
+        return static_cast<std::uint32_t>(std::lround(inside * normal_zero) + normal_zero);
+    };
+    return bits(normal.x) | bits(normal.y) << 10U | bits(normal.z) << 20U;
 }
 
 LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {

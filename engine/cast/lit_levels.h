@@ -41,6 +41,9 @@ private:
 /// A texel of paints: the square roots of a linear colour in [0, 1], three times 10 bits.
 std::uint32_t packed_roots(glm::vec3 linear);
 
+/// A texel of maps of normals.
+std::uint32_t packed_normal(glm::vec3 normal);
+
 /// TilePaint::longest_texels of a paint. `spacing`: of the samples, metres.
 glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm::dvec2 spacing);
 

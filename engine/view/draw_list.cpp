@@ -190,10 +190,14 @@ glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size) {
     return glm::vec2((corner % repeat + repeat) % repeat);
 }
 
+bool has_detail(const scene::TerrainNode& terrain) {
+    return terrain.detail != nullptr &&
+           terrain.material.technique.id() == scene::TechniqueId::polygons;
+}
+
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance) {
-    if (terrain.detail == nullptr ||
-        terrain.material.technique.id() != scene::TechniqueId::polygons) {
+    if (!has_detail(terrain)) {
         return DetailLevel::none;
     }
     const scene::TerrainDetail& detail = *terrain.detail;

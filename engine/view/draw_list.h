@@ -160,6 +160,9 @@ double contour_scale(const scene::Camera& camera, glm::ivec2 size);
 /// Where the pattern of dithers begins: of a part of a picture, so that parts continue it; pixels.
 glm::vec2 dither_origin(const scene::Camera& camera, glm::ivec2 size);
 
+/// Whether a terrain's detail texture is drawn: `polygons` alone show it.
+bool has_detail(const scene::TerrainNode& terrain);
+
 /// The level at a distance of at least `distance` metres.
 DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& camera,
                         glm::ivec2 size, double distance);

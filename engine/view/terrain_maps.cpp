@@ -136,6 +136,25 @@ GroundMap ground_map(const scene::TerrainSurface& surface,
     return map;
 }
 
+GroundMap ground_of_tile(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
+                         const scene::TerrainIrradiance* irradiance) {
+    const Grid<float>& overview = builder.overview().heightfield().heights;
+    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
+    const glm::dvec2 first = builder.first(tile.id);
+    const double step = builder.step(tile.id);
+    GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
+    for (int row = 0; row < map.surface.rows(); ++row) {
+        for (int col = 0; col < map.surface.cols(); ++col) {
+            const glm::dvec2 vertex = tile.vertex_of({col, row});
+            const glm::dvec2 sample = builder.on_overview(first + step * vertex);
+            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
+            const float sun = irradiance != nullptr ? irradiance->visibility(inside) : 1.0F;
+            map.surface(col, row) = glm::vec4(tile.normal_at(vertex), sun);
+        }
+    }
+    return map;
+}
+
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels) {
     const glm::vec2 scale = glm::vec2(texels - 1) / (glm::vec2(samples - 1) * glm::vec2(texels));
     return {scale, 0.5F / glm::vec2(texels)};

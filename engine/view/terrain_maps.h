@@ -55,6 +55,11 @@ struct GroundMap {
 GroundMap ground_map(const scene::TerrainSurface& surface,
                      const std::optional<scene::TerrainLight>& light, int largest_side);
 
+/// Of a tile of a stream, with the albedo's size and the overview's shadows. `irradiance`: null: no
+/// shadows.
+GroundMap ground_of_tile(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
+                         const scene::TerrainIrradiance* irradiance);
+
 /// Texture coordinate = sample · xy + zw; the outermost texel centres are the outermost samples.
 glm::vec4 texture_from_sample(glm::ivec2 samples, glm::ivec2 texels);
 

@@ -303,17 +303,27 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     if (light.sun != nullptr) {
         tile.sun = light.sun->paint();
     }
-    if (!list.point_lights.empty() &&
-        view::is_reached(list, transformed(seen.world_from_local, seen.local))) {
-        Surface& surface = surface_of(seen.node->surface);
-        if (surface.ground == nullptr) {
-            surface.ground = std::make_shared<const LitGround>(
-                lit_ground(*seen.node->surface, max_texture_side()));
-            ++stats.uploads;
-            stats.upload_bytes += surface.ground->bytes();
-        }
-        surface.ground->paint(tile);
+    const bool has_detail = view::has_detail(*seen.node);
+    if (has_detail || (!list.point_lights.empty() &&
+                       view::is_reached(list, transformed(seen.world_from_local, seen.local)))) {
+        const bool needs_share = has_detail && light.sun == nullptr;
+        ground_of(*seen.node, needs_share ? on : std::nullopt, stats).paint(tile);
     }
+}
+
+// `light`: absent: without the share of the sun that is visible.
+const LitGround& Driver::ground_of(const scene::TerrainNode& terrain,
+                                   const std::optional<scene::TerrainLight>& light,
+                                   view::FrameStats& stats) {
+    Surface& surface = surface_of(terrain.surface);
+    if (surface.ground == nullptr || surface.ground_light != light) {
+        surface.ground = std::make_shared<const LitGround>(
+            lit_ground(*terrain.surface, light, max_texture_side()));
+        surface.ground_light = light;
+        ++stats.uploads;
+        stats.upload_bytes += surface.ground->bytes();
+    }
+    return *surface.ground;
 }
 
 PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& placed) {
@@ -322,6 +332,7 @@ PainterOptions Driver::painter_options(const view::DrawList& list, PlacedTiles& 
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     if (!terrains.empty()) {
         const SeenTerrain& seen = terrains.front();
+        options.detail = detail_.prepare(list, seen);
         options.facades = facades_.prepare(list, seen);
         if (options.facades != nullptr || scene::shown_grain(*seen.node) > 0.0F) {
             const view::GrainView view = view::grain_view(list, *seen.node, seen.world_from_local);

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/block_rays.h"
+#include "engine/cast/frame/ground_detail.h"
 #include "engine/cast/frame/ground_facades.h"
 #include "engine/cast/frame/ground_grain.h"
 #include "engine/cast/frame/ground_points.h"
@@ -105,7 +106,8 @@ private:
         std::weak_ptr<const scene::TerrainSurface> owner;
         std::shared_ptr<const RayTile> tile;
         Light light;                             // of the last frame
-        std::shared_ptr<const LitGround> ground; // for point lights; null: not made yet
+        std::shared_ptr<const LitGround> ground; // for point lights and detail; null: not made yet
+        std::optional<scene::TerrainLight> ground_light; // absent: without its share of the sun
     };
 
     explicit Driver(const DriverOptions& options);
@@ -117,8 +119,11 @@ private:
     void add_certain_sun(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile);
     void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
                        view::FrameStats& stats);
+    const LitGround& ground_of(const scene::TerrainNode& terrain,
+                               const std::optional<scene::TerrainLight>& light,
+                               view::FrameStats& stats);
     PlacedTiles placed_tiles(const StreamedList& frame, bool paints, view::FrameStats& stats);
-    // With grain, façades and contours; adds to the paints of `placed`.
+    // With detail, grain, façades and contours; adds to the paints of `placed`.
     PainterOptions painter_options(const view::DrawList& list, PlacedTiles& placed);
     // Null without meshes.
     Result<std::unique_ptr<const MeshFrame>> mesh_frame(const StreamedList& frame,
@@ -134,6 +139,7 @@ private:
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     view::PictureRounding rounding_;
     TileContents streamed_;
+    GroundDetail detail_;
     GroundGrain grain_;
     GroundFacades facades_;
     SkyTexels sky_;

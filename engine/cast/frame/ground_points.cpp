@@ -2,34 +2,49 @@
 
 #include <algorithm>
 
+#include "engine/core/color.h"
 #include "engine/view/terrain_maps.h"
 
 namespace reljef::cast {
 
-void LitGround::paint(PlacedTile& tile, glm::vec2 first_sample) const {
-    tile.albedo = albedo.paint(first_sample);
-    tile.normals = normals.paint(first_sample);
-}
+namespace {
 
-LitGround lit_ground(const scene::TerrainSurface& surface, int max_side) {
-    const view::GroundMap map = view::ground_map(surface, {}, max_side);
+LitGround levels_of(const view::GroundMap& map, glm::ivec2 samples, bool has_sun_share) {
     Grid<glm::vec3> normals(map.surface.cols(), map.surface.rows());
     std::transform(map.surface.samples().begin(), map.surface.samples().end(),
                    normals.samples().begin(), [](glm::vec4 texel) { return glm::vec3(texel); });
-    const Grid<float>& heights = surface.heightfield().heights;
-    const glm::ivec2 samples(heights.cols(), heights.rows());
-    return {LitLevels(map.albedo, samples), LitLevels(normals, samples)};
+    LitGround ground{LitLevels(map.albedo, samples), LitLevels(normals, samples), {}};
+    if (has_sun_share) {
+        Image share(map.surface.cols(), map.surface.rows());
+        std::transform(map.surface.samples().begin(), map.surface.samples().end(),
+                       share.samples().begin(),
+                       [](glm::vec4 texel) { return rgba8_from_linear(glm::vec3(texel.w)); });
+        ground.sun_share.emplace(share, samples);
+    }
+    return ground;
 }
 
-LitGround lit_ground(const scene::TerrainTile& tile) {
-    Grid<glm::vec3> normals(tile.albedo.cols(), tile.albedo.rows());
-    for (int row = 0; row < normals.rows(); ++row) {
-        for (int col = 0; col < normals.cols(); ++col) {
-            normals(col, row) = tile.normal_at(tile.vertex_of({col, row}));
-        }
+} // namespace
+
+void LitGround::paint(PlacedTile& tile, glm::vec2 first_sample) const {
+    tile.albedo = albedo.paint(first_sample);
+    tile.normals = normals.paint(first_sample);
+    if (sun_share) {
+        tile.sun_share = sun_share->paint(first_sample);
     }
-    const glm::ivec2 samples = tile.cells + 1;
-    return {LitLevels(tile.albedo, samples), LitLevels(normals, samples)};
+}
+
+LitGround lit_ground(const scene::TerrainSurface& surface,
+                     const std::optional<scene::TerrainLight>& light, int max_side) {
+    const Grid<float>& heights = surface.heightfield().heights;
+    return levels_of(view::ground_map(surface, light, max_side), {heights.cols(), heights.rows()},
+                     light.has_value());
+}
+
+LitGround lit_ground(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
+                     const scene::TerrainIrradiance* irradiance) {
+    return levels_of(view::ground_of_tile(builder, tile, irradiance), tile.cells + 1,
+                     irradiance != nullptr);
 }
 
 std::vector<PointLightPaint> point_light_paints(const view::DrawList& list) {

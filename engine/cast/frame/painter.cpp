@@ -126,6 +126,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
     shared_.is_perspective = first.is_perspective;
     shared_.needs_nearness = has_samples();
     shared_.needs_t = depths_ != nullptr;
+    shared_.detail = options.detail;
     shared_.grain = options.grain;
     shared_.facades = options.facades;
     shared_.sky = options.sky;

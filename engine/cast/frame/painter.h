@@ -22,6 +22,7 @@ struct PainterOptions {
     RaySkips skips = {};
     int samples = 1;                      ///< of a pixel
     const MeshFrame* meshes = nullptr;    ///< null: none; outlives the painter
+    const DetailPaint* detail = nullptr;  ///< null: none; outlives the painter
     const GrainPaint* grain = nullptr;    ///< null: none; outlives the painter
     const FacadePaint* facades = nullptr; ///< null: none; outlives the painter
     const SkyPaint* sky = nullptr;        ///< null: no picture; outlives the painter

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "engine/cast/curved_rays.h"
+#include "engine/cast/frame/ground_detail.h"
 #include "engine/cast/frame/seen_terrain.h"
 #include "engine/scene/streaming/tile_stream.h"
 
@@ -45,7 +46,11 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (samples > std::numeric_limits<std::int32_t>::max()) {
         return "a terrain of more than 2^31 samples";
     }
-    return terrain.detail != nullptr ? "a detail texture" : "";
+    if (view::has_detail(terrain) && !draws_detail(terrain.detail->technique)) {
+        return fmt::format("a detail texture with technique {}",
+                           scene::to_string(terrain.detail->technique));
+    }
+    return {};
 }
 
 std::string obstacle_of(const scene::MeshNode& mesh) {

@@ -23,6 +23,10 @@ namespace {
 // Frames that unused content stays.
 constexpr std::uint64_t kept_frames = 8;
 
+bool shows_detail(const view::TileDraw& draw) {
+    return draw.detail != view::DetailLevel::none;
+}
+
 std::size_t number_of(const TilePiece& piece) {
     return (piece.vertex.x > 0 ? 1U : 0U) + (piece.vertex.y > 0 ? 2U : 0U);
 }
@@ -97,8 +101,10 @@ TileContents::find_missing(const view::DrawList& list,
         const bool has_paint =
             !options.paints || (content.levels && content.light == light &&
                                 content.sun.has_value() == (options.in_parts && light));
-        const bool needs_ground =
-            options.paints && !content.ground && view::needs_ground(list, draw);
+        const bool has_detail = shows_detail(draw);
+        const bool is_dated = has_detail && content.light != light; // its share of the sun
+        const bool needs_ground = options.paints && (!content.ground || is_dated) &&
+                                  (has_detail || view::needs_ground(list, draw));
         if (content.pieces.front() && has_paint && !needs_ground) {
             ++stats.skipped.uploads_unchanged;
         } else {
@@ -165,7 +171,9 @@ void TileContents::make(const view::DrawList& list, const Options& options,
             one.content->light = light;
         }
         if (one.needs_ground) {
-            one.content->ground = lit_ground(*one.tile);
+            const bool needs_share = view::has_detail(terrain) && !options.in_parts;
+            one.content->ground =
+                lit_ground(builder, *one.tile, needs_share ? irradiance : nullptr);
         }
     };
     ParallelOptions parallel;
@@ -324,10 +332,10 @@ float TileContents::lowest_of(const view::DrawList& list) const {
     return lowest;
 }
 
-void TileContents::paint(const Content& content, glm::vec2 vertex, bool is_reached,
+void TileContents::paint(const Content& content, glm::vec2 vertex, bool needs_ground,
                          PlacedTile& tile) {
     tile.paint = content.levels->paint(vertex);
-    if (content.ground && is_reached) {
+    if (content.ground && needs_ground) {
         content.ground->paint(tile, vertex);
     }
     if (content.sun) {
@@ -357,7 +365,8 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             PlacedTile& tile = placed.tiles.emplace_back(
                 placer.placed(draw, piece, *content.pieces[number_of(piece)]));
             if (options.paints) {
-                paint(content, glm::vec2(piece.vertex), view::needs_ground(list, draw), tile);
+                const bool needs_ground = shows_detail(draw) || view::needs_ground(list, draw);
+                paint(content, glm::vec2(piece.vertex), needs_ground, tile);
                 tile.paint.longest_texels = placer.longest(tile.paint, piece);
             }
         }

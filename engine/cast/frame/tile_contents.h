@@ -51,7 +51,7 @@ private:
         std::array<std::optional<RayTile>, 4> pieces; // by the sides that their vertex is at
         std::optional<LitLevels> levels;
         std::optional<LitLevels> sun;                   // if these are only the sky's
-        std::optional<LitGround> ground;                // if point lights reach it
+        std::optional<LitGround> ground;                // for point lights and detail
         std::array<std::optional<RayTile>, 4> quarters; // TileContents::beside()
         std::optional<scene::TerrainLight> light;       // of the levels
         std::uint64_t drawn = 0;                        // the last frame
@@ -66,7 +66,7 @@ private:
     struct Missing {
         const scene::TerrainTile* tile = nullptr;
         Content* content = nullptr;
-        bool needs_ground = false; // for point lights
+        bool needs_ground = false; // for point lights, or a detail texture
     };
 
     void forget_unused();
@@ -82,8 +82,9 @@ private:
     void make(const view::DrawList& list, const Options& options, view::FrameStats& stats);
     static void make_pieces(const scene::TileBuilder& builder, const Missing& missing);
     static std::size_t bytes_of(const Content& content);
-    /// `is_reached`: by point lights.
-    static void paint(const Content& content, glm::vec2 vertex, bool is_reached, PlacedTile& tile);
+    /// `needs_ground`: for point lights or a detail texture.
+    static void paint(const Content& content, glm::vec2 vertex, bool needs_ground,
+                      PlacedTile& tile);
     const scene::TerrainIrradiance& irradiance_of(const scene::TerrainNode& terrain,
                                                   const scene::TerrainLight& light);
 

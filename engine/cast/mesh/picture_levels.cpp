@@ -7,34 +7,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "engine/core/parallel_for.h"
-
 namespace reljef::cast {
 namespace {
 
-// Means over areas: each coarse texel covers as many fine ones as the sides' ratio says.
 Image halved(const Image& fine) {
-    Image coarse(std::max(fine.cols() / 2, 1), std::max(fine.rows() / 2, 1));
-    const glm::dvec2 size =
-        glm::dvec2(fine.cols(), fine.rows()) / glm::dvec2(coarse.cols(), coarse.rows());
-    for_each_cell(coarse.cols(), coarse.rows(), {}, [&](int col, int row) {
-        const glm::dvec2 begin = size * glm::dvec2(col, row);
-        const glm::dvec2 end = begin + size;
-        const glm::ivec2 first(glm::floor(begin));
-        const glm::ivec2 last = glm::min(glm::ivec2(glm::ceil(end)), {fine.cols(), fine.rows()});
-        glm::vec3 sum(0.0F);
-        float weights = 0.0F;
-        for (int y = first.y; y < last.y; ++y) {
-            for (int x = first.x; x < last.x; ++x) {
-                const glm::dvec2 low = glm::max(begin, glm::dvec2(x, y));
-                const glm::dvec2 covered = glm::min(end, glm::dvec2(x + 1, y + 1)) - low;
-                const auto weight = static_cast<float>(std::max(covered.x * covered.y, 0.0));
-                sum += weight * linear_from_rgba8(fine(x, y));
-                weights += weight;
-            }
-        }
-        coarse(col, row) = rgba8_from_linear(sum / weights);
-    });
+    const Grid<glm::vec3> means = half_as_large(fine, linear_from_rgba8);
+    Image coarse(means.cols(), means.rows());
+    std::transform(means.samples().begin(), means.samples().end(), coarse.samples().begin(),
+                   [](glm::vec3 mean) { return rgba8_from_linear(mean); });
     return coarse;
 }
 

@@ -111,6 +111,46 @@ struct GrainPaint {
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };
 
+/// A map that repeats, and its mip levels, each half as large: square roots of colours or normals,
+/// as in TilePaint. Each level has a texel more on each side, those of its other side.
+struct RepeatedMap {
+    static constexpr int max_levels = 16;
+
+    const std::uint32_t* texels = nullptr;
+    std::array<std::int32_t, max_levels> begin{}; ///< of a level
+    glm::ivec2 size{1};                           ///< of level 0, texels
+    int level_count = 1;
+};
+
+/// How a ray looks for the surface of a detail texture (scene::Technique).
+struct DetailSearch {
+    int steps_from_above = 0; ///< seen from straight above; 0: no search
+    int steps_along_ground = 0;
+    int bisection_steps = 0;
+    int secant_steps = 0; ///< including the last one
+};
+
+/// A texture with relief that repeats over near ground (scene::TerrainDetail), below its surface.
+struct DetailPaint {
+    RepeatedMap color;
+    RepeatedMap normals;
+    const float* heights = nullptr; ///< [0, 1], row after row; one col and row more: the first ones
+    glm::ivec2 samples{1};          ///< without these
+    DetailSearch search;
+    float width = 1.0F;           ///< of a copy, metres
+    float lift = 0.0F;            ///< height of 1, metres
+    float steeper = 1.0F;         ///< slopes are so many times those of the normals
+    glm::vec3 mean_color{1.0F};   ///< linear
+    float specular = 0.0F;        ///< reflectance
+    float shininess = 1.0F;       ///< exponent (Blinn 1977)
+    glm::vec3 tiles_at_eye{0.0F}; ///< the eye's place, in copies, modulo 1; local axes
+    glm::mat3 local_from_world{1.0F};
+    glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, in the world
+    glm::vec2 seen_tile{0.0F};      ///< widths between which it fades in, pixels
+    glm::vec2 seen_height{0.0F};    ///< heights between which its relief does, pixels
+    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
+};
+
 /// The façades of a terrain in memory (view::FacadeMap), whose samples are those of its tile.
 struct FacadePaint {
     static constexpr int wall_values = 16; ///< view::FacadeTexels
@@ -172,8 +212,9 @@ struct BlockJob {
     const TilePaint* paint = nullptr; ///< not needed for hits
     /// What the sun adds to it where none of its tiles hides it; null: `paint` has its light.
     const TilePaint* sun = nullptr;
-    const TilePaint* albedo = nullptr;       ///< null: no point light reaches the tile
-    const TilePaint* normals = nullptr;      ///< local ones, as large as the albedo
+    const TilePaint* albedo = nullptr;    ///< null: no point light reaches it, and no detail
+    const TilePaint* normals = nullptr;   ///< local ones, as large as the albedo
+    const TilePaint* sun_share = nullptr; ///< of its disc that is visible; null: all, or by `sun`
     std::span<const SunTile> sun_tiles = {}; ///< of hits on a tile, that one first
     /// What is certain of the sun in each cell: 2 bits, 16 cells of a row in a word.
     /// Null: nothing.
@@ -265,6 +306,7 @@ struct BlockPaint {
     const BlockMeshes* meshes = nullptr;      ///< null: none
     std::span<const PointLightPaint> point_lights = {};
     glm::mat3 world_from_normal{1.0F};    ///< of BlockJob::normals
+    const DetailPaint* detail = nullptr;  ///< null: none
     const GrainPaint* grain = nullptr;    ///< null: none
     const FacadePaint* facades = nullptr; ///< null: none
     ContourPaint contours = {};

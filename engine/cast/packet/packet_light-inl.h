@@ -31,6 +31,15 @@ HWY_INLINE Color scaled(const Color& color, Floats by) {
     return {hn::Mul(color.r, by), hn::Mul(color.g, by), hn::Mul(color.b, by)};
 }
 
+HWY_INLINE Color chosen(Lanes lanes, const Color& yes, const Color& no) {
+    return {hn::IfThenElse(lanes, yes.r, no.r), hn::IfThenElse(lanes, yes.g, no.g),
+            hn::IfThenElse(lanes, yes.b, no.b)};
+}
+
+HWY_INLINE Color mixed(const Color& a, const Color& b, Floats part) {
+    return {mixed(a.r, b.r, part), mixed(a.g, b.g, part), mixed(a.b, b.b, part)};
+}
+
 // Cubic polynomials interpolate at Chebyshev's places; the errors are relative to the result's
 // range.
 HWY_INLINE Floats cubic(Floats x, float c0, float c1, float c2, float c3) {
@@ -45,6 +54,17 @@ HWY_INLINE Floats log2_of(Floats x) {
         hn::BitCast(floats, hn::Or(hn::And(bits, all(0x007FFFFF)), all(std::int32_t{0x3F800000})));
     return hn::Add(hn::ConvertTo(floats, exponent),
                    cubic(mantissa, -2.1362321F, 3.0111622F, -1.0268049F, 0.15270028F));
+}
+
+// 2^x within 1.2e-4, for x <= 0; 0 below the smallest float.
+HWY_INLINE Floats exp2_of(Floats x) {
+    const Floats smallest = all(-126.0F);
+    const Floats clamped = hn::Max(x, smallest);
+    const Floats whole = hn::Floor(clamped);
+    const Floats power =
+        cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
+    return hn::IfThenElseZero(hn::Gt(x, smallest),
+                              hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
 }
 
 // How the surface lies: its slopes at the hits, metres per sample.

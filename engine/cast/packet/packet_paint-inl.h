@@ -9,36 +9,17 @@
 
 #include <limits>
 
+#include "engine/cast/packet/packet_air-inl.h"
 #include "engine/cast/packet/packet_contours-inl.h"
+#include "engine/cast/packet/packet_detail-inl.h"
 #include "engine/cast/packet/packet_facades-inl.h"
 #include "engine/cast/packet/packet_grain-inl.h"
 #include "engine/cast/packet/packet_light-inl.h"
 #include "engine/cast/packet/packet_points-inl.h"
-#include "engine/cast/packet/packet_sky-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
-
-HWY_INLINE Color chosen(Lanes lanes, const Color& yes, const Color& no) {
-    return {hn::IfThenElse(lanes, yes.r, no.r), hn::IfThenElse(lanes, yes.g, no.g),
-            hn::IfThenElse(lanes, yes.b, no.b)};
-}
-
-HWY_INLINE Color mixed(const Color& a, const Color& b, Floats part) {
-    return {mixed(a.r, b.r, part), mixed(a.g, b.g, part), mixed(a.b, b.b, part)};
-}
-
-// 2^x within 1.2e-4, for x <= 0; 0 below the smallest float.
-HWY_INLINE Floats exp2_of(Floats x) {
-    const Floats smallest = all(-126.0F);
-    const Floats clamped = hn::Max(x, smallest);
-    const Floats whole = hn::Floor(clamped);
-    const Floats power =
-        cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
-    return hn::IfThenElseZero(hn::Gt(x, smallest),
-                              hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
-}
 
 // The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light.
 HWY_INLINE Ints srgb_byte(Floats linear) {
@@ -57,147 +38,6 @@ HWY_INLINE Ints bytes_of(const Color& color) {
     const Ints red_green = hn::Or(srgb_byte(color.r), hn::ShiftLeft<8>(srgb_byte(color.g)));
     const Ints blue = hn::ShiftLeft<16>(srgb_byte(color.b));
     return hn::Or(hn::Or(red_green, blue), hn::ShiftLeft<24>(all(255)));
-}
-
-// World directions of the rays, and their length per t.
-struct ViewRays {
-    Floats x;
-    Floats y;
-    Floats z;
-    Floats length;
-};
-
-HWY_INLINE ViewRays view_rays(const BlockPaint& paint, const PixelOffsets& pixels) {
-    ViewRays view{pixels.of(paint.view, 0), pixels.of(paint.view, 1), pixels.of(paint.view, 2),
-                  hn::Zero(floats)};
-    view.length =
-        hn::Sqrt(hn::MulAdd(view.x, view.x, hn::MulAdd(view.y, view.y, hn::Mul(view.z, view.z))));
-    return view;
-}
-
-// Unit vectors of the view rays: their rise, and the cosine of the angle to the sun.
-struct ViewAngles {
-    Floats rise;
-    Floats climb; // away from the base of the air
-    Floats to_sun;
-};
-
-HWY_INLINE ViewAngles angles_of(const BlockPaint& paint, const ViewRays& view) {
-    const Floats per_length = hn::Div(all(1.0F), view.length);
-    const auto along = [&](glm::vec3 axis) HWY_ATTR {
-        return hn::Mul(hn::MulAdd(view.x, all(axis.x),
-                                  hn::MulAdd(view.y, all(axis.y), hn::Mul(view.z, all(axis.z)))),
-                       per_length);
-    };
-    return {hn::Mul(view.z, per_length), along(paint.up), along(paint.to_sun)};
-}
-
-HWY_INLINE Color with_added(const Color& color, glm::vec3 added, Floats share) {
-    return {hn::MulAdd(all(added.r), share, color.r), hn::MulAdd(all(added.g), share, color.g),
-            hn::MulAdd(all(added.b), share, color.b)};
-}
-
-// Forward scattering.
-HWY_INLINE Color with_glow(const BlockPaint& paint, const ViewAngles& angles, const Color& color) {
-    if (!paint.has_sun) {
-        return color;
-    }
-    const Floats toward = hn::Max(angles.to_sun, hn::Zero(floats));
-    const Floats square = hn::Mul(toward, toward);
-    const Floats fourth = hn::Mul(square, square);
-    return with_added(color, paint.glow, hn::Mul(fourth, fourth));
-}
-
-// A colour behind metres of air as dense as at the base.
-HWY_INLINE Color behind_air(const BlockPaint& paint, const ViewAngles& angles, const Color& color,
-                            Floats air) {
-    constexpr float log2_e = 1.4426950F;
-    const auto left = [&](float extinction)
-                          HWY_ATTR { return exp2_of(hn::Mul(air, all(-log2_e * extinction))); };
-    const Color haze = with_glow(paint, angles, all(paint.horizon));
-    return {mixed(haze.r, color.r, left(paint.extinction.r)),
-            mixed(haze.g, color.g, left(paint.extinction.g)),
-            mixed(haze.b, color.b, left(paint.extinction.b))};
-}
-
-// A colour behind air whose density falls exponentially with height (Koschmieder 1924).
-HWY_INLINE Color through_air(const BlockPaint& paint, const ViewAngles& angles, const Color& color,
-                             Floats metres) {
-    constexpr float log2_e = 1.4426950F;
-    const Floats eye_above = all(paint.eye_above);
-    const Floats eye_density = all(paint.eye_density);
-    const Floats climb = hn::MulAdd(all(paint.bend), metres, angles.climb);
-    const Floats above = hn::Max(hn::MulAdd(climb, metres, eye_above), hn::Zero(floats));
-    const Floats density = exp2_of(hn::Mul(above, all(-log2_e * paint.per_height)));
-    const Floats rise = hn::Mul(hn::Sub(above, eye_above), all(paint.per_height));
-    const Floats even = hn::Mul(all(0.5F), hn::Add(eye_density, density));
-    const Floats mean = hn::IfThenElse(hn::Lt(hn::Abs(rise), all(0.1F)), even,
-                                       hn::Div(hn::Sub(eye_density, density), rise));
-    return behind_air(paint, angles, color, hn::Mul(mean, metres));
-}
-
-HWY_INLINE Color above_horizon(const BlockPaint& paint, const ViewRays& view,
-                               const ViewAngles& angles) {
-    if (paint.sky != nullptr) {
-        return sky_picture_color(*paint.sky, view.x, view.y, view.z);
-    }
-    const Floats zero = hn::Zero(floats);
-    const Floats height = hn::Max(angles.rise, zero);
-    const Floats share =
-        hn::Div(hn::Mul(height, all(1.0F + paint.curve)), hn::Add(height, all(paint.curve)));
-    const Color sky = with_glow(paint, angles, mixed(all(paint.horizon), all(paint.zenith), share));
-    if (!paint.has_sun) {
-        return sky;
-    }
-    constexpr float disc_begin = 0.99985F;
-    constexpr float disc_width = 0.0001F;
-    return with_added(sky, paint.sun, smooth_rise(disc_begin, disc_width, angles.to_sun));
-}
-
-HWY_INLINE Color plane_color(const BlockPaint& paint, const ViewAngles& angles) {
-    if (!paint.has_air) {
-        return all(paint.plane);
-    }
-    const Floats fall = hn::Max(hn::Neg(angles.climb), all(1e-9F)); // lanes above show no plane
-    const Floats beyond = hn::MulSub(fall, fall, all(4.0F * paint.bend * paint.eye_above));
-    const Floats twice = hn::Add(fall, hn::Sqrt(hn::Max(beyond, hn::Zero(floats))));
-    return behind_air(paint, angles, all(paint.plane), hn::Div(all(2.0F * paint.plane_air), twice));
-}
-
-HWY_INLINE Floats fraction_of(Floats x) {
-    return hn::Sub(x, hn::Floor(x));
-}
-
-// As in the shader of the sky.
-HWY_INLINE Color dithered(const BlockPaint& paint, const PixelOffsets& pixels, const Color& color) {
-    constexpr float repeat = 64.0F;
-    const auto place_of = [](Floats pixel) HWY_ATTR {
-        return hn::MulSub(fraction_of(hn::Mul(hn::Floor(pixel), all(1.0F / repeat))), all(repeat),
-                          hn::Zero(floats));
-    };
-    const Floats x = place_of(hn::Add(pixels.right, all(paint.from_corner.x)));
-    const Floats y = place_of(hn::Sub(all(paint.from_corner.y), pixels.down));
-    const Floats inner = fraction_of(hn::MulAdd(x, all(0.06711056F), hn::Mul(y, all(0.00583715F))));
-    const Floats noise = fraction_of(hn::Mul(all(52.9829189F), inner));
-    const Floats scale = hn::Mul(hn::Sub(noise, all(0.5F)), all(2.1F / 255.0F));
-    const auto moved = [&](Floats channel) HWY_ATTR {
-        return hn::MulAdd(scale, hn::Sqrt(hn::Max(channel, hn::Zero(floats))), channel);
-    };
-    return {moved(color.r), moved(color.g), moved(color.b)};
-}
-
-HWY_INLINE Color sky_color(const BlockPaint& paint, const PixelOffsets& pixels,
-                           const ViewRays& view) {
-    if (!paint.has_sky) {
-        return all(glm::vec3(0.0F));
-    }
-    const ViewAngles angles = angles_of(paint, view);
-    const Lanes below = hn::Lt(angles.climb, hn::Zero(floats));
-    if (paint.plane_air <= 0.0F || hn::AllFalse(floats, below)) {
-        return dithered(paint, pixels, above_horizon(paint, view, angles));
-    }
-    return dithered(paint, pixels,
-                    chosen(below, plane_color(paint, angles), above_horizon(paint, view, angles)));
 }
 
 // How hits lie to their rays.
@@ -301,6 +141,31 @@ HWY_INLINE Lanes beside_meshes(const BlockPaint& paint, const PixelOffsets& pixe
     return hn::LoadMaskBits(floats, bytes.data());
 }
 
+// Whether ground may look other than its maps.
+HWY_INLINE bool is_covered(const BlockPaint& paint) {
+    return paint.grain != nullptr || paint.facades != nullptr || paint.contours.interval > 0.0F ||
+           paint.detail != nullptr;
+}
+
+// What hides the ground, or adds what the data do not have.
+template <class WithoutShadow>
+HWY_INLINE Color with_overlays(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
+                               const GroundPlace& place, const PacketHits& hits,
+                               const GroundLooks& looks, const WithoutShadow& without_shadow) {
+    Color lit = looks.lit;
+    if (paint.grain != nullptr) {
+        lit = with_grain(paint, *job.paint, place, hits, looks.by_sun, lit);
+    }
+    const Floats height = hn::Add(hits.height, all(job.rays.base_height));
+    if (paint.facades != nullptr) {
+        lit = with_facades(job, paint, place, hits, height, lit, without_shadow);
+    }
+    if (paint.contours.interval > 0.0F) {
+        lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);
+    }
+    return lit;
+}
+
 // Of the hits, seen through the air (Koschmieder 1924).
 template <class Mode>
 HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
@@ -313,23 +178,25 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
         return is_open ? sunny : beside_meshes(paint, pixels, view, hits.t, sunny);
     };
     const Floats level = level_of(job, rays, hits, metres);
-    Color lit = lit_color<Mode>(job, hits, level, without_shadow, work);
+    Lanes sun_seen = no_lanes();
+    const auto note_sunny = [&](Lanes sunny) HWY_ATTR { return sun_seen = without_shadow(sunny); };
+    Color lit = lit_color<Mode>(job, hits, level, note_sunny, work);
     const Color by_sun = lit;
-    if (!Mode::counts && job.albedo != nullptr) {
+    if (!Mode::counts && job.albedo != nullptr && !paint.point_lights.empty()) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
         lit = added(lit, reflected_from_points(job, paint, place.from_eye, hits, level));
     }
-    if (!Mode::counts && paint.grain != nullptr) {
+    if (!Mode::counts && is_covered(paint)) {
         const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = with_grain(paint, *job.paint, place, hits, by_sun, lit);
-    }
-    const Floats height = hn::Add(hits.height, all(job.rays.base_height));
-    if (!Mode::counts && paint.facades != nullptr) {
-        const GroundPlace place = place_of(paint, pixels, view, hits.t, metres);
-        lit = with_facades(job, paint, place, hits, height, lit, without_shadow);
-    }
-    if (!Mode::counts && paint.contours.interval > 0.0F) {
-        lit = with_contours(paint.contours, height, change_of_height(job, rays, hits), lit);
+        const GroundLooks looks{level, sun_seen, by_sun, lit};
+        const bool has_detail = paint.detail != nullptr && job.albedo != nullptr;
+        const Floats share = has_detail ? seen_share(*paint.detail, metres, hits.found) : all(0.0F);
+        if (!hn::AllTrue(floats, hn::Or(hn::Not(hits.found), hn::Eq(share, all(1.0F))))) {
+            lit = with_overlays(job, paint, rays, place, hits, looks, without_shadow);
+        }
+        if (!hn::AllTrue(floats, hn::Eq(share, hn::Zero(floats)))) {
+            lit = mixed(lit, detailed_color(job, paint, place, hits, looks), share);
+        }
     }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;
 }

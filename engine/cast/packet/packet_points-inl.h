@@ -51,32 +51,39 @@ HWY_NOINLINE Color light_of_points(const BlockPaint& paint, const Vectors& place
     return sum;
 }
 
-// Of a map of packed_normal(), in the world.
-HWY_INLINE Vectors map_normal(const BlockPaint& paint, const TilePaint& normals,
-                              const PacketHits& hits, Floats level) {
+HWY_INLINE Vectors turned_by(const glm::mat3& turn, const Vectors& vector) {
+    Vectors turned;
+    for (int axis = 0; axis < 3; ++axis) {
+        turned[static_cast<std::size_t>(axis)] = hn::MulAdd(
+            vector[0], all(turn[0][axis]),
+            hn::MulAdd(vector[1], all(turn[1][axis]), hn::Mul(vector[2], all(turn[2][axis]))));
+    }
+    return turned;
+}
+
+HWY_INLINE Vectors unit_vector(const Vectors& vector) {
+    const Floats tiny = all(1e-30F); // of lanes without hits
+    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(hn::Max(dot(vector, vector), tiny)));
+    return {hn::Mul(vector[0], per_length), hn::Mul(vector[1], per_length),
+            hn::Mul(vector[2], per_length)};
+}
+
+// Of a map of packed_normal(), along the local axes, of any length.
+HWY_INLINE Vectors map_normal(const TilePaint& normals, const PacketHits& hits, Floats level) {
     const Color sum = map_sum<Linear>(normals, hits, level);
     const auto component = [](Floats value) HWY_ATTR {
         return hn::Sub(value, all(static_cast<float>(normal_zero)));
     };
-    const Vectors local{component(sum.r), component(sum.g), component(sum.b)};
-    const glm::mat3& from = paint.world_from_normal;
-    Vectors world;
-    for (int axis = 0; axis < 3; ++axis) {
-        world[static_cast<std::size_t>(axis)] = hn::MulAdd(
-            local[0], all(from[0][axis]),
-            hn::MulAdd(local[1], all(from[1][axis]), hn::Mul(local[2], all(from[2][axis]))));
-    }
-    const Floats tiny = all(1e-30F); // of lanes without hits
-    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(hn::Max(dot(world, world), tiny)));
-    return {hn::Mul(world[0], per_length), hn::Mul(world[1], per_length),
-            hn::Mul(world[2], per_length)};
+    return {component(sum.r), component(sum.g), component(sum.b)};
 }
 
 // What ground reflects of point lights. Precondition: they reach the job's tile.
 HWY_NOINLINE Color reflected_from_points(const BlockJob& job, const BlockPaint& paint,
                                          const Vectors& place, const PacketHits& hits,
                                          Floats level) {
-    const Color light = light_of_points(paint, place, map_normal(paint, *job.normals, hits, level));
+    const Vectors local = map_normal(*job.normals, hits, level);
+    const Vectors normal = unit_vector(turned_by(paint.world_from_normal, local));
+    const Color light = light_of_points(paint, place, normal);
     return product(map_color(*job.albedo, hits, level), light);
 }
 

@@ -388,7 +388,7 @@ Result<void> ReliefTiles::prepare_ground(Stream& stream, const std::vector<Drawn
         if (!done || slot->has_ground) {
             continue;
         }
-        const view::GroundMap map = ground_of_tile(builder, *tile, nullptr);
+        const view::GroundMap map = view::ground_of_tile(builder, *tile, nullptr);
         done = upload_lit(*resident.albedo, slot->layer, map.albedo, stats);
         done = done ? upload_layer(*resident.normals, slot->layer, snorm16(map.surface),
                                    options.format, stats)

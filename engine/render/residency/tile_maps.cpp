@@ -44,25 +44,6 @@ LightOfTile light_of_tile(const view::TileDraw& draw, const scene::TerrainIrradi
 
 } // namespace
 
-view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
-                               const scene::TerrainIrradiance* irradiance) {
-    const Grid<float>& overview = maker.overview().heightfield().heights;
-    const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
-    const glm::dvec2 first = maker.first(tile.id);
-    const double step = maker.step(tile.id);
-    view::GroundMap map{tile.albedo, Grid<glm::vec4>(tile.albedo.cols(), tile.albedo.rows())};
-    for (int row = 0; row < map.surface.rows(); ++row) {
-        for (int col = 0; col < map.surface.cols(); ++col) {
-            const glm::dvec2 vertex = tile.vertex_of({col, row});
-            const glm::dvec2 sample = maker.on_overview(first + step * vertex);
-            const glm::dvec2 inside = glm::clamp(sample, glm::dvec2(0.0), last);
-            const float sun = irradiance != nullptr ? irradiance->visibility(inside) : 1.0F;
-            map.surface(col, row) = glm::vec4(tile.normal_at(vertex), sun);
-        }
-    }
-    return map;
-}
-
 TileMaps::Entry& TileMaps::entry_of(const view::TileDraw& draw) {
     Entry& entry = entries_[key_of(draw)];
     if (entry.owner.lock() != draw.tile) {
@@ -156,7 +137,7 @@ Result<void> TileMaps::prepare_ground(const view::DrawList& list, const view::Ti
     const scene::TerrainIrradiance* const irradiance =
         entry.light ? &irradiance_of(draw.terrain->stream, *entry.light) : nullptr;
     auto ground =
-        resident_ground(ground_of_tile(draw.terrain->stream->maker(), *draw.tile, irradiance),
+        resident_ground(view::ground_of_tile(draw.terrain->stream->maker(), *draw.tile, irradiance),
                         entry.maps.lit_from_sample, stats);
     if (!ground) {
         return ground.error();

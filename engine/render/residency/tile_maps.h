@@ -25,11 +25,6 @@ struct ResidentTileMaps {
     std::optional<ResidentGround> ground; ///< for visible surface detail and point lights
 };
 
-/// A tile's ground map with the albedo's size and the overview's shadows. `irradiance`: null: no
-/// shadows.
-view::GroundMap ground_of_tile(const scene::TileBuilder& maker, const scene::TerrainTile& tile,
-                               const scene::TerrainIrradiance* irradiance);
-
 /// The maps of loaded tiles in GPU memory, for each terrain that shows them. Made on first use, and
 /// again when the sun moves. Dropped when the stream drops the tile or after some frames unused.
 class TileMaps {
