@@ -71,11 +71,18 @@ glm::vec3 mean_of(const Image& color) {
 
 // What a technique without a search shows is the normals alone.
 struct SearchSteps {
+    DetailSearch operator()(const scene::Parallax& /*parallax*/) const { return {.shifts = true}; }
+    DetailSearch operator()(const scene::ParallaxLimited& /*parallax*/) const {
+        return {.shifts = true, .is_limited = true};
+    }
+    DetailSearch operator()(const scene::ParallaxIterated& parallax) const {
+        return {.shifts = true, .iterations = parallax.iterations};
+    }
     DetailSearch operator()(const scene::Steep& steep) const {
-        return {steep.linear_steps, steep.linear_steps, 0, 0};
+        return {steep.linear_steps, steep.linear_steps};
     }
     DetailSearch operator()(const scene::Relief& relief) const {
-        return {relief.linear_steps, relief.linear_steps, relief.bisection_steps, 0};
+        return {relief.linear_steps, relief.linear_steps, relief.bisection_steps};
     }
     DetailSearch operator()(const scene::Interval& interval) const {
         return {interval.linear_steps, interval.linear_steps, 0, interval.secant_steps};
@@ -118,8 +125,9 @@ void DetailMaps::paint(DetailPaint& paint) const {
 bool draws_detail(const scene::Technique& technique) {
     scene::TechniqueOptions drawn;
     drawn.steps = technique.options.steps;
+    const DetailSearch search = search_of(technique);
     return technique.options == drawn && (technique.id() == scene::TechniqueId::normal ||
-                                          search_of(technique).steps_from_above > 0);
+                                          search.shifts || search.steps_from_above > 0);
 }
 
 const DetailPaint* GroundDetail::prepare(const view::DrawList& list, const SeenTerrain& seen) {

@@ -128,6 +128,9 @@ struct DetailSearch {
     int steps_along_ground = 0;
     int bisection_steps = 0;
     int secant_steps = 0; ///< including the last one
+    bool shifts = false;  ///< by the height at the place, instead of a search
+    bool is_limited = false;
+    int iterations = 0;
 };
 
 /// A texture with relief that repeats over near ground (scene::TerrainDetail), below its surface.

@@ -151,25 +151,31 @@ struct DetailGround {
 // The place whose relief is seen at a place of the surface.
 HWY_INLINE CopyPlace relief_place(const DetailPaint& detail, const DetailGround& ground,
                                   const TangentSpace& space, const CopyPlace& place) {
+    const DetailSearch& search = detail.search;
     const Lanes searched = hn::Gt(ground.height_share, hn::Zero(floats));
-    if (detail.search.steps_from_above == 0 || hn::AllFalse(floats, searched)) {
+    if ((search.steps_from_above == 0 && !search.shifts) || hn::AllFalse(floats, searched)) {
         return place;
     }
     const Floats lift = hn::Mul(all(detail.lift), ground.height_share);
     const Vectors to_eye{dot(ground.to_eye, space.u), dot(ground.to_eye, space.v),
                          dot(ground.to_eye, space.normal)};
     const ReliefRay ray = relief_ray(detail, to_eye, lift, place);
-    const Bracket bracket = first_step_below(detail, ray, steps_of(detail, ray, lift), searched);
-    if (hn::AllFalse(floats, bracket.found)) {
-        return place;
+    Lanes found = searched;
+    SamplePlace seen;
+    if (search.shifts) {
+        seen = shifted_place(detail, ray, lift);
+    } else {
+        const Bracket bracket =
+            first_step_below(detail, ray, steps_of(detail, ray, lift), searched);
+        found = bracket.found;
+        const Floats part = narrowed(detail, ray, bracket);
+        seen = {hn::MulAdd(part, ray.to_col, ray.col), hn::MulAdd(part, ray.to_row, ray.row)};
     }
-    const Floats part = narrowed(detail, ray, bracket);
-    const auto copies = [&](Floats from, Floats to, int samples) HWY_ATTR {
-        return hn::Mul(hn::Add(hn::MulAdd(part, to, from), all(0.5F)),
-                       all(1.0F / static_cast<float>(samples)));
+    const auto copies = [&](Floats sample, int samples) HWY_ATTR {
+        return hn::Mul(hn::Add(sample, all(0.5F)), all(1.0F / static_cast<float>(samples)));
     };
-    return {hn::IfThenElse(bracket.found, copies(ray.col, ray.to_col, detail.samples.x), place.u),
-            hn::IfThenElse(bracket.found, copies(ray.row, ray.to_row, detail.samples.y), place.v)};
+    return {hn::IfThenElse(found, copies(seen.col, detail.samples.x), place.u),
+            hn::IfThenElse(found, copies(seen.row, detail.samples.y), place.v)};
 }
 
 // The normal of the map, as steep as the relief is, in the world.

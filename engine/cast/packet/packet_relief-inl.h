@@ -147,10 +147,8 @@ HWY_INLINE ReliefRay relief_ray(const DetailPaint& detail, const Vectors& to_eye
     return ray;
 }
 
-// Equal steps for each ray: more along the ground.
-HWY_INLINE Floats steps_of(const DetailPaint& detail, const ReliefRay& ray, Floats lift) {
-    const auto above = static_cast<float>(detail.search.steps_from_above);
-    const auto along = static_cast<float>(detail.search.steps_along_ground);
+// Cosines of the rays' angles to the vertical. `lift`: height of 1, metres.
+HWY_INLINE Floats uprightness(const DetailPaint& detail, const ReliefRay& ray, Floats lift) {
     const auto metres = [&](Floats samples, int count) HWY_ATTR {
         return hn::Mul(samples, all(detail.width / static_cast<float>(count)));
     };
@@ -158,9 +156,46 @@ HWY_INLINE Floats steps_of(const DetailPaint& detail, const ReliefRay& ray, Floa
     const Floats y = metres(ray.to_row, detail.samples.y);
     const Floats z = hn::Mul(ray.to_height, lift);
     const Floats square = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-    const Floats upright =
+    const Floats cosine =
         hn::Div(hn::Abs(z), hn::Sqrt(hn::Max(square, all(std::numeric_limits<float>::min()))));
-    return hn::Ceil(mixed(all(along), all(above), hn::Min(upright, all(1.0F))));
+    return hn::Min(cosine, all(1.0F));
+}
+
+// Equal steps for each ray: more along the ground.
+HWY_INLINE Floats steps_of(const DetailPaint& detail, const ReliefRay& ray, Floats lift) {
+    const auto above = static_cast<float>(detail.search.steps_from_above);
+    const auto along = static_cast<float>(detail.search.steps_along_ground);
+    return hn::Ceil(mixed(all(along), all(above), uprightness(detail, ray, lift)));
+}
+
+// A place in samples.
+struct SamplePlace {
+    Floats col;
+    Floats row;
+};
+
+// Shifts the place on the surface along the ray by the relief's depth there (Kaneko et al. 2001),
+// as shaders/relief/relief_parallax.glsl.
+HWY_INLINE SamplePlace shifted_place(const DetailPaint& detail, const ReliefRay& ray, Floats lift) {
+    const float part = detail_margin / (1.0F + 2.0F * detail_margin);
+    const SamplePlace entry{hn::MulAdd(all(part), ray.to_col, ray.col),
+                            hn::MulAdd(all(part), ray.to_row, ray.row)};
+    Floats per_height = hn::Div(all(1.0F), ray.to_height);
+    if (detail.search.is_limited) { // Welsh 2004
+        per_height = hn::Mul(per_height, uprightness(detail, ray, lift));
+    }
+    const auto at = [&](Floats height) HWY_ATTR {
+        const Floats share = hn::Mul(hn::Sub(height, all(1.0F)), per_height);
+        return SamplePlace{hn::MulAdd(share, ray.to_col, entry.col),
+                           hn::MulAdd(share, ray.to_row, entry.row)};
+    };
+    Floats height = relief_height(detail, entry.col, entry.row);
+    for (int i = 0; i < detail.search.iterations; ++i) {
+        const SamplePlace place = at(height);
+        const Floats there = relief_height(detail, place.col, place.row);
+        height = hn::Mul(all(0.5F), hn::Add(height, there));
+    }
+    return at(height);
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE
