@@ -93,7 +93,9 @@ Result<terrain::Terrain> read_terrain(const std::filesystem::path& path,
     if (!samples) {
         return samples.error();
     }
-    terrain.heightfield = heightfield_of(std::move(*samples), *place);
+    const glm::dvec2 step = glm::abs(place->grid.step);
+    terrain.heightfield =
+        heightfield_of(std::move(*samples), *place, std::max({1.0, step.x, step.y}));
     if (place->spacing_assumed) {
         const glm::dvec2 steps =
             glm::dvec2(plan->grid.cols - 1, plan->grid.rows - 1) * glm::abs(plan->grid.step);

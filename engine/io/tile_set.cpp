@@ -342,8 +342,11 @@ geo::GlobalWrap TileSet::wrap(const TileGrid& grid) const {
 TileGrid TileSet::reduced(const TileGrid& grid, int reduction) {
     check(reduction >= 1, "TileSet::reduced needs a reduction of at least 1");
     const double k = reduction;
-    return {grid.first + 0.5 * (k - 1.0) * grid.step, k * grid.step,
-            std::max(1, grid.cols / reduction), std::max(1, grid.rows / reduction)};
+    const int cols = std::max(1, grid.cols / reduction);
+    const int rows = std::max(1, grid.rows / reduction);
+    const glm::dvec2 left_out(grid.cols - reduction * cols, grid.rows - reduction * rows);
+    return {grid.first + 0.5 * (k - 1.0) * grid.step, k * grid.step, cols, rows,
+            (0.5 * left_out + grid.to_middle) / k};
 }
 
 } // namespace reljef::io

@@ -106,7 +106,8 @@ void store_block(const GridBlock& block, const Grid<double>& heights, Samples& s
 /// The place of a grid's samples. Adds notes.
 Result<Place> place_of_samples(const TileSet& tiles, const TileGrid& grid,
                                const TileTerrainOptions& options, std::vector<std::string>& notes) {
-    const SampleGrid samples{glm::dvec2(0.5), glm::dvec2(1.0), grid.cols, grid.rows};
+    const SampleGrid samples{glm::dvec2(0.5), glm::dvec2(1.0), grid.cols, grid.rows,
+                             grid.to_middle};
     if (tiles.is_on_plane()) {
         Place place;
         place.grid = samples;
@@ -343,8 +344,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
     if (read->samples.void_count == read->samples.heights.size()) {
         return all_voids(*this, samples_grid, result);
     }
-    result.heightfield = heightfield_of(std::move(read->samples), *place);
-    result.heightfield.reduction = planned->reduction;
+    result.heightfield = heightfield_of(std::move(read->samples), *place, planned->reduction);
     if (state_->is_spacing_assumed) {
         const auto spacing = assumed_spacing_of(*this, *planned, options, result);
         if (!spacing) {

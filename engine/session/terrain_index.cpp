@@ -83,7 +83,11 @@ Result<void> complete_index(const TerrainSource& source, const io::IndexSource& 
                        {.threads = threads_within(source.stream->memory_budget, threads),
                         .stop = stop,
                         .progress = task->callback()},
-                       {.shard = {}, .waits = true});
+                       {.shard = {}, .on_wait = [&] {
+                            log.note(fmt::format("{}: another process indexes it now; waiting for "
+                                                 "it, Ctrl-C ends this",
+                                                 index.tiles.name()));
+                        }});
     if (!report) {
         return report.error();
     }

@@ -183,6 +183,7 @@ Result<void> Driver::add_light(const view::PreparedLight& prepared) {
 void Driver::forget_content() {
     surfaces_.clear();
     streamed_ = {};
+    detail_ = {};
     mesh_trees_ = {};
     mesh_pictures_ = {};
 }
@@ -303,7 +304,7 @@ void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, 
     if (light.sun != nullptr) {
         tile.sun = light.sun->paint();
     }
-    const bool has_detail = view::has_detail(*seen.node);
+    const bool has_detail = shows_detail(list, *seen.node);
     if (has_detail || (!list.point_lights.empty() &&
                        view::is_reached(list, transformed(seen.world_from_local, seen.local)))) {
         const bool needs_share = has_detail && light.sun == nullptr;

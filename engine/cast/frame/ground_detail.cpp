@@ -130,12 +130,22 @@ bool draws_detail(const scene::Technique& technique) {
                                           search.shifts || search.steps_from_above > 0);
 }
 
+bool shows_detail(const view::DrawList& list, const scene::TerrainNode& terrain) {
+    return std::ranges::any_of(list.tiles, [&](const view::TileDraw& draw) {
+        return draw.terrain == &terrain && draw.detail != view::DetailLevel::none;
+    });
+}
+
 const DetailPaint* GroundDetail::prepare(const view::DrawList& list, const SeenTerrain& seen) {
-    if (!view::has_detail(*seen.node)) {
+    if (!shows_detail(list, *seen.node)) {
+        if (!view::has_detail(*seen.node)) {
+            maps_.reset();
+            owner_.reset();
+        }
         return nullptr;
     }
     const scene::TerrainDetail& detail = *seen.node->detail;
-    if (owner_.lock() != detail.set) {
+    if (maps_ == nullptr || owner_.lock() != detail.set) {
         maps_ = std::make_shared<const DetailMaps>(*detail.set);
         owner_ = detail.set;
     }
@@ -146,11 +156,11 @@ const DetailPaint* GroundDetail::prepare(const view::DrawList& list, const SeenT
     paint_.steeper = detail.scale / detail.set->scale;
     const glm::dmat4 local_from_world = glm::inverse(seen.world_from_local);
     const glm::dvec3 eye(local_from_world * glm::dvec4(list.camera.eye, 1.0));
-    paint_.tiles_at_eye = glm::vec3(glm::fract(eye / detail.width));
+    paint_.copies_at_eye = glm::vec3(glm::fract(eye / detail.width));
     paint_.local_from_world = glm::mat3(glm::dmat3(local_from_world));
     const glm::dvec3 up = seen.node->surface->placement().up(eye);
     paint_.up = glm::vec3(glm::normalize(glm::dmat3(seen.world_from_local) * up));
-    paint_.seen_tile = view::seen_tile_pixels;
+    paint_.seen_width = view::seen_tile_pixels;
     paint_.seen_height = view::seen_height_pixels(*seen.node);
     paint_.metres_a_pixel = view::metres_a_pixel(list.camera, list.size);
     return &paint_;

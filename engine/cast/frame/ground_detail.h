@@ -29,10 +29,13 @@ private:
 /// Whether rays show a detail texture on a terrain with this technique.
 bool draws_detail(const scene::Technique& technique);
 
+/// Whether a drawn tile of the terrain is near enough to show its detail texture.
+bool shows_detail(const view::DrawList& list, const scene::TerrainNode& terrain);
+
 /// The detail texture of near ground, for rays. Its maps are made once.
 class GroundDetail {
 public:
-    /// Null: the terrain has none. Valid as long as this object, until the next call. Precondition:
+    /// Null: none is shown. Valid as long as this object, until the next call. Precondition:
     /// draws_detail() its technique.
     const DetailPaint* prepare(const view::DrawList& list, const SeenTerrain& seen);
 

@@ -96,11 +96,12 @@ std::string obstacle_of(const view::DrawList& list) {
 
 Result<void> check_support(const view::DrawList& list) {
     const std::string found = obstacle_of(list);
-    return found.empty() ? Result<void>()
-                         : Error{fmt::format("rays on the CPU: {} found, exact or an error bound "
-                                             "over one terrain was expected; "
-                                             "--context osmesa draws the others",
-                                             found)};
+    return found.empty()
+               ? Result<void>()
+               : Error{fmt::format("rays on the CPU: {} found, which they do not draw, but "
+                                   "exact or an error bound over one terrain; "
+                                   "--context osmesa draws the others",
+                                   found)};
 }
 
 } // namespace reljef::cast

@@ -23,7 +23,7 @@ namespace {
 // Frames that unused content stays.
 constexpr std::uint64_t kept_frames = 8;
 
-bool shows_detail(const view::TileDraw& draw) {
+bool has_near_detail(const view::TileDraw& draw) {
     return draw.detail != view::DetailLevel::none;
 }
 
@@ -101,9 +101,13 @@ TileContents::find_missing(const view::DrawList& list,
         const bool has_paint =
             !options.paints || (content.levels && content.light == light &&
                                 content.sun.has_value() == (options.in_parts && light));
-        const bool has_detail = shows_detail(draw);
-        const bool is_dated = has_detail && content.light != light; // its share of the sun
-        const bool needs_ground = options.paints && (!content.ground || is_dated) &&
+        if (content.ground && content.light != light) {
+            content.ground->sun_share.reset();
+        }
+        const bool has_detail = has_near_detail(draw);
+        const bool lacks_share = has_detail && light && !options.in_parts && content.ground &&
+                                 !content.ground->sun_share;
+        const bool needs_ground = options.paints && (!content.ground || lacks_share) &&
                                   (has_detail || view::needs_ground(list, draw));
         if (content.pieces.front() && has_paint && !needs_ground) {
             ++stats.skipped.uploads_unchanged;
@@ -365,7 +369,7 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
             PlacedTile& tile = placed.tiles.emplace_back(
                 placer.placed(draw, piece, *content.pieces[number_of(piece)]));
             if (options.paints) {
-                const bool needs_ground = shows_detail(draw) || view::needs_ground(list, draw);
+                const bool needs_ground = has_near_detail(draw) || view::needs_ground(list, draw);
                 paint(content, glm::vec2(piece.vertex), needs_ground, tile);
                 tile.paint.longest_texels = placer.longest(tile.paint, piece);
             }

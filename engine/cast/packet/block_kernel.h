@@ -140,16 +140,16 @@ struct DetailPaint {
     const float* heights = nullptr; ///< [0, 1], row after row; one col and row more: the first ones
     glm::ivec2 samples{1};          ///< without these
     DetailSearch search;
-    float width = 1.0F;           ///< of a copy, metres
-    float lift = 0.0F;            ///< height of 1, metres
-    float steeper = 1.0F;         ///< slopes are so many times those of the normals
-    glm::vec3 mean_color{1.0F};   ///< linear
-    float specular = 0.0F;        ///< reflectance
-    float shininess = 1.0F;       ///< exponent (Blinn 1977)
-    glm::vec3 tiles_at_eye{0.0F}; ///< the eye's place, in copies, modulo 1; local axes
+    float width = 1.0F;            ///< of a copy, metres
+    float lift = 0.0F;             ///< height of 1, metres
+    float steeper = 1.0F;          ///< slopes are so many times those of the normals
+    glm::vec3 mean_color{1.0F};    ///< linear
+    float specular = 0.0F;         ///< reflectance
+    float shininess = 1.0F;        ///< exponent (Blinn 1977)
+    glm::vec3 copies_at_eye{0.0F}; ///< the eye's place, in copies, modulo 1; local axes
     glm::mat3 local_from_world{1.0F};
     glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, in the world
-    glm::vec2 seen_tile{0.0F};      ///< widths between which it fades in, pixels
+    glm::vec2 seen_width{0.0F};     ///< widths between which it fades in, pixels
     glm::vec2 seen_height{0.0F};    ///< heights between which its relief does, pixels
     glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
 };

@@ -7,6 +7,8 @@
 #define RELJEF_PACKET_DETAIL_INL_H
 #endif
 
+#include <cmath>
+
 #include "engine/cast/packet/packet_relief-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -133,7 +135,7 @@ struct TangentSpace {
     Vectors normal;
 };
 
-// What all axes share.
+// The ground at the hits, for all axes.
 struct DetailGround {
     Vectors at;    // the place in copies, modulo 1
     Vectors right; // change of the place to the next pixels, metres
@@ -312,13 +314,20 @@ HWY_INLINE void set_changes(const BlockPaint& paint, Floats depth, const Vectors
     ground.down = change(paint.origin.down, paint.view.down);
 }
 
-// What the ground's maps show.
+// The looks of ground by its maps alone.
 struct GroundLooks {
     Floats level; // of their mip levels
     Lanes sunny;  // the sun reaches them, if rays decide
     Color by_sun; // the light of sun and sky
     Color lit;    // with that of point lights
 };
+
+// The mip level of another map of the ground, which may have larger or smaller texels.
+HWY_INLINE Floats level_on(const TilePaint& map, const TilePaint& lit, Floats level) {
+    const float finer = std::log2(map.texels_per_sample.x / lit.texels_per_sample.x);
+    const Floats last = all(static_cast<float>(map.level_count - 1));
+    return hn::Min(hn::Max(hn::Add(level, all(finer)), hn::Zero(floats)), last);
+}
 
 HWY_INLINE Floats pixel_width(const DetailPaint& detail, Floats distance) {
     return hn::MulAdd(distance, all(detail.metres_a_pixel.y), all(detail.metres_a_pixel.x));
@@ -336,7 +345,7 @@ HWY_INLINE DetailGround detail_ground(const BlockJob& job, const BlockPaint& pai
     for (int axis = 0; axis < 3; ++axis) {
         const auto index = static_cast<std::size_t>(axis);
         ground.at[index] =
-            hn::MulAdd(local[index], all(1.0F / detail.width), all(detail.tiles_at_eye[axis]));
+            hn::MulAdd(local[index], all(1.0F / detail.width), all(detail.copies_at_eye[axis]));
     }
     const auto opposite = [](const Vectors& vector) HWY_ATTR {
         return Vectors{hn::Neg(vector[0]), hn::Neg(vector[1]), hn::Neg(vector[2])};
@@ -344,10 +353,12 @@ HWY_INLINE DetailGround detail_ground(const BlockJob& job, const BlockPaint& pai
     const Vectors view = turned_by(detail.local_from_world, place.view);
     ground.to_eye = opposite(view);
     ground.world_to_eye = unit_vector(opposite(place.view));
-    ground.normal = unit_vector(map_normal(*job.normals, hits, looks.level));
-    ground.albedo = map_color(*job.albedo, hits, looks.level);
-    ground.sun_share = job.sun_share != nullptr ? map_color(*job.sun_share, hits, looks.level).r
-                                                : hn::IfThenElseZero(looks.sunny, all(1.0F));
+    const Floats level = level_on(*job.albedo, *job.paint, looks.level);
+    ground.normal = unit_vector(map_normal(*job.normals, hits, level));
+    ground.albedo = map_color(*job.albedo, hits, level);
+    ground.sun_share = job.sun == nullptr && job.sun_share != nullptr
+                           ? map_color(*job.sun_share, hits, level).r
+                           : hn::IfThenElseZero(looks.sunny, all(1.0F));
     set_light(paint, looks.by_sun, ground);
     const Floats distance = hn::IfThenElseZero(hits.found, place.distance);
     const Floats pixels = hn::Div(all(detail.lift), pixel_width(detail, distance));
@@ -360,7 +371,7 @@ HWY_INLINE DetailGround detail_ground(const BlockJob& job, const BlockPaint& pai
 // How much of the texture is seen at a distance, 0 to 1.
 HWY_INLINE Floats seen_share(const DetailPaint& detail, Floats distance, Lanes found) {
     const Floats pixels = hn::Div(all(detail.width), pixel_width(detail, distance));
-    return hn::IfThenElseZero(found, smooth_step(detail.seen_tile.x, detail.seen_tile.y, pixels));
+    return hn::IfThenElseZero(found, smooth_step(detail.seen_width.x, detail.seen_width.y, pixels));
 }
 
 // The ground under its texture. Precondition: the job has the albedo and the normals of its ground.

@@ -244,7 +244,7 @@ HWY_INLINE Color with_facades(const BlockJob& job, const BlockPaint& block,
     const Color shown{channel(albedo.r, paint.sun.r, paint.sky.r, lit.r),
                       channel(albedo.g, paint.sun.g, paint.sky.g, lit.g),
                       channel(albedo.b, paint.sun.b, paint.sky.b, lit.b)};
-    if (job.albedo == nullptr) {
+    if (job.albedo == nullptr || block.point_lights.empty()) {
         return shown;
     }
     const Color more = added(shown, product(albedo, points_on_walls(block, place, wall)));

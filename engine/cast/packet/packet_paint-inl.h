@@ -147,7 +147,7 @@ HWY_INLINE bool is_covered(const BlockPaint& paint) {
            paint.detail != nullptr;
 }
 
-// What hides the ground, or adds what the data do not have.
+// Grain, façades and contours over the ground.
 template <class WithoutShadow>
 HWY_INLINE Color with_overlays(const BlockJob& job, const BlockPaint& paint, const Rays& rays,
                                const GroundPlace& place, const PacketHits& hits,
@@ -195,7 +195,8 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
             lit = with_overlays(job, paint, rays, place, hits, looks, without_shadow);
         }
         if (!hn::AllTrue(floats, hn::Eq(share, hn::Zero(floats)))) {
-            lit = mixed(lit, detailed_color(job, paint, place, hits, looks), share);
+            const Color detailed = detailed_color(job, paint, place, hits, looks);
+            lit = chosen(hn::Eq(share, all(1.0F)), detailed, mixed(lit, detailed, share));
         }
     }
     return paint.has_air ? through_air(paint, angles_of(paint, view), lit, metres) : lit;

@@ -12,6 +12,7 @@ struct TileGrid {
     glm::dvec2 step{1.0, -1.0};
     int cols = 0;
     int rows = 0;
+    glm::dvec2 to_middle{0.0}; ///< see SampleGrid
 };
 
 /// Affine of a grid whose (0,0) is the centre of the first sample.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -56,9 +57,11 @@ public:
     static Result<std::optional<ErrorIndex>> open(const IndexSource& source);
     /// Opens or makes an index to write; empties a damaged one, and one of another state of the
     /// source. Fails while other processes write it, or after a stop while it waits for them.
+    /// `on_wait`: called once after a second of waiting.
     static Result<ErrorIndex> open_to_write(const IndexSource& source,
                                             IndexAccess access = IndexAccess::alone,
-                                            const std::stop_token& stop = {});
+                                            const std::stop_token& stop = {},
+                                            const std::function<void()>& on_wait = {});
     /// Gives a shared index to this process alone. False, and then this process writes no more, if
     /// others write it still: the last of them gets it.
     [[nodiscard]] bool claim();

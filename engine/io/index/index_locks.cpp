@@ -76,9 +76,11 @@ Result<bool> ErrorIndex::lock(IndexAccess access) {
 }
 
 Result<ErrorIndex> ErrorIndex::open_to_write(const IndexSource& source, IndexAccess access,
-                                             const std::stop_token& stop) {
+                                             const std::stop_token& stop,
+                                             const std::function<void()>& on_wait) {
     constexpr std::chrono::milliseconds pause{20};
-    for (;;) {
+    constexpr int pauses_a_second = 50;
+    for (int pauses = 0;; ++pauses) {
         auto file = opened_to_write(source.file);
         if (!file) {
             return file.error();
@@ -94,6 +96,9 @@ Result<ErrorIndex> ErrorIndex::open_to_write(const IndexSource& source, IndexAcc
         if (access == IndexAccess::alone || stop.stop_requested()) {
             return Error{fmt::format("{}: another process indexes {} now, none was expected",
                                      source.file.string(), source.tiles.name())};
+        }
+        if (pauses == pauses_a_second && on_wait) {
+            on_wait();
         }
         std::this_thread::sleep_for(pause);
     }

@@ -289,9 +289,9 @@ Result<std::vector<FileError>> add_missing(const IndexSource& source,
 
 Result<IndexReport> make_index(const IndexSource& source, const ParallelOptions& options,
                                const IndexShare& share) {
-    const IndexAccess alone = share.waits ? IndexAccess::queued : IndexAccess::alone;
+    const IndexAccess alone = share.on_wait ? IndexAccess::queued : IndexAccess::alone;
     auto index = ErrorIndex::open_to_write(
-        source, share.shard.is_whole() ? alone : IndexAccess::shared, options.stop);
+        source, share.shard.is_whole() ? alone : IndexAccess::shared, options.stop, share.on_wait);
     if (!index) {
         return index.error();
     }

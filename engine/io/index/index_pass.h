@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,8 +23,9 @@ inline constexpr std::size_t bytes_of_index_thread = std::size_t{25} << 20U;
 
 /// How a process makes an index beside others.
 struct IndexShare {
-    Shard shard;        ///< of the chunks of samples; the last process makes the coarser ones
-    bool waits = false; ///< for others that write it, instead of failing
+    Shard shard; ///< of the chunks of samples; the last process makes the coarser ones
+    /// Not empty: others that write it are waited for, and after a second this is called, once.
+    std::function<void()> on_wait = {};
 };
 
 /// Proves all tiles of a terrain that are not proven yet, in one pass over its samples. Chunks that

@@ -38,7 +38,7 @@ Steps crs_steps(const geo::PixelAffine& affine, const SampleGrid& grid) {
 }
 
 glm::dvec2 middle_of(const SampleGrid& grid) {
-    return 0.5 * glm::dvec2(grid.cols - 1, grid.rows - 1);
+    return 0.5 * glm::dvec2(grid.cols - 1, grid.rows - 1) + grid.to_middle;
 }
 
 /// Mirrors the grid so that col grows along +x, if the steps are not steep, and so that rows run to

@@ -166,6 +166,10 @@ Result<ReadPlan> plan_reading(GDALDataset& dataset, const std::string& name,
     if (kind_of_values(dataset) == ValueKind::plain) {
         plan = with_overview(band, *window, options, around, plan);
     }
+    const glm::dvec2 middle =
+        glm::dvec2(window->col, window->row) + 0.5 * glm::dvec2(window->cols, window->rows);
+    const glm::dvec2 last(plan.grid.cols - 1, plan.grid.rows - 1);
+    plan.grid.to_middle = (middle - plan.grid.origin) / plan.grid.step - 0.5 * last;
     notes.push_back(fmt::format("{}×{} samples would take {}: read at 1/{:.4g} ({}×{}) to fit {}",
                                 window->cols, window->rows, size_text(bytes), plan.grid.step.x,
                                 plan.grid.cols, plan.grid.rows,

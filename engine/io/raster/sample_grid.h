@@ -12,6 +12,9 @@ struct SampleGrid {
     glm::dvec2 step{1.0};
     int cols = 0;
     int rows = 0;
+    /// From the middle of the samples to that of the raster, in samples: not 0 where a reduction
+    /// leaves out the last pixels.
+    glm::dvec2 to_middle{0.0};
 
     [[nodiscard]] glm::dvec2 pixel_from_sample(glm::dvec2 sample) const {
         return origin + step * sample;
@@ -19,10 +22,12 @@ struct SampleGrid {
     void flip_cols() {
         origin.x += step.x * (cols - 1);
         step.x = -step.x;
+        to_middle.x = -to_middle.x;
     }
     void flip_rows() {
         origin.y += step.y * (rows - 1);
         step.y = -step.y;
+        to_middle.y = -to_middle.y;
     }
 };
 

@@ -307,7 +307,14 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
     return heights;
 }
 
-terrain::Heightfield heightfield_of(Samples samples, Place& place) {
+// A column that closes the globe is as far from the last one as one of the source's: nearer than
+// the others are. Rows with poles are even about the equator.
+glm::dvec2 to_middle_of(const Place& place, double reduction) {
+    const double closing = place.wrap.east ? 0.5 * (1.0 - reduction) / reduction : 0.0;
+    return {place.grid.to_middle.x + closing, place.wrap.rows() > 0 ? 0.0 : place.grid.to_middle.y};
+}
+
+terrain::Heightfield heightfield_of(Samples samples, Place& place, double reduction) {
     flip(samples.heights, place);
     flip(samples.void_mask, place);
     terrain::Heightfield result;
@@ -319,7 +326,8 @@ terrain::Heightfield heightfield_of(Samples samples, Place& place) {
     result.void_count = static_cast<std::size_t>(std::count(
         result.void_mask.samples().begin(), result.void_mask.samples().end(), std::uint8_t{1}));
     result.spacing = place.spacing;
-    result.reduction = std::max({1.0, place.grid.step.x, place.grid.step.y});
+    result.reduction = reduction;
+    result.to_middle = to_middle_of(place, reduction);
     result.georeference = std::move(place.georeference);
     return result;
 }

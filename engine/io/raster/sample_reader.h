@@ -45,7 +45,7 @@ Result<Grid<double>> read_heights(GDALDataset& dataset, const ReadPlan& plan,
                                   const GdalMessages& messages, std::vector<std::string>& notes);
 
 /// Orients the samples, fills voids and closes a global raster. Moves the place's georeference.
-terrain::Heightfield heightfield_of(Samples samples, Place& place);
+terrain::Heightfield heightfield_of(Samples samples, Place& place, double reduction);
 
 /// The spacing of samples whose own is unknown, metres: 1, or if the relief would exceed half the
 /// width, what makes it a tenth of the width, in two digits. `steps`: along both sides of the

@@ -58,6 +58,7 @@ Terrain coarse_terrain(const Terrain& terrain, std::size_t max_samples) {
     coarse.range = fine.range;
     coarse.spacing = fine.spacing * factor;
     coarse.reduction = fine.reduction * std::max(factor.x, factor.y);
+    coarse.to_middle = fine.to_middle / factor;
     if (fine.georeference) {
         coarse.georeference = resampled(*fine.georeference, factor);
     }

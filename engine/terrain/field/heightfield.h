@@ -37,6 +37,9 @@ struct Heightfield {
     /// the samples, and no error of the surface is known.
     double reduction = 1.0;
     std::optional<geo::Georeference> georeference; ///< absent if the source has none
+    /// From the middle of these samples to that of the source, in samples: not 0 where a reduction
+    /// leaves out the last samples of the source.
+    glm::dvec2 to_middle{0.0};
 };
 
 /// A heightfield with its colours.

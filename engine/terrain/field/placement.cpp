@@ -28,7 +28,8 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
                                  spacing, min_spacing_on_ellipsoid)};
     }
     Placement placement;
-    placement.center_ = 0.5 * glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    placement.last_ = glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    placement.middle_ = 0.5 * placement.last_ + heightfield.to_middle;
     placement.spacing_ = heightfield.spacing;
     placement.exaggeration_ = exaggeration;
     if (heightfield.georeference) {
@@ -36,7 +37,7 @@ Result<Placement> Placement::create(const Heightfield& heightfield, PlacementKin
             std::make_shared<const geo::GeodeticMap>(heightfield.georeference->geodetic);
     }
     if (kind == PlacementKind::ellipsoid) {
-        const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.center_);
+        const glm::dvec2 origin = placement.geodetic_->latitude_longitude(placement.middle_);
         placement.geoid_ = heightfield.georeference->geoid;
         placement.frame_ =
             geo::LocalFrame({origin.x, origin.y, placement.zero_at({origin.x, origin.y})});
@@ -85,7 +86,7 @@ HeightRange Placement::find_zero_range() const {
     for (int row = 0; row <= parts; ++row) {
         for (int col = 0; col <= parts; ++col) {
             const glm::dvec2 part = glm::dvec2(col, row) / static_cast<double>(parts);
-            const double zero = zero_at(geodetic_->latitude_longitude(2.0 * center_ * part));
+            const double zero = zero_at(geodetic_->latitude_longitude(last_ * part));
             zeros(col, row) = zero;
             range = {std::min(range.low, zero), std::max(range.high, zero)};
             step = std::max({step, std::abs(zero - zeros.clamped(col - 1, row)),
@@ -99,7 +100,7 @@ std::optional<glm::dvec2> Placement::latitudes_all_around() const {
     if (!geodetic_ || !geodetic_->rows().wrap().around) {
         return std::nullopt;
     }
-    return glm::dvec2(geodetic_->latitude_longitude(2.0 * center_).x,
+    return glm::dvec2(geodetic_->latitude_longitude(last_).x,
                       geodetic_->latitude_longitude({0.0, 0.0}).x);
 }
 
@@ -107,13 +108,13 @@ std::optional<double> Placement::columns_all_around() const {
     if (!geodetic_ || !geodetic_->rows().wrap().around) {
         return std::nullopt;
     }
-    return from_placed({2.0 * center_.x, 0.0}).x - from_placed({0.0, 0.0}).x;
+    return from_placed({last_.x, 0.0}).x - from_placed({0.0, 0.0}).x;
 }
 
 glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
     const glm::dvec2 place = placed(glm::dvec2(sample));
     if (!frame_) {
-        return {(place.x - center_.x) * spacing_.x, (center_.y - place.y) * spacing_.y,
+        return {(place.x - middle_.x) * spacing_.x, (middle_.y - place.y) * spacing_.y,
                 sample.z * exaggeration_};
     }
     const glm::dvec2 position = geodetic_->latitude_longitude(place);
@@ -123,7 +124,7 @@ glm::dvec3 Placement::world_from_sample(glm::dvec3 sample) const {
 
 std::optional<glm::dvec3> Placement::sample_from_world(glm::dvec3 world) const {
     if (!frame_) {
-        const glm::dvec2 place(center_.x + world.x / spacing_.x, center_.y - world.y / spacing_.y);
+        const glm::dvec2 place(middle_.x + world.x / spacing_.x, middle_.y - world.y / spacing_.y);
         return glm::dvec3(from_placed(place), world.z / exaggeration_);
     }
     const geo::Geodetic position = frame_->geodetic_from_local(world);

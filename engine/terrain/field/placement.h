@@ -23,9 +23,10 @@ inline constexpr double min_spacing_on_ellipsoid = 1e-4;
 enum class PlacementKind { plane, ellipsoid };
 
 /// Maps samples of a heightfield (col, row, height in true metres) to the scene frame (metres, x
-/// east, y north, z up). Plane: x = (col − (cols−1)/2)·dx, y = ((rows−1)/2 − row)·dy,
-/// z = height·exaggeration. Ellipsoid: the WGS 84 position with height·exaggeration above the
-/// ellipsoid, or above the georeference's geoid, in the local frame at the centre. Cheap to copy.
+/// east, y north, z up). Plane: x = (col − middle.col)·dx, y = (middle.row − row)·dy,
+/// z = height·exaggeration, where the middle is that of the source, whatever its reduction.
+/// Ellipsoid: the WGS 84 position with height·exaggeration above the ellipsoid, or above the
+/// georeference's geoid, in the local frame at the middle. Cheap to copy.
 class Placement {
 public:
     /// Errors: an ellipsoid without a georeference or with samples too close for it, an
@@ -99,7 +100,8 @@ private:
     [[nodiscard]] double zero_at(glm::dvec2 latitude_longitude) const;
     [[nodiscard]] HeightRange find_zero_range() const;
 
-    glm::dvec2 center_{0.0};  // col, row
+    glm::dvec2 middle_{0.0};  // col, row: the origin of the scene
+    glm::dvec2 last_{0.0};    // col, row
     glm::dvec2 spacing_{1.0}; // metres
     double exaggeration_ = 1.0;
     std::shared_ptr<const geo::GeodeticMap> geodetic_; // null: no georeference

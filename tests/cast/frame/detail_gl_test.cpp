@@ -58,6 +58,7 @@ std::shared_ptr<const scene::TerrainDetail> detail_by(std::string_view technique
 }
 
 constexpr std::string_view bounded = "polygons:error=0.1";
+constexpr std::string_view shadowed = "polygons:error=0.1,shadow=hard";
 
 // Hills below a low sun, with stones.
 struct DetailStage : OverlayStage {
@@ -136,10 +137,9 @@ TEST_F(DetailGlTest, LooksAsWithOpenGlOnAMap) {
 }
 
 TEST_F(DetailGlTest, LiesInShadowsThatRaysFind) {
-    constexpr std::string_view shadows = "polygons:error=0.1,shadow=hard";
-    DetailStage stage("relief", shadows);
+    DetailStage stage("relief", shadowed);
     stage.sun().altitude = 12.0;
-    const double off = rmse(stage.drawn(), stage.drawn_by_opengl(shadows));
+    const double off = rmse(stage.drawn(), stage.drawn_by_opengl(shadowed));
     EXPECT_LE(off, 0.012);
 }
 
@@ -158,8 +158,7 @@ TEST_F(DetailGlTest, IsSeenWithoutASunAndAtNight) {
 }
 
 TEST_F(DetailGlTest, LiesOnTilesOfStreams) {
-    for (const std::string_view of_terrain :
-         {bounded, std::string_view("polygons:error=0.1,shadow=hard")}) {
+    for (const std::string_view of_terrain : {bounded, shadowed}) {
         DetailStage whole("relief", of_terrain);
         DetailStage streamed("relief", of_terrain);
         test::stream_samples(streamed.node(), test::SeenLevels::finest);
@@ -197,18 +196,31 @@ TEST_F(DetailGlTest, EveryInstructionSetPaintsIt) {
     }
 }
 
-TEST_F(DetailGlTest, MovesWithTheSun) {
-    DetailStage stage("relief");
-    Driver driver = test::must(Driver::create({.size = overlay_picture}));
-    const auto draw = [&] {
-        test::must(driver.draw(view::select(stage.scene, overlay_picture)));
-        return driver.read_color();
-    };
-    const Image east = draw();
-    stage.sun().azimuth += 90.0;
-    const Image south = draw();
-    EXPECT_EQ(south, stage.drawn()) << "nothing of the old light is kept";
-    EXPECT_NE(south, east);
+// A driver keeps what it made of tiles.
+TEST_F(DetailGlTest, NothingOfAnotherLightIsKept) {
+    for (const bool is_streamed : {false, true}) {
+        DetailStage stage("relief");
+        if (is_streamed) {
+            test::stream_samples(stage.node(), test::SeenLevels::finest);
+            render::bring_tiles(stage.scene, overlay_picture);
+        }
+        Driver driver = test::must(Driver::create({.size = overlay_picture}));
+        const auto is_as_new = [&](std::string_view technique) {
+            stage.node().material.technique = test::must(scene::parse_technique(technique));
+            test::must(driver.draw(view::select(stage.scene, overlay_picture)));
+            return driver.read_color() == stage.drawn();
+        };
+        EXPECT_TRUE(is_as_new(bounded)) << is_streamed;
+        EXPECT_TRUE(is_as_new(shadowed)) << is_streamed << ": rays decide where the sun is seen";
+        EXPECT_TRUE(is_as_new(bounded)) << is_streamed << ": maps do";
+        stage.sun().azimuth += 90.0;
+        EXPECT_TRUE(is_as_new(bounded)) << is_streamed;
+        const auto detail = std::exchange(stage.node().detail, nullptr);
+        stage.sun().azimuth += 90.0;
+        EXPECT_TRUE(is_as_new(bounded)) << is_streamed << ": without detail";
+        stage.node().detail = detail;
+        EXPECT_TRUE(is_as_new(bounded)) << is_streamed << ": with detail again";
+    }
 }
 
 TEST_F(DetailGlTest, ChangesNoHit) {
