@@ -46,10 +46,8 @@ std::uint64_t hash_of_raster(const std::filesystem::path& path, std::uint64_t ha
         const std::string name = names[i];
         VSIStatBufL status{};
         if (VSIStatL(name.c_str(), &status) == 0 && VSI_ISREG(status.st_mode)) {
-            // The time of change tells also of content whose own time was set back.
-            hash = fnv_hash(fmt::format("{} {} {} {}\n", full_name(name), status.st_size,
-                                        status.st_mtime, status.st_ctime),
-                            hash);
+            hash = fnv_hash(
+                fmt::format("{} {} {}\n", full_name(name), status.st_size, status.st_mtime), hash);
             hash = hash_of_blocks(name, static_cast<vsi_l_offset>(status.st_size), hash);
         }
     }

@@ -131,7 +131,7 @@ Result<scene::Camera> choose_camera(const TerrainScene& scene,
 
 // The near plane: close enough to cut nothing, and far above the smallest normal float.
 constexpr double near_in_widths = 1e-6;
-constexpr double max_near_in_widths = 1e-3; // for terrains narrower than a metre
+constexpr double max_near_in_widths = 1e-5; // for terrains narrower than 100 m
 
 } // namespace
 

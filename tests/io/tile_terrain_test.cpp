@@ -1,10 +1,14 @@
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
 #include "engine/io/raster/gdal_dataset.h"
+#include "engine/io/terrain_file.h"
 #include "engine/io/tile_set.h"
+#include "engine/terrain/field/placement.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,6 +69,58 @@ TEST_P(TileTerrain, AnUnreadablePlaceLosesOnlyWhatIsAroundIt) {
             const double half = 0.5 * (reduction - 1);
             EXPECT_NEAR(field.heights(sample.x, sample.y),
                         sample.x * reduction + half + 2.0 * (sample.y * reduction + half), 1e-3);
+        }
+    }
+}
+
+// Places in the scene depended on the memory: a reduction leaves out the last samples, and the
+// middle of the others was taken for that of the terrain.
+class SceneOfReduction : public testing::TestWithParam<std::tuple<int, std::string, bool>> {
+protected:
+    // Where a reading puts a place of the source, metres.
+    static glm::dvec3 world_of(const terrain::Heightfield& field, glm::dvec2 sample) {
+        const auto placement = terrain::Placement::create(field, terrain::PlacementKind::plane);
+        const double k = field.reduction;
+        return placement->world_from_sample({(sample - 0.5 * (k - 1.0)) / k, 0.0});
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Rasters, SceneOfReduction,
+                         testing::Combine(testing::Values(2, 3, 7),
+                                          testing::Values("EPSG:32631", "EPSG:4326", ""),
+                                          testing::Bool()));
+
+TEST_P(SceneOfReduction, IsThatOfAllSamples) {
+    const auto& [reduction, crs, runs_north] = GetParam();
+    constexpr glm::ivec2 size(97, 83);
+    const test::TemporaryFolder folder;
+    auto raster = test::made_raster(size.x, size.y, [](int col, int row) { return col + row; });
+    raster.crs = crs;
+    const double step = crs == "EPSG:4326" ? 0.01 : 10.0;
+    raster.geotransform = {crs == "EPSG:4326" ? 6.0 : 300000.0,   step, 0.0,
+                           crs == "EPSG:4326" ? 45.0 : 5600000.0, 0.0,  runs_north ? step : -step};
+    const auto path = folder.path() / "dem.tif";
+    ASSERT_TRUE(test::write(raster, path));
+    TileTerrainOptions options;
+    options.raster.memory_budget = static_cast<std::size_t>(size.x / reduction) *
+                                   static_cast<std::size_t>(size.y / reduction) * bytes_per_sample;
+    const auto tiles = TileSet::open(path);
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    const auto whole = tiles->terrain({});
+    const auto of_tiles = tiles->terrain(options);
+    const auto of_file = read_terrain(path, options.raster);
+    ASSERT_TRUE(whole && of_tiles && of_file);
+    for (const auto* const reduced : {&*of_tiles, &*of_file}) {
+        ASSERT_EQ(reduced->heightfield.reduction, reduction);
+        // The last rows of a file are left out: the first ones if it runs north.
+        const bool leaves_first = runs_north && reduced == &*of_file;
+        const double left_out = leaves_first ? size.y % reduction : 0;
+        for (const glm::dvec2 place : {glm::dvec2(0.0), {48.0, 41.0}, {96.0, 10.0}}) {
+            const glm::dvec3 all = world_of(whole->heightfield, place);
+            const glm::dvec3 fewer =
+                world_of(reduced->heightfield, place - glm::dvec2(0.0, left_out));
+            EXPECT_NEAR(all.x, fewer.x, 1e-6);
+            EXPECT_NEAR(all.y, fewer.y, 1e-6);
         }
     }
 }

@@ -110,5 +110,18 @@ TEST_F(IndexShares, AStopEndsTheWaitForAProcessThatWritesAlone) {
     EXPECT_THAT(waited.error().message, testing::HasSubstr("another process indexes"));
 }
 
+TEST_F(IndexShares, AWaitForAnotherProcessIsReportedOnce) {
+    const IndexSource shared = source("shared");
+    const auto alone = ErrorIndex::open_to_write(shared);
+    ASSERT_TRUE(alone);
+    std::stop_source stop;
+    int calls = 0;
+    EXPECT_FALSE(ErrorIndex::open_to_write(shared, IndexAccess::queued, stop.get_token(), [&] {
+        ++calls;
+        stop.request_stop();
+    }));
+    EXPECT_EQ(calls, 1);
+}
+
 } // namespace
 } // namespace reljef::io
