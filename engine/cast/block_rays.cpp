@@ -108,6 +108,13 @@ void start_beams(const PixelBlock& part, BlockJob& job) {
     }
 }
 
+void bend_sun_rays(const SunCourse& course, const PlacedTile& tile, BlockJob& job) {
+    job.bends = &course.bends();
+    const glm::dvec2 scale = course.unit_scale() / tile.scale;
+    job.unit_scale = glm::vec2(scale);
+    job.unit_first = glm::vec2(course.unit_first() - scale * tile.by);
+}
+
 class JobList {
 public:
     JobList(const PlacedTiles& placed, const PixelBlock& block, const RaySkips& skips,
@@ -138,6 +145,9 @@ public:
         job.normals = tile.albedo ? &tile.normals : nullptr;
         job.sun_share = tile.sun_share ? &*tile.sun_share : nullptr;
         job.sun_tiles = tile.sun_tiles;
+        if (placed_.sun_course != nullptr) {
+            bend_sun_rays(*placed_.sun_course, tile, job);
+        }
         if (skips_.certain && !tile.certain_sun.empty()) {
             job.certain_sun = tile.certain_sun.data();
             job.certain_stride = tile.certain_stride;

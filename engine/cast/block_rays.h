@@ -15,6 +15,7 @@
 #include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
 #include "engine/cast/ray_tile.h"
+#include "engine/cast/sun_course.h"
 #include "engine/cast/tile_nodes.h"
 #include "engine/core/parallel_for.h"
 
@@ -60,6 +61,8 @@ struct PlacedTiles {
     /// Not null: the tiles are on the ellipsoid.
     std::shared_ptr<const CurvedRays> curve;
     TileNodes nodes; ///< on the ellipsoid, of several tiles
+    /// Of rays to the sun on the ellipsoid; null: these are straight, or there are none.
+    std::shared_ptr<const SunCourse> sun_course;
 };
 
 /// The tile as one that may hide the sun from its own hits. `to_sun`: in its samples; it rises.

@@ -71,6 +71,9 @@ StreamedList with_searched_tiles(view::DrawList list) {
         }
     }
     made.list = std::move(list);
+    if (made.above.empty()) {
+        made.above = tiles_above(made.list);
+    }
     return made;
 }
 

@@ -171,7 +171,8 @@ void MeshFrame::add_sunlight(std::span<const Lit> lit, MeshPixels& pixels) const
         }
         return;
     }
-    if (options_.ground->to_sun.z <= 0.0) {
+    const TowardSun& sun = options_.ground->sun;
+    if (sun.bent == nullptr && sun.straight.z <= 0.0) {
         return;
     }
     while (!lit.empty()) {
@@ -221,10 +222,13 @@ BlockJob MeshFrame::job_toward_sun(std::span<const glm::dvec3> samples, glm::ive
     for (const glm::dvec3& sample : samples) {
         box.add(sample);
     }
-    for (const std::size_t source : sun_sources(box, ground.sources, ground.to_sun)) {
-        tiles.push_back(sun_tile_from(base, ground.sources[source], ground.to_sun));
-    }
+    tiles = sun_tiles_from(box, base, ground.sources, ground.sun);
     BlockJob job;
+    if (const SunCourse* const course = ground.sun.bent.get()) {
+        job.bends = &course->bends();
+        job.unit_scale = glm::vec2(course->unit_scale());
+        job.unit_first = glm::vec2(course->unit_first() + course->unit_scale() * glm::dvec2(base));
+    }
     job.rays.base_height = static_cast<float>(samples.front().z);
     job.rays.lift = static_cast<float>(start_rounding) * std::abs(job.rays.base_height);
     job.skips_blocks = options_.skips.blocks;

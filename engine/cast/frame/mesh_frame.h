@@ -26,8 +26,8 @@ namespace reljef::cast {
 /// The ground that may hide the sun from meshes; without it nothing casts shadows.
 struct ShadowGround {
     std::vector<SunSource> sources;
-    glm::dvec3 to_sun{0.0}; ///< samples of the sources' terrain and metres of height
-    /// The sample of a world place.
+    TowardSun sun = {};
+    /// The sample of a world place, of the sources' terrain.
     std::function<std::optional<glm::dvec3>(glm::dvec3 world)> sample_of;
 };
 

@@ -9,6 +9,7 @@
 #include "engine/cast/curved_rays.h"
 #include "engine/cast/frame/ground_detail.h"
 #include "engine/cast/frame/seen_terrain.h"
+#include "engine/cast/frame/sun_light.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
@@ -32,9 +33,6 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     }
     if (is_curved(terrain) && terrain.surface->placement().columns_all_around()) {
         return "a globe";
-    }
-    if (is_curved(terrain) && technique.options.shadow) {
-        return "shadows by rays on the ellipsoid, where they bend,";
     }
     if (terrain.material.shader != nullptr) {
         return "a surface shader";
@@ -89,6 +87,9 @@ std::string obstacle_of(const view::DrawList& list) {
             !are_linear(list.camera, list.size, terrain.world_from_local,
                         terrain.node->surface->placement(), terrain.local)) {
             return "a view from so far that a block of pixels shows the bend of the Earth";
+        }
+        if (is_curved(*terrain.node) && casts_shadows(terrain) && bends_too_much(list, terrain)) {
+            return "a sun whose rays bend too much over so large a terrain, or so near to a pole,";
         }
     }
     return terrains.size() > 1 ? "more than one terrain" : "";

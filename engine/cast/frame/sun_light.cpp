@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "engine/scene/streaming/tile_stream.h"
@@ -58,13 +61,16 @@ double max_variation(const RayTile& tile) {
     return 0.5 * lift / (2.0 * rounded);
 }
 
-// To the sun of a list, in samples of a terrain on a plane, or of its stream.
-std::optional<glm::dvec3> direction_to_sun(const view::DrawList& list, const SeenTerrain& seen) {
+// To the sun of a list, local.
+std::optional<glm::dvec3> local_to_sun(const view::DrawList& list, const SeenTerrain& seen) {
     const auto light = view::light_on(list, seen.world_from_local);
-    if (!light) {
-        return std::nullopt;
-    }
-    const glm::dvec3 local = glm::inverse(light->world_from_local) * scene::to_light(light->sun);
+    return light
+               ? std::optional(glm::inverse(light->world_from_local) * scene::to_light(light->sun))
+               : std::nullopt;
+}
+
+// The same in samples of a terrain on a plane, or of its stream.
+glm::dvec3 in_samples_of(const SeenTerrain& seen, glm::dvec3 local) {
     const scene::TerrainNode& node = *seen.node;
     glm::dvec3 to_sun = direction_in_samples(node.surface->placement(), local);
     if (seen.has_tiles) {
@@ -73,13 +79,102 @@ std::optional<glm::dvec3> direction_to_sun(const view::DrawList& list, const See
     return to_sun;
 }
 
-// A world place in the samples of a terrain, or of its stream.
+// In samples of the terrain's surface.
+Box tile_box(const scene::TileBuilder& builder, const scene::TerrainTile& tile) {
+    const terrain::TileLattice lattice = builder.lattice(tile.id);
+    Box box;
+    box.add(glm::dvec3(builder.on_overview(lattice.first), tile.range.low));
+    box.add(glm::dvec3(builder.on_overview(lattice.last), tile.range.high));
+    return box;
+}
+
+// The tiles of a terrain in a list, drawn or searched.
+std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
+                                                const SeenTerrain& seen) {
+    std::vector<const scene::TerrainTile*> tiles;
+    const auto add = [&](const scene::TerrainTile& tile) {
+        if (!tile.borrows) {
+            tiles.push_back(&tile);
+        }
+    };
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (draw->terrain == seen.node) {
+            std::for_each(draw->search->tiles.begin(), draw->search->tiles.end(),
+                          [&](const auto& tile) { add(*tile); });
+        }
+    }
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.terrain == seen.node) {
+            add(*draw.tile);
+        }
+    }
+    return tiles;
+}
+
+// Those above others.
+std::set<terrain::TreeTile> parents_of(std::span<const scene::TerrainTile* const> tiles,
+                                       int top_level) {
+    std::set<terrain::TreeTile> parents;
+    for (const scene::TerrainTile* const tile : tiles) {
+        terrain::TreeTile id = tile->id;
+        while (id.level < top_level) {
+            id = {id.level + 1, id.col / 2, id.row / 2};
+            parents.insert(id);
+        }
+    }
+    return parents;
+}
+
+// Rays begin on the finest tiles. All loaded ones above them, and the overview, may hide the sun.
+SunCourse::Ground ground_of(const view::DrawList& list, const SeenTerrain& seen) {
+    if (!seen.has_tiles) {
+        return {seen.samples, seen.samples};
+    }
+    const scene::TileStream& stream = *seen.node->stream;
+    const std::vector<const scene::TerrainTile*> tiles = tiles_in(list, seen);
+    const auto parents = parents_of(tiles, stream.tree().root().level);
+    const Grid<float>& overview = seen.node->surface->heightfield().heights;
+    const terrain::MinMax total = seen.node->surface->pyramid().total();
+    SunCourse::Ground ground;
+    ground.all.add(glm::dvec3(0.0, 0.0, total.low));
+    ground.all.add(glm::dvec3(overview.cols() - 1.0, overview.rows() - 1.0, total.high));
+    for (const scene::TerrainTile* const tile : tiles) {
+        if (!parents.contains(tile->id)) {
+            ground.lit.add(tile_box(stream.maker(), *tile));
+        }
+    }
+    ground.all.add(ground.lit);
+    for (const terrain::TreeTile id : parents) {
+        if (const auto tile = stream.find(id)) {
+            ground.all.add(tile_box(stream.maker(), *tile));
+        }
+    }
+    return ground;
+}
+
+std::shared_ptr<const SunCourse> course_to(glm::dvec3 local, const SeenTerrain& seen,
+                                           const SunCourse::Ground& ground) {
+    auto course = SunCourse::create(seen.node->surface->placement(), glm::normalize(local), ground);
+    return course ? std::make_shared<const SunCourse>(std::move(*course)) : nullptr;
+}
+
+// In samples of the terrain's surface.
+std::vector<SunSource> on_surface(const SeenTerrain& seen, std::vector<SunSource> sources) {
+    for (SunSource& source : sources) {
+        const scene::TileBuilder& builder = seen.node->stream->maker();
+        source.first = builder.on_overview(source.first);
+        source.step /= static_cast<double>(builder.reduction());
+    }
+    return sources;
+}
+
+// A world place in the samples of a terrain; on a plane of its stream, if it has tiles.
 std::optional<glm::dvec3> sample_of(const SeenTerrain& seen, const glm::dmat4& local_from_world,
                                     glm::dvec3 world) {
     const scene::TerrainNode& node = *seen.node;
     const glm::dvec3 local(local_from_world * glm::dvec4(world, 1.0));
     const auto sample = node.surface->placement().sample_from_world(local);
-    return sample && seen.has_tiles
+    return sample && seen.has_tiles && !is_curved(node)
                ? glm::dvec3(node.stream->maker().from_overview(glm::dvec2(*sample)), sample->z)
                : sample;
 }
@@ -87,28 +182,61 @@ std::optional<glm::dvec3> sample_of(const SeenTerrain& seen, const glm::dmat4& l
 } // namespace
 
 bool casts_shadows(const SeenTerrain& seen) {
-    return seen.node->material.technique.options.shadow && !is_curved(*seen.node);
+    return seen.node->material.technique.options.shadow.has_value();
 }
 
-void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::span<const SunSource> beside,
+std::vector<std::shared_ptr<const scene::TerrainTile>> tiles_above(const view::DrawList& list) {
+    std::vector<std::shared_ptr<const scene::TerrainTile>> above;
+    for (const SeenTerrain& seen : seen_terrains(list)) {
+        if (!seen.has_tiles || !casts_shadows(seen)) {
+            continue;
+        }
+        const scene::TileStream& stream = *seen.node->stream;
+        for (const terrain::TreeTile id :
+             parents_of(tiles_in(list, seen), stream.tree().root().level)) {
+            if (auto tile = stream.find(id)) {
+                above.push_back(std::move(tile));
+            }
+        }
+    }
+    return above;
+}
+
+bool bends_too_much(const view::DrawList& list, const SeenTerrain& seen) {
+    const auto local = local_to_sun(list, seen);
+    return local && local->z > 0.0 && course_to(*local, seen, ground_of(list, seen)) == nullptr;
+}
+
+void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::vector<SunSource> beside,
              PlacedTiles& placed) {
-    const auto to_sun = direction_to_sun(list, seen);
-    if (to_sun && to_sun->z > 0.0) { // else there is no such light
-        add_sun_tiles(placed, beside, *to_sun);
+    const auto local = local_to_sun(list, seen);
+    if (!local || local->z <= 0.0) {
+        return; // there is no such light
+    }
+    if (!is_curved(*seen.node)) {
+        add_sun_tiles(placed, beside, {in_samples_of(seen, *local)});
+    } else if (auto course = course_to(*local, seen, ground_of(list, seen))) {
+        add_sun_tiles(placed, on_surface(seen, std::move(beside)), {{}, std::move(course)});
     }
 }
 
 std::optional<ShadowGround> shadow_ground(const view::DrawList& list, const SeenTerrain& seen,
                                           const PlacedTiles& placed,
                                           std::vector<SunSource> beside) {
-    const auto to_sun = casts_shadows(seen) ? direction_to_sun(list, seen) : std::nullopt;
-    if (!to_sun) {
+    const auto local = casts_shadows(seen) ? local_to_sun(list, seen) : std::nullopt;
+    if (!local) {
         return std::nullopt;
     }
-    ShadowGround ground{std::move(beside), *to_sun, {}};
-    for (const PlacedTile& tile : placed.tiles) {
-        ground.sources.push_back({tile.tile, tile.first, tile.step});
+    ShadowGround ground;
+    if (is_curved(*seen.node)) {
+        ground.sources = on_surface(seen, std::move(beside));
+        ground.sun.bent = placed.sun_course;
+    } else {
+        ground.sources = std::move(beside);
+        ground.sun.straight = in_samples_of(seen, *local);
     }
+    const std::vector<SunSource> sources = sun_sources(placed);
+    ground.sources.insert(ground.sources.end(), sources.begin(), sources.end());
     ground.sample_of = [seen, from_world = glm::inverse(seen.world_from_local)](glm::dvec3 world) {
         return sample_of(seen, from_world, world);
     };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -19,9 +20,16 @@ namespace reljef::cast {
 /// Whether rays look for the sun from the terrain's hits.
 bool casts_shadows(const SeenTerrain& seen);
 
+/// The loaded tiles above the tiles of a list whose terrains cast shadows.
+std::vector<std::shared_ptr<const scene::TerrainTile>> tiles_above(const view::DrawList& list);
+
+/// Whether no course describes the rays from a terrain on the ellipsoid to the sun of a list, see
+/// SunCourse::create().
+bool bends_too_much(const view::DrawList& list, const SeenTerrain& seen);
+
 /// Adds the tiles that may hide the sun of a list from each other, and those of `beside`.
-/// Precondition: a plane placement.
-void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::span<const SunSource> beside,
+/// Precondition: !bends_too_much() on the ellipsoid.
+void add_sun(const view::DrawList& list, const SeenTerrain& seen, std::vector<SunSource> beside,
              PlacedTiles& placed);
 
 /// The same tiles, as those that may hide the sun from meshes; empty if the terrain casts no

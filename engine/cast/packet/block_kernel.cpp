@@ -22,6 +22,7 @@
 #include "engine/cast/packet/packet_light-inl.h"
 #include "engine/cast/packet/packet_paint-inl.h"
 #include "engine/cast/packet/packet_rays-inl.h"
+#include "engine/cast/packet/packet_sun-inl.h"
 #include "engine/cast/packet/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -331,11 +332,17 @@ HWY_INLINE PacketHits hits_at(const SunPlaces& places, int first) {
     return hits;
 }
 
+HWY_INLINE Lanes hidden_at(const BlockJob& job, const PacketHits& hits) {
+    Work none = Work::nothing();
+    return job.bends != nullptr
+               ? hidden_along_chords<AmongTiles>(job, hits, bent_rays(job, hits), none)
+               : hidden_from_sun<AmongTiles>(job, hits, none);
+}
+
 void hide_all(const BlockJob& job, const SunPlaces& places,
               std::array<std::uint8_t, block_pixels>& hidden) {
     for (int first = 0; first < places.count; first += lane_count) {
-        Work none = Work::nothing();
-        const Lanes dark = hidden_from_sun<AmongTiles>(job, hits_at(places, first), none);
+        const Lanes dark = hidden_at(job, hits_at(places, first));
         std::array<std::uint8_t, 8> bytes{};
         hn::StoreMaskBits(floats, dark, bytes.data());
         const unsigned lanes = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;

@@ -187,6 +187,30 @@ struct SkyPaint {
 inline constexpr std::int32_t sun_certain = 1;
 inline constexpr std::int32_t shadow_certain = 2;
 
+/// Rays to the sun over the ellipsoid: straight on the Earth, bent in samples of the surface. Each
+/// leads from a place to that one plus a polynomial in the part of the ray, whose factors are
+/// polynomials in the unit place (-1 to 1 over the surface along each axis).
+struct SunBends {
+    /// Terms of the factors of part to part^4, one after the other; x^i·y^j at j · side + i. After
+    /// those of each factor, the same of what is multiplied with z.
+    static constexpr std::array<int, 4> sides{5, 4, 3, 2};
+    static constexpr std::array<int, 4> height_sides{5, 1, 0, 0};
+    static constexpr int term_count = 2 * 5 * 5 + 4 * 4 + 1 + 3 * 3 + 2 * 2;
+
+    std::array<glm::vec3, term_count> terms{}; ///< col, row, true metres of height
+    glm::vec2 unit_per_sample{1.0F};
+    float unit_per_metre = 1.0F; ///< of height above the ellipsoid
+    float unit_height = 0.0F;    ///< the unit place at height 0
+    /// Where the chords that replace a ray begin, and where the last one ends; the first is 0.
+    std::span<const float> parts = {};
+    /// Heights of the geoid above the ellipsoid, true metres, row after row: two columns and rows
+    /// at least. Null: none.
+    const float* zeros = nullptr;
+    glm::ivec2 zero_count{0};
+    glm::vec2 zero_scale{1.0F}; ///< place among them = scale · unit place + first
+    glm::vec2 zero_first{0.0F};
+};
+
 /// A tile that may hide the sun from hits on another one, or on itself.
 struct SunTile {
     TileSamples tile;
@@ -198,6 +222,10 @@ struct SunTile {
     glm::vec2 scale{1.0F};
     glm::vec2 offset{0.0F};
     glm::vec3 to_sun{0.0F, 0.0F, 1.0F}; ///< samples and metres of height; it rises
+    // Where rays bend:
+    glm::vec2 bend_scale{1.0F}; ///< samples of the tile in one of the surface
+    int first_chord = 0;        ///< the first and the last chords that may meet it
+    int last_chord = -1;
 };
 
 /// The sides of a tile: bits of BlockJob::walls.
@@ -219,6 +247,9 @@ struct BlockJob {
     const TilePaint* normals = nullptr;   ///< local ones, as large as the albedo
     const TilePaint* sun_share = nullptr; ///< of its disc that is visible; null: all, or by `sun`
     std::span<const SunTile> sun_tiles = {}; ///< of hits on a tile, that one first
+    const SunBends* bends = nullptr;         ///< null: rays to the sun are straight
+    glm::vec2 unit_scale{1.0F};              ///< unit place = scale · sample of the hits + first
+    glm::vec2 unit_first{0.0F};
     /// What is certain of the sun in each cell: 2 bits, 16 cells of a row in a word.
     /// Null: nothing.
     const std::int32_t* certain_sun = nullptr;

@@ -1,5 +1,4 @@
-// The light that the hits of a packet reflect, and which of them the sun reaches. Included once for
-// each instruction set.
+// The light that the hits of a packet reflect. Included once for each instruction set.
 #if defined(RELJEF_PACKET_LIGHT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_LIGHT_INL_H
 #undef RELJEF_PACKET_LIGHT_INL_H
@@ -8,10 +7,8 @@
 #endif
 
 #include <array>
-#include <limits>
-#include <type_traits>
 
-#include "engine/cast/packet/packet_walk-inl.h"
+#include "engine/cast/packet/packet_sun-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
@@ -65,120 +62,6 @@ HWY_INLINE Floats exp2_of(Floats x) {
         cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
     return hn::IfThenElseZero(hn::Gt(x, smallest),
                               hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
-}
-
-// How the surface lies: its slopes at the hits, metres per sample.
-struct Slopes {
-    Floats col;
-    Floats row;
-};
-
-HWY_INLINE Slopes slopes_of(const PacketHits& hits) {
-    const Corners& corners = hits.corners;
-    return {
-        mixed(hn::Sub(corners.h10, corners.h00), hn::Sub(corners.h11, corners.h01), hits.row_part),
-        mixed(hn::Sub(corners.h01, corners.h00), hn::Sub(corners.h11, corners.h10), hits.col_part)};
-}
-
-// The hits whose surface rises less than the rays to the sun. From the others these lead into the
-// ground, whatever rounding makes of their starts.
-HWY_INLINE Lanes facing_sun(const BlockJob& job, const PacketHits& hits) {
-    const glm::vec3 to_sun = job.sun_tiles.front().to_sun;
-    const Slopes slopes = slopes_of(hits);
-    const Floats ground = hn::MulAdd(slopes.col, all(to_sun.x), hn::Mul(slopes.row, all(to_sun.y)));
-    return hn::And(hits.found, hn::Lt(ground, all(to_sun.z)));
-}
-
-// A tile that may hide the sun, for the functions that walk through it.
-HWY_INLINE void target_sun_tile(const BlockJob& job, const SunTile& tile, BlockJob& target) {
-    target.tile = tile.tile;
-    target.rays.base_height = job.rays.base_height;
-    target.rays.lift = job.rays.lift + tile.lift;
-    target.rays.highest = tile.highest - job.rays.base_height + target.rays.lift;
-    target.skips_blocks = job.skips_blocks;
-    target.skips_cells = job.skips_cells;
-    target.rays.end = 0.5F * std::numeric_limits<float>::max();
-}
-
-// From the hits, above which they begin by what floats round.
-HWY_INLINE Rays sun_rays(const BlockJob& job, const SunTile& tile, const BlockJob& target,
-                         const PacketHits& hits) {
-    const auto axis = [&](int index, Ints cell, Floats part) HWY_ATTR {
-        const int from = tile.is_of_hits ? job.rays.base[index] : 0;
-        const Floats place = hn::Add(hn::ConvertTo(floats, hn::Sub(cell, all(from))), part);
-        const Floats origin = hn::MulAdd(place, all(tile.scale[index]), all(tile.offset[index]));
-        return axis_of(origin, all(tile.to_sun[index]), tile.base[index] + from,
-                       tile.tile.cells[index]);
-    };
-    Rays rays;
-    rays.col = axis(0, hits.col, hits.col_part);
-    rays.row = axis(1, hits.row, hits.row_part);
-    rays.height = hn::Add(hits.height, all(target.rays.lift));
-    rays.rise = all(tile.to_sun.z);
-    rays.begin = hn::Zero(floats);
-    rays.end = end_of(rays, target.rays);
-    return rays;
-}
-
-// The order of tiles does not matter: a ray that is below one somewhere does not reach the sun.
-template <class Mode>
-HWY_NOINLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
-    using SunMode = std::conditional_t<Mode::counts, Counted, AmongTiles>;
-    Lanes hidden = no_lanes();
-    BlockJob target;
-    for (const SunTile& tile : job.sun_tiles) {
-        const Lanes open = hn::AndNot(hidden, hits.found);
-        if (hn::AllFalse(floats, open)) {
-            break;
-        }
-        target_sun_tile(job, tile, target);
-        const Rays rays = sun_rays(job, tile, target, hits);
-        const Entry entry = entry_of(rays);
-        Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
-        walk.active = hn::And(walk.active, open);
-        walk.entry = hn::Max(entry.t(), rays.begin);
-        walk.walled = hn::Gt(entry.t(), rays.begin);
-        walk.below = no_lanes();
-        HitPieces pieces{};
-        walk.work = work;
-        hidden = hn::Or(hidden, find_hits<SunMode>(rays, target, walk, pieces));
-        if constexpr (Mode::counts) {
-            work = walk.work;
-        }
-    }
-    return hidden;
-}
-
-// What is certain of the sun in the hits' cells.
-HWY_INLINE Ints certain_sun_of(const BlockJob& job, const PacketHits& hits) {
-    constexpr int cells_a_word_bits = 4;
-    const Ints word = hn::Add(hn::Mul(hits.row, all(job.certain_stride)),
-                              hn::ShiftRight<cells_a_word_bits>(hits.col));
-    const Ints bits = hn::GatherIndex(ints, job.certain_sun, word);
-    const Ints cell = hn::And(hits.col, all((1 << cells_a_word_bits) - 1));
-    return hn::And(hn::Shr(bits, hn::Add(cell, cell)), all(std::int32_t{3}));
-}
-
-// The hits that the sun reaches. Rays look for it only where it is not certain.
-template <class Mode>
-HWY_INLINE Lanes seen_by_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
-    Lanes lit = no_lanes();
-    PacketHits open = hits;
-    open.found = facing_sun(job, hits);
-    if (job.certain_sun != nullptr) {
-        if constexpr (Mode::counts) {
-            work.tap(hits.found, 1);
-        }
-        const Ints certain = certain_sun_of(job, hits);
-        const auto is = [&](std::int32_t what)
-                            HWY_ATTR { return hn::RebindMask(floats, hn::Eq(certain, all(what))); };
-        lit = hn::And(hits.found, is(sun_certain));
-        open.found = hn::And(open.found, is(0));
-    }
-    if (hn::AllFalse(floats, open.found)) {
-        return lit;
-    }
-    return hn::Or(lit, hn::AndNot(hidden_from_sun<Mode>(job, open, work), open.found));
 }
 
 // The three times 10 bits of a texel, [0, 1023].

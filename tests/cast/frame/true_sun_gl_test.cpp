@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,9 @@
 #include "tests/cast/frame/true_sun.h"
 #include "tests/cast/made_rays.h"
 #include "tests/gl/gl_fixture.h"
+#include "tests/render/earth_stage.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
 #include "tests/session/made_session.h"
 #include "tests/support/release_only.h"
 
@@ -68,9 +72,44 @@ struct SunStage : Stage {
     }
 };
 
+// White ground on the ellipsoid below a sun alone, seen from all heights and as a map.
+struct EarthSunStage : test::EarthStage {
+    scene::Node* light = nullptr;
+    bool shows_maps = false; // only
+
+    explicit EarthSunStage(const test::EarthPlace& place)
+        : EarthStage(place, test::must(terrains::generate_natural(
+                                           {.size = side, .seed = 5, .spacing = 90.0}))
+                                .heightfield.heights) {
+        light = &scene.add_light();
+        set(test::must(scene::parse_technique("exact:shadow=hard")));
+    }
+    [[nodiscard]] test::SunTolerance tolerance() const {
+        const terrain::MinMax total = surface().pyramid().total();
+        return {.metres = 0x1p-18 * std::max(std::abs(total.low), std::abs(total.high))};
+    }
+    void look_around(test::Chance& chance) {
+        *light->get<scene::Light>() =
+            test::bright_sun(chance.between(0.0, 360.0), chance.between(5.0, 80.0));
+        const auto place = [&] {
+            return glm::dvec2(chance.between(20.0, side - 20.0), chance.between(20.0, side - 20.0));
+        };
+        const glm::dvec2 from = place();
+        constexpr std::array heights{0.3, 0.3, 30.0, 1000.0, 10'000.0};
+        const int view = chance.whole(shows_maps ? static_cast<int>(heights.size()) : 0,
+                                      static_cast<int>(heights.size()));
+        if (view < static_cast<int>(heights.size())) {
+            look(from, heights.at(static_cast<std::size_t>(view)), place());
+            return;
+        }
+        look(scene::pose_camera(scene::Pose::map, surface().bounds(),
+                                [](double /*x*/, double /*y*/) { return 0.0; }));
+    }
+};
+
 // `draw`: the picture of a scene.
-template <class Draw>
-test::LightCounts compared_pictures(SunStage& stage, unsigned seed, int views, const Draw& draw) {
+template <class Sunny, class Draw>
+test::LightCounts compared_pictures(Sunny& stage, unsigned seed, int views, const Draw& draw) {
     test::Chance chance(seed);
     test::LightCounts counts;
     for (int view = 0; view < views; ++view) {
@@ -85,7 +124,7 @@ test::LightCounts compared_pictures(SunStage& stage, unsigned seed, int views, c
 void expect_true_light(const test::LightCounts& counts, int views, int certain = 20'000) {
     if (views >= enough_views) {
         EXPECT_GT(counts.lit, 100 * views);
-        EXPECT_GT(counts.hidden, 60 * views);
+        EXPECT_GT(counts.hidden, 10 * views);
         EXPECT_LT(counts.unstable, counts.certain() / 50);
     }
     EXPECT_LE(counts.wrong(), counts.certain() / certain)
@@ -135,20 +174,35 @@ TEST(TrueSun, ReachesWhatRaysLightInAScannedCity) {
     expect_true_light_by_rays(scanned_city(), 13);
 }
 
-// Some are half in the ground; all cast shadows on each other and on the ground.
-void add_objects(SunStage& stage, test::Chance& chance) {
-    const Box bounds = stage.surface().bounds();
-    const auto size = static_cast<float>(0.06 * bounds.size().x);
+std::span<const double> sunny_latitudes() {
+    static constexpr std::array latitudes{45.0, 0.1, 85.0, -60.0};
+    return std::span(latitudes).first(std::size_t{test::rounds(4, 1)});
+}
+
+TEST(TrueSun, ReachesWhatRaysLightOnTheEllipsoid) {
+    const int views = test::rounds(enough_views, 1);
+    for (const double latitude : sunny_latitudes()) {
+        EarthSunStage stage({.latitude = latitude, .turn = latitude > 0.0 ? 20.0 : 0.0});
+        SCOPED_TRACE(latitude);
+        expect_true_light(compared_pictures(stage, 16, views, sunlit_by_rays), views);
+    }
+}
+
+// Some are half in the ground; all cast shadows on each other and on the ground. `place(sample)`:
+// where the ground is at a part of its sides.
+template <class Place>
+void add_objects(scene::Scene& scene, double width, const Place& place, test::Chance& chance) {
+    const auto size = static_cast<float>(0.06 * width);
     scene::Material grey;
     grey.color = glm::vec3(0.5F);
     for (int i = 0; i < 16; ++i) {
-        const glm::dvec2 at(chance.between(bounds.low.x, bounds.high.x),
-                            chance.between(bounds.low.y, bounds.high.y));
         const std::array meshes{scene::box_mesh({size, 0.5F * size, 3.0F * size}),
                                 scene::sphere_mesh(size), scene::torus_mesh(size, 0.3F * size),
                                 scene::cylinder_mesh(0.3F * size, 3.0F * size)};
-        stage.scene.add_mesh(meshes.at(static_cast<std::size_t>(i % 4)), grey)
-            .set_position({at, stage.ground(at) + 0.5 * size});
+        const double col = chance.between(0.0, 1.0);
+        scene.add_mesh(meshes.at(static_cast<std::size_t>(i % 4)), grey)
+            .set_position(place(glm::dvec2(col, chance.between(0.0, 1.0))) +
+                          glm::dvec3(0.0, 0.0, 0.5 * size));
     }
 }
 
@@ -157,8 +211,45 @@ TEST(TrueSun, ReachesWhatRaysLightOfMeshesAndBesideThem) {
     SunStage stage(mountains());
     stage.use("exact:shadow=hard");
     test::Chance chance(14);
-    add_objects(stage, chance);
+    const Box bounds = stage.surface().bounds();
+    const auto place = [&](glm::dvec2 part) {
+        const glm::dvec2 at =
+            glm::mix(glm::dvec2(bounds.low), glm::dvec2(bounds.high), glm::dvec2(part));
+        return glm::dvec3(at, stage.ground(at));
+    };
+    add_objects(stage.scene, bounds.size().x, place, chance);
     expect_true_light(compared_pictures(stage, 15, views, sunlit_by_rays), views);
+}
+
+TEST(TrueSun, ReachesWhatRaysLightOfMeshesOnTheEllipsoid) {
+    const int views = test::rounds(enough_views, 1);
+    EarthSunStage stage({.latitude = 45.0, .step = 0.0003, .turn = 20.0});
+    test::Chance chance(17);
+    const auto place = [&](glm::dvec2 part) {
+        const glm::dvec2 sample = part * (stage.side - 1.0);
+        return stage.world({sample, terrain::bilinear_height(
+                                        stage.surface().heightfield().heights.view(), sample)});
+    };
+    add_objects(stage.scene, stage.surface().bounds().size().x, place, chance);
+    expect_true_light(compared_pictures(stage, 18, views, sunlit_by_rays), views);
+}
+
+// Of maps: all tiles of the finest level are drawn.
+TEST(TrueSun, ReachesWhatRaysLightOfTilesOnTheEllipsoid) {
+    const int views = test::rounds(6, 1);
+    for (const double latitude : sunny_latitudes()) {
+        EarthSunStage stage({.latitude = latitude, .turn = latitude > 0.0 ? 20.0 : 0.0});
+        SCOPED_TRACE(latitude);
+        test::stream_samples(*stage.terrain->get<scene::TerrainNode>(), test::SeenLevels::finest);
+        stage.shows_maps = true;
+        const auto draw = [&](const scene::Scene& scene) {
+            render::bring_tiles(stage.scene, sunny_picture);
+            return sunlit_by_rays(scene);
+        };
+        const test::LightCounts counts = compared_pictures(stage, 19, views, draw);
+        EXPECT_GT(counts.hidden, 10 * views);
+        expect_true_light(counts, views);
+    }
 }
 
 class TrueSunGlTest : public test::GlTest {
