@@ -14,9 +14,9 @@
 
 namespace reljef::cast {
 
-/// Rays to the sun from the places of a terrain on the ellipsoid, in samples, where they bend. Each
-/// is a polynomial of degree 4 in its part, whose factors are polynomials in its place
-/// (Chebyshev's), plus the geoid, which is interpolated. Chords replace the rays.
+/// Rays to the sun from the places of a terrain on the ellipsoid. They are bent in samples: each is
+/// a polynomial of degree 4 in its part, whose factors are polynomials in its place (Chebyshev's),
+/// plus the geoid, which is interpolated. Chords replace the rays.
 class SunCourse {
 public:
     /// Of a terrain, samples (col, row) and true metres of height.
@@ -42,7 +42,7 @@ public:
     [[nodiscard]] glm::dvec2 unit_scale() const { return glm::dvec2(unit_scale_); }
     [[nodiscard]] glm::dvec2 unit_first() const { return glm::dvec2(unit_first_); }
 
-    /// From a place to the ends of its chords, the first of which is the place itself.
+    /// From a place to the ends of its chords, and first to itself.
     [[nodiscard]] std::vector<glm::dvec3> ways_from(glm::dvec3 sample) const;
     /// Boxes around the ends of all chords from places in a box.
     [[nodiscard]] std::vector<Box> ends_from(const Box& places) const;

@@ -1,4 +1,4 @@
-// Rays to the sun over the ellipsoid, where they bend. Included once for each instruction set.
+// Bent rays to the sun, over the ellipsoid. Included once for each instruction set.
 #if defined(RELJEF_PACKET_BENDS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_BENDS_INL_H
 #undef RELJEF_PACKET_BENDS_INL_H

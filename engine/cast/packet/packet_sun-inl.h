@@ -111,11 +111,12 @@ HWY_INLINE Lanes facing_chords(const BlockJob& job, const PacketHits& hits, cons
 
 // From one end of a chord to the other, along one axis of a tile. Each lane has its own base, near
 // the place where its chord begins: so it is as precise far from the eye.
-HWY_INLINE Axis chord_axis(const SunTile& tile, int index, Ints cell, Floats part,
+HWY_INLINE Axis chord_axis(const SunTile& tile, const PacketHits& hits, int index,
                            const std::array<SunWay, 2>& ends) {
     const Floats samples = all(tile.bend_scale[index]);
     const auto axis = static_cast<std::size_t>(index);
-    Floats whole = hn::ConvertTo(floats, cell);
+    const Floats part = index == 0 ? hits.col_part : hits.row_part;
+    Floats whole = hn::ConvertTo(floats, index == 0 ? hits.col : hits.row);
     Floats rest = part;
     if (!tile.is_of_hits) {
         const Floats scaled = hn::Mul(whole, all(tile.scale[index]));
@@ -137,13 +138,37 @@ HWY_INLINE Axis chord_axis(const SunTile& tile, int index, Ints cell, Floats par
 HWY_INLINE Rays chord_rays(const SunTile& tile, const BlockJob& target, const PacketHits& hits,
                            const std::array<SunWay, 2>& ends) {
     Rays rays;
-    rays.col = chord_axis(tile, 0, hits.col, hits.col_part, ends);
-    rays.row = chord_axis(tile, 1, hits.row, hits.row_part, ends);
+    rays.col = chord_axis(tile, hits, 0, ends);
+    rays.row = chord_axis(tile, hits, 1, ends);
     rays.height = hn::Add(hn::Add(hits.height, all(target.rays.lift)), ends[0][2]);
     rays.rise = hn::Sub(ends[1][2], ends[0][2]);
     rays.begin = hn::Zero(floats);
     rays.end = end_of(rays, target.rays);
     return rays;
+}
+
+struct ChordLanes {
+    Lanes open;      // not hidden yet
+    Lanes continued; // another chord ends where this one begins, above all ground
+};
+
+// The rays that a chord hides from the sun.
+template <class SunMode>
+HWY_INLINE Lanes hidden_by_chord(const Rays& rays, const BlockJob& target, const ChordLanes& lanes,
+                                 Work& work) {
+    const Entry entry = entry_of(rays);
+    Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
+    walk.active = hn::And(walk.active, lanes.open);
+    walk.entry = hn::Max(entry.t(), rays.begin);
+    walk.walled = hn::Or(lanes.continued, hn::Gt(entry.t(), rays.begin));
+    walk.below = no_lanes();
+    HitPieces pieces{};
+    walk.work = work;
+    const Lanes hits = find_hits<SunMode>(rays, target, walk, pieces);
+    if constexpr (SunMode::counts) {
+        work = walk.work;
+    }
+    return hits;
 }
 
 // Each chord begins where the last one has ended, above the surface: a ray that is below it
@@ -153,41 +178,31 @@ HWY_NOINLINE Lanes hidden_along_chords(const BlockJob& job, const PacketHits& hi
                                        const BentRays& sun, Work& work) {
     using SunMode = std::conditional_t<Mode::counts, Counted, AmongTiles>;
     const SunBends& bends = *job.bends;
+    const auto way_to_end = [&](int end) HWY_ATTR {
+        return way_to(bends, sun, bends.parts[static_cast<std::size_t>(end)]);
+    };
     Lanes hidden = no_lanes();
     BlockJob target;
     for (const SunTile& tile : job.sun_tiles) {
         target_sun_tile(job, tile, target);
         target.rays.lowest = std::numeric_limits<float>::lowest(); // chords may fall
         target.rays.end = 1.0F;
-        const auto part = [&](int end) { return bends.parts[static_cast<std::size_t>(end)]; };
+        Lanes open = hn::AndNot(hidden, hits.found);
         std::array<SunWay, 2> ends;
-        ends[1] = way_to(bends, sun, part(tile.first_chord));
-        for (int chord = tile.first_chord; chord <= tile.last_chord; ++chord) {
-            const Lanes open = hn::AndNot(hidden, hits.found);
-            if (hn::AllFalse(floats, open)) {
-                return hidden;
-            }
+        ends[1] = way_to_end(tile.first_chord);
+        for (int chord = tile.first_chord; chord <= tile.last_chord && !hn::AllFalse(floats, open);
+             ++chord) {
             ends[0] = ends[1];
-            ends[1] = way_to(bends, sun, part(chord + 1));
+            ends[1] = way_to_end(chord + 1);
             const Rays rays = chord_rays(tile, target, hits, ends);
-            const Entry entry = entry_of(rays);
-            Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
-            walk.active = hn::And(walk.active, open);
-            walk.entry = hn::Max(entry.t(), rays.begin);
-            walk.walled = chord > 0 ? hn::Not(no_lanes()) : hn::Gt(entry.t(), rays.begin);
-            walk.below = no_lanes();
-            HitPieces pieces{};
-            walk.work = work;
-            hidden = hn::Or(hidden, find_hits<SunMode>(rays, target, walk, pieces));
-            if constexpr (Mode::counts) {
-                work = walk.work;
-            }
+            const ChordLanes lanes{open, chord > 0 ? hits.found : no_lanes()};
+            const Lanes met = hidden_by_chord<SunMode>(rays, target, lanes, work);
+            hidden = hn::Or(hidden, met);
+            // Those that are above the tile and rise do not return.
             const Lanes above =
                 hn::And(hn::Gt(hn::Add(rays.height, rays.rise), all(target.rays.highest)),
                         hn::Ge(rays.rise, hn::Zero(floats)));
-            if (hn::AllFalse(floats, hn::AndNot(above, open))) {
-                break; // no later chord is lower
-            }
+            open = hn::AndNot(hn::Or(met, above), open);
         }
     }
     return hidden;

@@ -252,6 +252,16 @@ TEST(TrueSun, ReachesWhatRaysLightOfTilesOnTheEllipsoid) {
     }
 }
 
+TEST(TrueSun, IsLeftToOpenGlAroundAPole) {
+    const auto obstacle = [](double latitude) {
+        EarthSunStage stage({.latitude = latitude});
+        stage.look({120.0, 120.0}, 1000.0, {140.0, 40.0});
+        return obstacle_of(view::select(stage.scene, sunny_picture).list);
+    };
+    EXPECT_NE(obstacle(89.9).find("pole"), std::string::npos) << obstacle(89.9);
+    EXPECT_EQ(obstacle(85.0), "");
+}
+
 class TrueSunGlTest : public test::GlTest {
 protected:
     static constexpr int views = test::rounds(enough_views, 1);
