@@ -342,7 +342,8 @@ bool SunCourse::cut(const terrain::Placement& placement, glm::dvec3 to_sun, cons
         const glm::dvec3 metres = metres_at(placement, sample);
         const glm::dvec3 unit = unit_of(sample);
         const Factors factors = factors_at(unit);
-        for (const double part : {0.0, 0.1, 0.3, 0.6, 1.0}) {
+        // Rays may leave narrow ground soon.
+        for (const double part : {0.0, 0.003, 0.01, 0.03, 0.1, 0.3, 0.6, 1.0}) {
             const glm::dvec3 bend =
                 2.0 * factors[1] + part * (6.0 * factors[2] + part * 12.0 * factors[3]);
             curvature = std::max(curvature, glm::length(metres * bend) / (reach_ * reach_));
