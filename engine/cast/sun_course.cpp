@@ -308,6 +308,11 @@ void SunCourse::make_zeros(const Ground& ground, const terrain::Placement& place
     constexpr double max_count = 129.0;
     constexpr double beside = 3.0 * apart;
     const glm::dvec3 metres = metres_at(placement, ground.all.center());
+    if (!(metres.x > 0.0 && metres.y > 0.0 && std::isfinite(metres.x + metres.y))) {
+        zeros_ = Grid<float>(2, 2);
+        error_ = std::numeric_limits<double>::infinity(); // a pole: too wrong
+        return;
+    }
     const glm::dvec2 more = beside / glm::dvec2(metres);
     const glm::dvec2 low = glm::dvec2(ground.all.low) - more;
     const glm::dvec2 extent = glm::dvec2(ground.all.high) + more - low;
@@ -352,7 +357,8 @@ bool SunCourse::cut(const terrain::Placement& placement, glm::dvec3 to_sun, cons
                 continue; // beside all ground
             }
             const glm::dvec3 off = sample + way(factors, unit, part) - *found;
-            error_ = std::max(error_, glm::length(metres * off) / (part * reach_));
+            const double error = glm::length(metres * off) / (part * reach_);
+            error_ = error <= error_ ? error_ : error; // also what is no number
         }
     });
     const double highest = placement.exaggeration() *
@@ -367,7 +373,7 @@ bool SunCourse::cut(const terrain::Placement& placement, glm::dvec3 to_sun, cons
         root += step;
     }
     parts_.push_back(1.0F);
-    return error_ <= max_error && parts_.size() <= max_chords;
+    return error_ <= max_error && std::isfinite(curvature) && parts_.size() <= max_chords;
 }
 
 std::optional<SunCourse> SunCourse::create(const terrain::Placement& placement, glm::dvec3 to_sun,

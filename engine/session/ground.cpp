@@ -17,8 +17,10 @@ namespace {
 
 constexpr double clearance_in_widths = 1e-3;
 constexpr double max_clearance = 0.5; // metres
-// Rounding error of heights in the scene: metres, and at most this part of a side of the terrain.
+// Rounding error of heights in the scene, metres; and at most this part of a side of the terrain:
+// far less than a sample.
 constexpr double ground_rounding = 1e-3;
+constexpr double rounding_in_sides = 1e-6;
 
 // The sample below or above a place; empty off the terrain.
 std::optional<glm::dvec3> sample_of(const scene::TerrainSurface& surface, glm::dvec3 world) {
@@ -176,7 +178,8 @@ Lift lift_of(const scene::TerrainNode& terrain, glm::dvec3 eye, double clearance
     const Around there = heights_around(terrain, glm::dvec2(*sample));
     const double ground = terrain::bilinear_height(there.heights, there.place);
     const double depth = exaggeration * (ground - sample->z);
-    const double rounding = ground_rounding * std::min(1.0, longest_side(surface.bounds()));
+    const double rounding =
+        std::min(ground_rounding, rounding_in_sides * longest_side(surface.bounds()));
     if (!(depth > rounding && std::isfinite(depth))) {
         return {};
     }

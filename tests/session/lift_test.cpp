@@ -187,6 +187,18 @@ TEST(Lift, UnderAVoidThereIsNoGround) {
     EXPECT_TRUE(lift_camera(scene));
 }
 
+// A millimetre was taken for rounding: on ground whose samples are a millimetre apart, pictures
+// from below it were far off.
+TEST(Lift, AnEyeHalfASampleUnderGroundOfMillimetresIsLifted) {
+    const auto heights = test::random_heights(1500, 1500, 0.0F, 0.02F, 11);
+    TerrainScene scene =
+        scene_of(test::plane_heightfield(heights, glm::dvec2(1e-3)), PlacementKind::plane);
+    stand(scene, {700.3, 500.6}, -0.5e-3);
+    const Lift lift = lift_camera(scene);
+    EXPECT_NEAR(lift.depth, 0.5e-3, 1e-6);
+    EXPECT_FALSE(lift_camera(scene)) << "it stands above the ground";
+}
+
 TEST(Lift, IsToldWithTheOptionItsDepthAndWhatKeepsIt) {
     Lift lift;
     lift.depth = 12.34;

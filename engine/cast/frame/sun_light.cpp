@@ -188,7 +188,7 @@ bool casts_shadows(const SeenTerrain& seen) {
 std::vector<std::shared_ptr<const scene::TerrainTile>> tiles_above(const view::DrawList& list) {
     std::vector<std::shared_ptr<const scene::TerrainTile>> above;
     for (const SeenTerrain& seen : seen_terrains(list)) {
-        if (!seen.has_tiles || !casts_shadows(seen)) {
+        if (!seen.has_tiles || !casts_shadows(seen) || !is_curved(*seen.node)) {
             continue;
         }
         const scene::TileStream& stream = *seen.node->stream;
