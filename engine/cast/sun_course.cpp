@@ -92,8 +92,9 @@ glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
 // Places in a box, to its corners: `side` along columns and rows, two heights.
 template <class Body> void for_each_place(const Box& box, int side, const Body& body) {
     for (int i = 0; i < 2 * side * side; ++i) {
-        const glm::dvec3 part(static_cast<double>(i / 2 % side) / (side - 1.0),
-                              static_cast<double>(i / 2 / side) / (side - 1.0), i % 2);
+        const int place = i / 2;
+        const glm::ivec2 at(place % side, place / side);
+        const glm::dvec3 part(glm::dvec2(at) / (side - 1.0), i % 2);
         body(box.low + part * box.size());
     }
 }

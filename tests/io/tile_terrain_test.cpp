@@ -87,7 +87,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Rasters, SceneOfReduction,
                          testing::Combine(testing::Values(2, 3, 7),
-                                          testing::Values("EPSG:32631", "EPSG:4326", ""),
+                                          testing::Values("EPSG:32631", "EPSG:4326"),
                                           testing::Bool()));
 
 TEST_P(SceneOfReduction, IsThatOfAllSamples) {

@@ -142,7 +142,7 @@ struct DetailPaint {
     DetailSearch search;
     float width = 1.0F;            ///< of a copy, metres
     float lift = 0.0F;             ///< height of 1, metres
-    float steeper = 1.0F;          ///< slopes are so many times those of the normals
+    float steeper = 1.0F;          ///< factor of the slopes of the normals
     glm::vec3 mean_color{1.0F};    ///< linear
     float specular = 0.0F;         ///< reflectance
     float shininess = 1.0F;        ///< exponent (Blinn 1977)

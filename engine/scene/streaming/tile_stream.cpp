@@ -91,16 +91,24 @@ std::optional<TileStream::Found> TileStream::finest_at(glm::dvec2 overview_sampl
         sample.x -= last.x * std::floor(sample.x / last.x);
     }
     sample = glm::clamp(sample, glm::dvec2(0.0), last);
+    // At a border only one of the tiles may be there, and rounding decides on which side a place
+    // is.
+    constexpr double border = 0x1p-20; // samples
     const std::lock_guard lock(mutex_);
     for (int level = 0; level <= tree().root().level; ++level) {
         const int side = terrain::tree_tile_cells << level;
-        const glm::ivec2 at = glm::ivec2(glm::min(sample, last - 0.5)) / side;
-        const auto found = tiles_.find({level, at.x, at.y});
-        if (found != tiles_.end()) {
-            const glm::dvec2 from_first =
-                sample - glm::dvec2(terrain::TileTree::first(found->first));
-            return Found{found->second.made.tile,
-                         from_first / static_cast<double>(terrain::TileTree::step(found->first))};
+        for (const glm::dvec2 aside : {glm::dvec2(1.0), {-1.0, 1.0}, {1.0, -1.0}, {-1.0, -1.0}}) {
+            const glm::dvec2 place =
+                glm::clamp(sample + border * aside, glm::dvec2(0.0), last - 0.5);
+            const glm::ivec2 at = glm::ivec2(place) / side;
+            const auto found = tiles_.find({level, at.x, at.y});
+            if (found != tiles_.end()) {
+                const glm::dvec2 from_first =
+                    sample - glm::dvec2(terrain::TileTree::first(found->first));
+                return Found{found->second.made.tile,
+                             from_first /
+                                 static_cast<double>(terrain::TileTree::step(found->first))};
+            }
         }
     }
     return std::nullopt;

@@ -31,7 +31,7 @@
 // What is rounded is at most as long as the ray from there, or as a cell: over the box around the
 // surface, which a view axis crosses within its diagonal, and the other rays within twice that. Of
 // what is as long as a cell, or as high, four operations are: the cell at the base, the ray's t at
-// its lines, its place there, and its height. On the ellipsoid, only the first part is counted.
+// its lines, its place there, and its height. On the ellipsoid, each piece of a ray is such a ray.
 //
 // A node that is scaled maps rays to rays. What is off by an angle beside one is off by at most
 // that times the longest over the shortest scale in the picture.
@@ -301,16 +301,14 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
     const double world_metres = max_stretch(glm::dmat3(draw.world_from_local)); // a local one
     const double local_metres = max_stretch(glm::dmat3(local_from_world));
     rounding.stretch(world_metres, local_metres);
-    const bool counts_slopes = floats == RayFloats::opengl ||
-                               terrain.surface->placement().kind() == terrain::PlacementKind::plane;
     Found found;
     for (const auto& tile : tiles) {
         if (!frustum.may_see(tile->bounds)) {
             continue;
         }
-        RayRounding::Part part = part_of(terrain, *tile, eye, counts_slopes);
+        RayRounding::Part part = part_of(terrain, *tile, eye);
         double error = rounding.at(part);
-        if (counts_slopes && error > std::max(found.error, worth_a_look)) {
+        if (error > std::max(found.error, worth_a_look)) {
             part = looked_at(part, terrain, *tile, {eye, frustum});
             error = rounding.at(part);
         }
@@ -330,12 +328,8 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
 
 // As far as the tile's box tells.
 RayRounding::Part PictureRounding::part_of(const scene::TerrainNode& terrain,
-                                           const scene::TerrainTile& tile, glm::dvec3 eye,
-                                           bool counts_slopes) {
+                                           const scene::TerrainTile& tile, glm::dvec3 eye) {
     const double distance = glm::distance(eye, glm::clamp(eye, tile.bounds.low, tile.bounds.high));
-    if (!counts_slopes) {
-        return {distance, {}, 0.0};
-    }
     const glm::dvec2 cell = cell_of(terrain, tile);
     return {distance, tile.borrows ? slopes_over(terrain.surface) : slopes_by_blocks(tile, cell),
             std::max(cell.x, cell.y)};

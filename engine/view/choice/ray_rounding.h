@@ -80,7 +80,7 @@ public:
 
 private:
     RayRounding::Part part_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile,
-                              glm::dvec3 eye, bool counts_slopes);
+                              glm::dvec3 eye);
 
     std::weak_ptr<const scene::TerrainSurface> surface_;
     Slopes slopes_;
