@@ -35,11 +35,18 @@ struct EarthStage : test::EarthStage {
         set(scene::Technique{bounded});
     }
 
+    void look(glm::dvec2 sample, double above, glm::dvec2 toward) {
+        is_close = above < 1.0;
+        test::EarthStage::look(sample, above, toward);
+    }
+
     [[nodiscard]] view::DrawnHits drawn(glm::ivec2 size) const {
         render::bring_tiles(scene, size);
         Driver driver = test::must(Driver::create({.size = size}));
         return test::must(driver.draw_hits(view::select(scene, size)));
     }
+
+    bool is_close = false; // to the ground
 
     void expect_true(const std::string& name, double most, glm::ivec2 size = curved_size) const {
         const view::DrawnHits shown = drawn(size);
@@ -52,7 +59,8 @@ struct EarthStage : test::EarthStage {
             << name;
         EXPECT_LT(found.reprojection.distribution->p99, most) << name;
         EXPECT_LT(found.reprojection.distribution->p99, *shown.stats.kept_error) << name;
-        EXPECT_LT(*shown.stats.kept_error, 10.0 * most) << name;
+        // Close to the ground, what is as long as a cell may round to much more than it does.
+        EXPECT_LT(*shown.stats.kept_error, (is_close ? 50.0 : 10.0) * most) << name;
     }
 };
 
