@@ -10,6 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "engine/terrain/field/gradient.h"
+#include "engine/terrain/field/sample_polynomial.h"
+
 namespace reljef::cast {
 namespace {
 
@@ -53,40 +56,12 @@ std::array<std::array<double, node_count>, node_count> terms_from_values(std::si
     return terms;
 }
 
-// Coefficients of the polynomial through values at places, the lowest power first (Newton).
-std::array<glm::dvec3, part_count> powers_through(const std::array<double, part_count>& places,
-                                                  std::array<glm::dvec3, part_count> values) {
-    for (std::size_t order = 1; order < part_count; ++order) {
-        for (std::size_t i = part_count - 1; i >= order; --i) {
-            values[i] = (values[i] - values[i - 1]) / (places[i] - places[i - order]);
-        }
-    }
-    for (std::size_t first = part_count - 1; first-- > 0;) {
-        for (std::size_t i = first; i + 1 < part_count; ++i) {
-            values[i] -= places[first] * values[i + 1];
-        }
-    }
-    return values;
-}
-
 std::array<double, part_count> part_places() {
     std::array<double, part_count> places{};
     for (std::size_t i = 0; i < part_count; ++i) {
         places[i] = 0.5 + 0.5 * chebyshev_place<part_count>(i);
     }
     return places;
-}
-
-// World metres of a step of each coordinate of a sample.
-glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
-    const glm::dvec3 here = placement.world_from_sample(sample);
-    glm::dvec3 metres(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 beside = sample;
-        beside[axis] += 1.0;
-        metres[axis] = glm::distance(placement.world_from_sample(beside), here);
-    }
-    return metres;
 }
 
 // Places in a box, to its corners: `side` along columns and rows, two heights.
@@ -130,7 +105,7 @@ SunCourse::Ground reached(const terrain::Placement& placement, SunCourse::Ground
                           double reach) {
     glm::dvec2 metres(std::numeric_limits<double>::infinity());
     for_each_place(ground.lit, 3, [&](glm::dvec3 sample) {
-        metres = glm::min(metres, glm::dvec2(metres_at(placement, sample)));
+        metres = glm::min(metres, glm::dvec2(terrain::metres_at(placement, sample)));
     });
     constexpr double more = 1.2; // columns are narrower beside it
     const glm::dvec2 samples = more * reach / metres;
@@ -214,7 +189,7 @@ private:
             }
             means[i] = (*found - sample) / parts[i];
         }
-        return powers_through(parts, means);
+        return terrain::powers_through(parts, means);
     }
 
     static void add(const Values& values, std::size_t side, glm::dvec3* terms) {
@@ -308,7 +283,7 @@ void SunCourse::make_zeros(const Ground& ground, const terrain::Placement& place
     constexpr double apart = 2500.0; // metres: a geoid is smooth over tens of kilometres
     constexpr double max_count = 129.0;
     constexpr double beside = 3.0 * apart;
-    const glm::dvec3 metres = metres_at(placement, ground.all.center());
+    const glm::dvec3 metres = terrain::metres_at(placement, ground.all.center());
     if (!(metres.x > 0.0 && metres.y > 0.0 && std::isfinite(metres.x + metres.y))) {
         zeros_ = Grid<float>(2, 2);
         error_ = std::numeric_limits<double>::infinity(); // a pole: too wrong
@@ -345,7 +320,7 @@ bool SunCourse::cut(const terrain::Placement& placement, glm::dvec3 to_sun, cons
     double curvature = 0.0; // 1/metre
     for_each_place(ground.lit, 4, [&](glm::dvec3 sample) {
         const glm::dvec3 place = placement.world_from_sample(sample);
-        const glm::dvec3 metres = metres_at(placement, sample);
+        const glm::dvec3 metres = terrain::metres_at(placement, sample);
         const glm::dvec3 unit = unit_of(sample);
         const Factors factors = factors_at(unit);
         // Rays may leave narrow ground soon.

@@ -42,7 +42,7 @@ public:
     [[nodiscard]] glm::dvec2 unit_scale() const { return glm::dvec2(unit_scale_); }
     [[nodiscard]] glm::dvec2 unit_first() const { return glm::dvec2(unit_first_); }
 
-    /// From a place to the ends of its chords, and first to itself.
+    /// Offsets of the ends of its chords from a place: samples and true metres; the first is 0.
     [[nodiscard]] std::vector<glm::dvec3> ways_from(glm::dvec3 sample) const;
     /// Boxes around the ends of all chords from places in a box.
     [[nodiscard]] std::vector<Box> ends_from(const Box& places) const;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/sample_polynomial.h"
 #include "engine/view/draw_list.h"
 
@@ -188,18 +189,6 @@ glm::dvec3 quartic_at(const RayCourse& course, glm::dvec3 relative) {
     return sum;
 }
 
-// World metres of a step of each coordinate of a sample.
-glm::dvec3 metres_at(const terrain::Placement& placement, glm::dvec3 sample) {
-    const glm::dvec3 here = placement.world_from_sample(sample);
-    glm::dvec3 metres(0.0);
-    for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 beside = sample;
-        beside[axis] += 1.0;
-        metres[axis] = glm::distance(placement.world_from_sample(beside), here);
-    }
-    return metres;
-}
-
 // Metres from a height above the ground to where a ray touches the ground, at most.
 double tangent_length(double height) {
     constexpr double max_radius = 6.4e6; // of curvature: 6,399,594 m at the poles of WGS 84
@@ -350,12 +339,12 @@ struct CourseCheck {
 RayCourse measured(RayCourse course, const CourseCheck& check) {
     const glm::dvec3 eye = check.places.back();
     double quartic = 0.0; // radians
-    course.min_metres = metres_at(check.placement, check.samples.front());
+    course.min_metres = terrain::metres_at(check.placement, check.samples.front());
     for (std::size_t i = 0; i < check.samples.size(); ++i) {
         const glm::dvec3 relative = check.world_turn * (check.places[i] - eye);
         const glm::dvec3 found = check.placement.world_from_sample(course.sample(relative));
         const double distance = glm::distance(check.places[i], eye);
-        const glm::dvec3 metres = metres_at(check.placement, check.samples[i]);
+        const glm::dvec3 metres = terrain::metres_at(check.placement, check.samples[i]);
         if (distance > 0.0) { // at the eye it is exact
             course.error = std::max(course.error, glm::distance(found, check.places[i]) / distance);
             quartic =

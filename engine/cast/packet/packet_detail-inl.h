@@ -275,7 +275,8 @@ HWY_NOINLINE Color projected_color(const BlockPaint& paint, const DetailGround& 
     return shiny_color(paint, ground, albedo, relief_normal(paint, seen, changes, space));
 }
 
-// The light that the ground's maps have, apart: what the sun adds is known, the rest is the sky's.
+// Divides the light of the ground's maps: the sun's part follows from its visible share, and the
+// rest is the sky's.
 HWY_INLINE void set_light(const BlockPaint& paint, const Color& lit, DetailGround& ground) {
     const Vectors surface = unit_vector(turned_by(paint.world_from_normal, ground.normal));
     const Floats facing = hn::Max(dot(surface, all_of(paint.to_sun)), hn::Zero(floats));

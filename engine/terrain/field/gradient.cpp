@@ -183,4 +183,15 @@ glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement,
     return {glm::normalize(axes.east), glm::normalize(axes.north), glm::normalize(axes.up)};
 }
 
+glm::dvec3 metres_at(const Placement& placement, glm::dvec3 sample) {
+    const glm::dvec3 here = placement.world_from_sample(sample);
+    glm::dvec3 metres(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 beside = sample;
+        beside[axis] += 1.0;
+        metres[axis] = glm::distance(placement.world_from_sample(beside), here);
+    }
+    return metres;
+}
+
 } // namespace reljef::terrain

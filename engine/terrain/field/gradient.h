@@ -2,6 +2,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "engine/terrain/field/heightfield.h"
 #include "engine/terrain/field/placement.h"
@@ -16,5 +17,8 @@ Grid<glm::vec2> surface_gradients(const Heightfield& heightfield, const Placemen
 /// The grid's axes at a sample in the scene frame, as unit columns: along the columns (east),
 /// against the rows (north), up.
 glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement, glm::dvec2 sample);
+
+/// World metres of a step of each coordinate of a sample: column, row, true metre of height.
+glm::dvec3 metres_at(const Placement& placement, glm::dvec3 sample);
 
 } // namespace reljef::terrain

@@ -30,22 +30,6 @@ template <std::size_t count> std::array<double, count> chebyshev_points() {
     return points;
 }
 
-// From values at the points to coefficients of the powers, in place: divided differences (Newton),
-// then Horner's scheme.
-template <std::size_t count>
-void interpolate(const std::array<double, count>& points, std::array<glm::dvec3, count>& values) {
-    for (std::size_t order = 1; order < count; ++order) {
-        for (std::size_t i = count - 1; i >= order; --i) {
-            values[i] = (values[i] - values[i - 1]) / (points[i] - points[i - order]);
-        }
-    }
-    for (std::size_t first = count - 1; first-- > 0;) {
-        for (std::size_t i = first; i + 1 < count; ++i) {
-            values[i] -= points[first] * values[i + 1];
-        }
-    }
-}
-
 // Places in a box by their samples.
 class LocalMap {
 public:
@@ -87,7 +71,7 @@ void interpolate_lines(Coefficients& values) {
             for (std::size_t i = 0; i < line.size(); ++i) {
                 line[i] = values[index(static_cast<int>(i), other)];
             }
-            interpolate(points, line);
+            line = powers_through(points, line);
             for (std::size_t i = 0; i < line.size(); ++i) {
                 values[index(static_cast<int>(i), other)] = line[i];
             }

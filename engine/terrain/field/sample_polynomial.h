@@ -13,6 +13,24 @@
 
 namespace reljef::terrain {
 
+/// Coefficients of the polynomial through values at places, the lowest power first: divided
+/// differences (Newton), then Horner's scheme.
+template <std::size_t count>
+std::array<glm::dvec3, count> powers_through(const std::array<double, count>& places,
+                                             std::array<glm::dvec3, count> values) {
+    for (std::size_t order = 1; order < count; ++order) {
+        for (std::size_t i = count - 1; i >= order; --i) {
+            values[i] = (values[i] - values[i - 1]) / (places[i] - places[i - order]);
+        }
+    }
+    for (std::size_t first = count - 1; first-- > 0;) {
+        for (std::size_t i = first; i + 1 < count; ++i) {
+            values[i] -= places[first] * values[i + 1];
+        }
+    }
+    return values;
+}
+
 /// Placement::sample_from_world over a box, as a polynomial: about fifty times as fast. It
 /// interpolates at Chebyshev points, so it is exact at the middle, and its error grows from there
 /// with the distance. Around an eye, distant ground may be less precise than near ground.
