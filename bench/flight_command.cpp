@@ -44,6 +44,7 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
         "flight", "frame time, tiles read and memory of a flight over a streamed terrain");
     auto choice = std::make_shared<FlightChoice>();
     cli::add_terrain_options(*arguments, choice->options.terrain);
+    cli::add_index_option(*arguments, choice->options.terrain, session::IndexUse::made);
     cli::add_view_options(*arguments, choice->options.view);
     arguments->get_option("--max-error")
         ->description("polygons: at most PX pixels of error, with as few triangles as possible "

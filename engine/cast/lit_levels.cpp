@@ -23,9 +23,9 @@ std::uint32_t root_bits(float channel) {
 
 // Means of two by two; the last column and row count twice where there is no next one.
 template <class T, class Linear>
-Grid<glm::vec3> half_of(const Grid<T>& fine, const Linear& linear) {
+Grid<glm::vec3> half_of(const Grid<T>& fine, const Linear& linear, unsigned threads) {
     Grid<glm::vec3> coarse((fine.cols() + 1) / 2, (fine.rows() + 1) / 2);
-    parallel_for(coarse.rows(), [&](int row) {
+    const auto halve_row = [&](int row) {
         for (int col = 0; col < coarse.cols(); ++col) {
             const glm::ivec2 first(2 * col, 2 * row);
             coarse(col, row) = 0.25F * (linear(fine(first.x, first.y)) +
@@ -33,22 +33,25 @@ Grid<glm::vec3> half_of(const Grid<T>& fine, const Linear& linear) {
                                         linear(fine.clamped(first.x, first.y + 1)) +
                                         linear(fine.clamped(first.x + 1, first.y + 1)));
         }
-    });
+    };
+    parallel_for(coarse.rows(), halve_row, {threads, {}, {}});
     return coarse;
 }
 
 // A texel more in each row and column repeats the last one.
 template <class T, class Pack>
-void add_level(const Grid<T>& level, const Pack& pack, std::vector<std::uint32_t>& texels) {
+void add_level(const Grid<T>& level, const Pack& pack, unsigned threads,
+               std::vector<std::uint32_t>& texels) {
     const std::size_t begin = texels.size();
     const std::size_t pitch = static_cast<std::size_t>(level.cols()) + 1;
     texels.resize(begin + pitch * (static_cast<std::size_t>(level.rows()) + 1));
-    parallel_for(level.rows() + 1, [&](int row) {
+    const auto pack_row = [&](int row) {
         const auto to = std::span(texels).subspan(begin + static_cast<std::size_t>(row) * pitch);
         for (int col = 0; col <= level.cols(); ++col) {
             to[static_cast<std::size_t>(col)] = pack(level.clamped(col, row));
         }
-    });
+    };
+    parallel_for(level.rows() + 1, pack_row, {threads, {}, {}});
 }
 
 class BytePacker {
@@ -85,20 +88,20 @@ std::uint32_t packed_normal(glm::vec3 normal) {
     return bits(normal.x) | bits(normal.y) << 10U | bits(normal.z) << 20U;
 }
 
-LitLevels::LitLevels(const Image& lit, glm::ivec2 samples) {
+LitLevels::LitLevels(const Image& lit, glm::ivec2 samples, unsigned threads) {
     place({lit.cols(), lit.rows()}, samples);
-    add_level(lit, BytePacker(), texels_);
+    add_level(lit, BytePacker(), threads, texels_);
     if (lit.size() > 1) {
-        add_coarse_levels(half_of(lit, linear_from_rgba8), packed_roots);
+        add_coarse_levels(half_of(lit, linear_from_rgba8, threads), packed_roots, threads);
     }
     repeat_last_level();
 }
 
-LitLevels::LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples) {
+LitLevels::LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples, unsigned threads) {
     place({normals.cols(), normals.rows()}, samples);
-    add_level(normals, packed_normal, texels_);
+    add_level(normals, packed_normal, threads, texels_);
     if (normals.size() > 1) {
-        add_coarse_levels(half_of(normals, same), packed_normal);
+        add_coarse_levels(half_of(normals, same, threads), packed_normal, threads);
     }
     repeat_last_level();
 }
@@ -116,16 +119,17 @@ void LitLevels::repeat_last_level() {
     std::fill(paint_.begin.begin() + paint_.level_count, paint_.begin.end(), paint_.begin[last]);
 }
 
-template <class Pack> void LitLevels::add_coarse_levels(Grid<glm::vec3> level, const Pack& pack) {
+template <class Pack>
+void LitLevels::add_coarse_levels(Grid<glm::vec3> level, const Pack& pack, unsigned threads) {
     while (true) {
         paint_.begin.at(static_cast<std::size_t>(paint_.level_count++)) =
             static_cast<std::int32_t>(texels_.size());
-        add_level(level, pack, texels_);
+        add_level(level, pack, threads, texels_);
         if (level.size() == 1 ||
             static_cast<std::size_t>(paint_.level_count) == paint_.begin.size()) {
             return;
         }
-        level = half_of(level, same);
+        level = half_of(level, same, threads);
     }
 }
 

@@ -18,11 +18,12 @@ namespace reljef::cast {
 /// packets of rays.
 class LitLevels {
 public:
-    /// `samples`: of the terrain, along each axis. Preconditions: neither is empty.
-    LitLevels(const Image& lit, glm::ivec2 samples);
+    /// `samples`: of the terrain, along each axis. Preconditions: neither is empty. `threads`: as
+    /// parallel_for(); for small maps one is the fastest.
+    LitLevels(const Image& lit, glm::ivec2 samples, unsigned threads = 0);
 
     /// Of normals (unit vectors) instead: their lengths are lost.
-    LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples);
+    LitLevels(const Grid<glm::vec3>& normals, glm::ivec2 samples, unsigned threads = 0);
 
     /// The levels over a part of the terrain that begins at a sample. Valid as long as these.
     [[nodiscard]] TilePaint paint(glm::vec2 first_sample = glm::vec2(0.0F)) const;
@@ -31,7 +32,8 @@ public:
 
 private:
     void place(glm::ivec2 size, glm::ivec2 samples);
-    template <class Pack> void add_coarse_levels(Grid<glm::vec3> level, const Pack& pack);
+    template <class Pack>
+    void add_coarse_levels(Grid<glm::vec3> level, const Pack& pack, unsigned threads);
     void repeat_last_level();
 
     std::vector<std::uint32_t> texels_;

@@ -190,15 +190,16 @@ public:
         const glm::ivec2 low = glm::max(-first, glm::ivec2(0));
         const glm::ivec2 high = glm::min(glm::ivec2(values.cols(), values.rows()),
                                          glm::ivec2(window_.cols, window_.rows) - first);
-        for (int row = low.y; row < high.y; ++row) {
-            const auto from = values.row(row);
-            for (int col = low.x; col < high.x; ++col) {
-                const double value = from[static_cast<std::size_t>(col)];
-                const glm::ivec2 cell = first + glm::ivec2(col, row);
-                if (!std::isnan(value) && closed_(cell.x, cell.y) == 0) {
-                    sum_(cell.x, cell.y) += value;
-                    weight_(cell.x, cell.y) += 1.0;
-                }
+        for (int row = low.y; row < high.y && low.x < high.x; ++row) {
+            const auto at = static_cast<std::size_t>(first.x + low.x);
+            const double* const from = values.row(row).data() + low.x;
+            const std::uint8_t* const closed = closed_.row(first.y + row).data() + at;
+            double* __restrict const sums = sum_.row(first.y + row).data() + at;
+            double* __restrict const weights = weight_.row(first.y + row).data() + at;
+            for (int i = 0; i < high.x - low.x; ++i) { // no branches: vector code
+                const bool counts = !std::isnan(from[i]) && closed[i] == 0;
+                sums[i] += counts ? from[i] : 0.0;
+                weights[i] += counts ? 1.0 : 0.0;
             }
         }
     }

@@ -209,7 +209,7 @@ void DeviceFrames::take_stats(const view::FrameStats& stats, const scene::Scene&
 
 void DeviceFrames::note_kept_error(const scene::Scene& scene) {
     const auto expected = expected_error(scene);
-    if (!expected) {
+    if (!expected || !options_.waits_for_tiles) {
         return;
     }
     names_bound_ = expected->is_named;

@@ -51,7 +51,7 @@ struct FrameTimes {
 struct DeviceFramesOptions {
     bool timed = false;       ///< waits for the end of each frame
     int memory_megabytes = 0; ///< SourceOptions::memory_megabytes of the scene
-    /// False: tiles are requested, and frames show what is there.
+    /// False: tiles are requested, frames show what is there, and error_notes() are empty.
     bool waits_for_tiles = true;
     /// Tints what draws each tile (view/choice/choice_picture.h).
     bool shows_choice = false;

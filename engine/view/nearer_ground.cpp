@@ -43,30 +43,13 @@ std::size_t child_of(int level, glm::ivec2 sample) {
     return static_cast<std::size_t>((sample.x / side) % 2 + 2 * ((sample.y / side) % 2));
 }
 
-// The heights of the surface between two places in neighbouring cells. In each cell it is extreme
-// at the corners of the part between them.
-HeightRange range_between(const Grid<float>& heights, glm::dvec2 first, glm::dvec2 end) {
-    const glm::dvec2 middle = glm::clamp(glm::floor(end), first, end);
-    const auto at = [&](double x, double y) {
-        const double height = terrain::bilinear_height(heights.view(), {x, y});
-        return HeightRange{height, height};
-    };
-    HeightRange range = at(first.x, first.y);
-    for (const double x : {first.x, middle.x, end.x}) {
-        for (const double y : {first.y, middle.y, end.y}) {
-            range = joined(range, at(x, y));
-        }
-    }
-    return range;
-}
-
 // True metres between two places on a tile's vertices: of the surface or the vertices if these are
 // few, otherwise of the blocks.
 HeightRange range_of(const scene::TerrainTile& tile, glm::dvec2 first, glm::dvec2 end) {
     const glm::ivec2 low(first);
     const glm::ivec2 high(end);
     if (std::max(high.x - low.x, high.y - low.y) <= 1) {
-        return range_between(tile.heightfield.heights, first, end);
+        return terrain::surface_range(tile.heightfield.heights.view(), first, end);
     }
     constexpr int side = scene::cells_per_block;
     return std::max(high.x - low.x, high.y - low.y) < side

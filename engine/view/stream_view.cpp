@@ -190,11 +190,14 @@ double StreamView::error_of(const scene::TileSummary& tile) const {
                    ? 0.0
                    : tile.error * pixels_per_metre(distance_to(tile.bounds));
     }
+    const auto known = errors_.find(tile.id);
+    return known != errors_.end() ? known->second
+                                  : errors_.emplace(tile.id, error_of_proven(tile)).first->second;
+}
+
+double StreamView::error_of_proven(const scene::TileSummary& tile) const {
     const double error = error_in(tile.bounds, tile.error);
-    if (!is_over_share(error)) {
-        return error;
-    }
-    return error_of_blocks(tile);
+    return is_over_share(error) ? error_of_blocks(tile) : error;
 }
 
 double StreamView::error_of_blocks(const scene::TileSummary& tile) const {
@@ -243,21 +246,10 @@ StreamView::Part StreamView::block_of(const scene::TerrainTile& tile, glm::ivec2
     return with_box(tile, first, last, {heights.low, heights.high});
 }
 
-// Bilinear cells are extreme at the corners of their parts.
 StreamView::Part StreamView::part_of(const scene::TerrainTile& tile, glm::dvec2 first,
                                      glm::dvec2 last) {
-    terrain::HeightRange range{std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity()};
-    const glm::ivec2 corners = glm::ivec2(glm::ceil(last)) - glm::ivec2(glm::floor(first)) + 1;
-    for (int row = 0; row < corners.y; ++row) {
-        for (int col = 0; col < corners.x; ++col) {
-            const glm::dvec2 corner =
-                glm::clamp(glm::floor(first) + glm::dvec2(col, row), first, last);
-            const double height = terrain::bilinear_height(tile.heightfield.heights.view(), corner);
-            range = {std::min(range.low, height), std::max(range.high, height)};
-        }
-    }
-    return with_box(tile, first, last, range);
+    return with_box(tile, first, last,
+                    terrain::surface_range(tile.heightfield.heights.view(), first, last));
 }
 
 // A seam shows points between the tile's border and the true one.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -71,6 +72,7 @@ public:
     [[nodiscard]] double distance_to(const Box& local) const;
 
     /// How far pixels of a tile are off at most, if it is proven; otherwise an estimate. Pixels.
+    /// Computed once for each proven tile.
     [[nodiscard]] double error_of(const scene::TileSummary& tile) const;
     /// A bound of the error of a loaded, proven tile, by the heights that are drawn, pixels.
     /// `is_hidden(box)`: whether something else covers a part of the tile (local metres). At least
@@ -107,7 +109,8 @@ private:
     [[nodiscard]] double error_in(const Box& box, double error) const;
     /// Whether triangles may show places of a box.
     [[nodiscard]] bool may_show(const Box& local) const;
-    // The error of the visible blocks of a proven tile, pixels.
+    // The errors of a proven tile, pixels: of all of it, and of its visible blocks.
+    [[nodiscard]] double error_of_proven(const scene::TileSummary& tile) const;
     [[nodiscard]] double error_of_blocks(const scene::TileSummary& tile) const;
     // A rectangle of a loaded tile between two places in vertices, in one block.
     struct Part {
@@ -162,6 +165,7 @@ private:
     double pixels_per_metre_ = 1.0; // in perspective: at a distance of one metre
     std::optional<terrain::HorizonView> horizon_;
     std::optional<terrain::EarthHorizon> earth_horizon_;
+    mutable std::map<terrain::TreeTile, double> errors_; // of proven tiles, as far as known
 };
 
 } // namespace reljef::view

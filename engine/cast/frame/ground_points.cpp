@@ -9,17 +9,19 @@ namespace reljef::cast {
 
 namespace {
 
-LitGround levels_of(const view::GroundMap& map, glm::ivec2 samples, bool has_sun_share) {
+LitGround levels_of(const view::GroundMap& map, glm::ivec2 samples, bool has_sun_share,
+                    unsigned threads) {
     Grid<glm::vec3> normals(map.surface.cols(), map.surface.rows());
     std::transform(map.surface.samples().begin(), map.surface.samples().end(),
                    normals.samples().begin(), [](glm::vec4 texel) { return glm::vec3(texel); });
-    LitGround ground{LitLevels(map.albedo, samples), LitLevels(normals, samples), {}};
+    LitGround ground{
+        LitLevels(map.albedo, samples, threads), LitLevels(normals, samples, threads), {}};
     if (has_sun_share) {
         Image share(map.surface.cols(), map.surface.rows());
         std::transform(map.surface.samples().begin(), map.surface.samples().end(),
                        share.samples().begin(),
                        [](glm::vec4 texel) { return rgba8_from_linear(glm::vec3(texel.w)); });
-        ground.sun_share.emplace(share, samples);
+        ground.sun_share.emplace(share, samples, threads);
     }
     return ground;
 }
@@ -38,13 +40,14 @@ LitGround lit_ground(const scene::TerrainSurface& surface,
                      const std::optional<scene::TerrainLight>& light, int max_side) {
     const Grid<float>& heights = surface.heightfield().heights;
     return levels_of(view::ground_map(surface, light, max_side), {heights.cols(), heights.rows()},
-                     light.has_value());
+                     light.has_value(), 0);
 }
 
 LitGround lit_ground(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
                      const scene::TerrainIrradiance* irradiance) {
+    constexpr unsigned alone = 1; // other threads make other tiles
     return levels_of(view::ground_of_tile(builder, tile, irradiance), tile.cells + 1,
-                     irradiance != nullptr);
+                     irradiance != nullptr, alone);
 }
 
 std::vector<PointLightPaint> point_light_paints(const view::DrawList& list) {

@@ -123,15 +123,17 @@ void TileContents::make_levels(const scene::TileBuilder& builder,
                                const Missing& missing) {
     const scene::TerrainTile& tile = *missing.tile;
     const glm::ivec2 samples = tile.cells + 1;
+    constexpr unsigned alone = 1; // other threads make other tiles
     missing.content->sun.reset();
     if (irradiance == nullptr) {
-        missing.content->levels.emplace(tile.albedo, samples);
+        missing.content->levels.emplace(tile.albedo, samples, alone);
     } else if (in_parts) {
-        const scene::LitTileParts parts = scene::lit_tile_parts(builder, tile, *irradiance);
-        missing.content->levels.emplace(parts.sky, samples);
-        missing.content->sun.emplace(parts.sun, samples);
+        const scene::LitTileParts parts = scene::lit_tile_parts(builder, tile, *irradiance, alone);
+        missing.content->levels.emplace(parts.sky, samples, alone);
+        missing.content->sun.emplace(parts.sun, samples, alone);
     } else {
-        missing.content->levels.emplace(scene::lit_tile(builder, tile, *irradiance, 1), samples);
+        missing.content->levels.emplace(scene::lit_tile(builder, tile, *irradiance, alone), samples,
+                                        alone);
     }
 }
 

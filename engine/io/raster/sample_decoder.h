@@ -51,6 +51,10 @@ public:
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
+    /// decode() of plain values without a mask, if all are heights. False, and then nothing is
+    /// decoded, if some may be voids.
+    [[nodiscard]] bool decode_heights(std::span<double> stored) const;
+
     /// As decode() of plain values without a mask, but counts nothing. False, and then nothing is
     /// decoded, if there are usual voids whose meaning depends on the whole file
     /// (isolated_voids()).

@@ -135,7 +135,12 @@ template <class Store>
 void store_tile(const Tile& tile, std::span<const double> values, int taps, const Store& store) {
     const int cols = tile.cols * taps;
     const GridView<const double> stored(values.data(), cols, tile.rows * taps, cols);
-    for (int row = 0; row < tile.rows; ++row) {
+    for (int row = 0; taps == 1 && row < tile.rows; ++row) {
+        for (int col = 0; col < tile.cols; ++col) {
+            store(tile.col + col, tile.row + row, stored(col, row));
+        }
+    }
+    for (int row = 0; taps > 1 && row < tile.rows; ++row) {
         for (int col = 0; col < tile.cols; ++col) {
             store(tile.col + col, tile.row + row,
                   mean_of(stored.window(col * taps, row * taps, taps, taps)));

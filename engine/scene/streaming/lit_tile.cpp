@@ -21,7 +21,7 @@ glm::vec3 up_at(const TileBuilder& builder, const TerrainTile& tile, glm::ivec2 
 }
 
 // `light`: at the vertices, linear.
-Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light, unsigned threads = 0) {
+Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light, unsigned threads) {
     Image lit(tile.albedo.cols(), tile.albedo.rows());
     const auto reflect_row = [&](int row) {
         for (int col = 0; col < lit.cols(); ++col) {
@@ -55,7 +55,7 @@ Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
 }
 
 LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
-                            const TerrainIrradiance& irradiance) {
+                            const TerrainIrradiance& irradiance, unsigned threads) {
     const Grid<float>& overview = builder.overview().heightfield().heights;
     const glm::dvec2 last(overview.cols() - 1, overview.rows() - 1);
     Grid<glm::vec3> sky(tile.cells.x + 1, tile.cells.y + 1);
@@ -71,7 +71,7 @@ LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
             sun(col, row) = parts.sun;
         }
     }
-    return {reflected(tile, sky), reflected(tile, sun)};
+    return {reflected(tile, sky, threads), reflected(tile, sun, threads)};
 }
 
 } // namespace reljef::scene

@@ -142,12 +142,12 @@ private:
 Image lit_tile(const TileBuilder& builder, const TerrainTile& tile,
                const TerrainIrradiance& irradiance, unsigned threads = 0);
 
-/// The same in parts, for callers that compute shadows themselves.
+/// lit_tile() in parts, for callers that compute shadows themselves.
 struct LitTileParts {
     Image sky;
     Image sun; ///< without shadows
 };
 LitTileParts lit_tile_parts(const TileBuilder& builder, const TerrainTile& tile,
-                            const TerrainIrradiance& irradiance);
+                            const TerrainIrradiance& irradiance, unsigned threads = 0);
 
 } // namespace reljef::scene

@@ -209,6 +209,30 @@ double bilinear_height(GridView<const float> heights, glm::dvec2 sample) {
     return (1.0 - cell.v) * top + cell.v * bottom;
 }
 
+// Cells are extreme at the corners of their parts.
+HeightRange surface_range(GridView<const float> heights, glm::dvec2 first, glm::dvec2 last) {
+    check(!heights.empty(), "surface_range of an empty grid");
+    const glm::dvec2 end(heights.cols() - 1, heights.rows() - 1);
+    const glm::dvec2 low = glm::clamp(first, glm::dvec2(0.0), end);
+    const glm::dvec2 high = glm::clamp(last, glm::dvec2(0.0), end);
+    const glm::ivec2 first_vertex(glm::floor(low));
+    const glm::ivec2 last_vertex(glm::ceil(high));
+    const bool is_of_whole_cells =
+        glm::dvec2(first_vertex) == low && glm::dvec2(last_vertex) == high;
+    HeightRange range{std::numeric_limits<double>::infinity(),
+                      -std::numeric_limits<double>::infinity()};
+    for (int row = first_vertex.y; row <= last_vertex.y; ++row) {
+        for (int col = first_vertex.x; col <= last_vertex.x; ++col) {
+            const double height =
+                is_of_whole_cells
+                    ? static_cast<double>(heights(col, row))
+                    : bilinear_height(heights, glm::clamp(glm::dvec2(col, row), low, high));
+            range = {std::min(range.low, height), std::max(range.high, height)};
+        }
+    }
+    return range;
+}
+
 bool uses_void(const Heightfield& heightfield, glm::dvec2 sample) {
     const Grid<std::uint8_t>& mask = heightfield.void_mask;
     if (mask.empty()) {

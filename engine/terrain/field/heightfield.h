@@ -61,6 +61,10 @@ Grid<float> unit_heights(GridView<const float> heights);
 /// Bilinear height at (col, row), metres; clamped to the grid. Precondition: not empty.
 double bilinear_height(GridView<const float> heights, glm::dvec2 sample);
 
+/// The heights of the bilinear surface between two places, metres; clamped to the grid.
+/// Preconditions: not empty; `first` is before `last` along both axes, or at it.
+HeightRange surface_range(GridView<const float> heights, glm::dvec2 first, glm::dvec2 last);
+
 /// Whether a sample that contributes to bilinear_height() is a void.
 bool uses_void(const Heightfield& heightfield, glm::dvec2 sample);
 

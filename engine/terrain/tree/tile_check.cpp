@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -16,31 +18,6 @@
 namespace reljef::terrain {
 namespace {
 
-/// Between two heights; one that has no share may be a void.
-float mixed(float a, float b, double share) {
-    return share == 1.0 ? b : static_cast<float>(glm::mix<double>(a, b, share));
-}
-
-/// Bilinear on a tile; vertices without a share may be voids.
-float surface_at(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
-                 glm::ivec2 sample) {
-    if (tile.level == 0) {
-        const glm::ivec2 vertex = sample - TileTree::first(tile) + 1;
-        return heights(vertex.x, vertex.y);
-    }
-    const glm::ivec2 cell =
-        glm::min((sample - TileTree::first(tile)) / TileTree::step(tile), tree.cells(tile) - 1);
-    const glm::dvec2 low = tree.place(tree.sample(tile, cell));
-    const glm::dvec2 share =
-        (tree.place(sample) - low) / (tree.place(tree.sample(tile, cell + 1)) - low);
-    const auto row_at = [&](int row) {
-        return share.x == 0.0 ? heights(cell.x + 1, row)
-                              : mixed(heights(cell.x + 1, row), heights(cell.x + 2, row), share.x);
-    };
-    return share.y == 0.0 ? row_at(cell.y + 1)
-                          : mixed(row_at(cell.y + 1), row_at(cell.y + 2), share.y);
-}
-
 std::string found_text(const char* what, double found, double expected) {
     return fmt::format("{} of {} m found, {} m was expected", what, found, expected);
 }
@@ -49,45 +26,161 @@ std::string found_text(const char* what, double found, double expected) {
 struct FoundInSamples {
     TileProof proof; // without errors
     PartErrors errors{};
+};
 
-    /// Of the parts from `first` to `last`.
-    void add_error(float error, glm::ivec2 first, glm::ivec2 last) {
-        for (int row = first.y; row <= last.y; ++row) {
-            for (int col = first.x; col <= last.x; ++col) {
-                float& largest = errors.at(static_cast<std::size_t>(row) * error_parts +
-                                           static_cast<std::size_t>(col));
-                largest = higher(largest, error);
-            }
+/// The place of a sample along an axis of its tile: between a cell's first vertex and the next one.
+struct CellPlace {
+    int cell = 0;
+    double share = 0.0; ///< of the next vertex
+};
+
+std::vector<CellPlace> places_along(const TileTree& tree, TreeTile tile, int axis) {
+    const glm::ivec2 first = TileTree::first(tile);
+    const int count = tree.sample(tile, tree.cells(tile))[axis] - first[axis] + 1;
+    std::vector<CellPlace> places(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const int cell = std::min(i / TileTree::step(tile), tree.cells(tile)[axis] - 1);
+        const double low = tree.place(tree.sample(tile, glm::ivec2(cell)))[axis];
+        const double next = tree.place(tree.sample(tile, glm::ivec2(cell + 1)))[axis];
+        places[static_cast<std::size_t>(i)] = {cell,
+                                               (tree.place(first + i)[axis] - low) / (next - low)};
+    }
+    return places;
+}
+
+/// Between two heights; one that has no share may be a void.
+float mixed(float a, float b, double share) {
+    if (share == 0.0 || share == 1.0) {
+        return share == 0.0 ? a : b;
+    }
+    return static_cast<float>(glm::mix<double>(a, b, share));
+}
+
+/// The bilinear surface of a tile at all its samples, row by row.
+class SurfaceRows {
+public:
+    /// `cols`: the places of the samples along a row.
+    SurfaceRows(const Grid<float>& heights, std::span<const CellPlace> cols)
+        : heights_(heights), cols_(cols), upper_(cols.size()), lower_(cols.size()),
+          surface_(cols.size()) {}
+
+    /// Valid until the next call.
+    [[nodiscard]] const std::vector<float>& at(const CellPlace& row) {
+        if (row.cell != cell_) {
+            cell_ = row.cell;
+            set_row(cell_ + 1, upper_);
+            set_row(cell_ + 2, lower_);
+        }
+        if (row.share == 0.0 || row.share == 1.0) {
+            return row.share == 0.0 ? upper_ : lower_;
+        }
+        const float* const upper = upper_.data();
+        const float* const lower = lower_.data();
+        float* __restrict const surface = surface_.data();
+        for (std::size_t i = 0; i < surface_.size(); ++i) {
+            surface[i] = static_cast<float>(glm::mix<double>(upper[i], lower[i], row.share));
+        }
+        return surface_;
+    }
+
+private:
+    // `row`: of the heights, which have a vertex more on each side.
+    void set_row(int row, std::vector<float>& along) const {
+        const auto vertices = heights_.row(row);
+        for (std::size_t i = 0; i < along.size(); ++i) {
+            const auto first = static_cast<std::size_t>(cols_[i].cell) + 1;
+            along[i] = mixed(vertices[first], vertices[first + 1], cols_[i].share);
         }
     }
+
+    const Grid<float>& heights_;
+    std::span<const CellPlace> cols_;
+    int cell_ = -1;
+    std::vector<float> upper_; // at the first vertices of the row of cells
+    std::vector<float> lower_; // at the next ones
+    std::vector<float> surface_;
 };
+
+/// Joins the rows of a tile's samples, each column by itself.
+class SampleColumns {
+public:
+    explicit SampleColumns(std::size_t cols)
+        : low_(cols, infinite), high_(cols, -infinite), voids_(cols), errors_(cols) {}
+
+    void add(const float* __restrict heights, const float* __restrict surface) {
+        float* __restrict const low = low_.data();
+        float* __restrict const high = high_.data();
+        float* __restrict const voids = voids_.data();
+        float* __restrict const errors = errors_.data();
+        for (std::size_t i = 0; i < low_.size(); ++i) {
+            low[i] = lower(low[i], heights[i]);
+            high[i] = higher(high[i], heights[i]);
+            voids[i] = heights[i] == heights[i] ? voids[i] : 1.0F; // NaN: void
+            errors[i] = higher(errors[i], std::abs(heights[i] - surface[i]));
+        }
+    }
+    /// The errors of the rows added since the last call.
+    [[nodiscard]] std::span<const float> errors() const { return errors_; }
+    void forget_errors() { std::fill(errors_.begin(), errors_.end(), 0.0F); }
+    [[nodiscard]] TileProof proof() const {
+        TileProof proof;
+        for (std::size_t i = 0; i < low_.size(); ++i) {
+            proof.low = lower(proof.low, low_[i]);
+            proof.high = higher(proof.high, high_[i]);
+            proof.has_voids = proof.has_voids || voids_[i] > 0.0F;
+        }
+        return proof;
+    }
+
+private:
+    std::vector<float> low_;
+    std::vector<float> high_;
+    std::vector<float> voids_; // 1: there is one
+    std::vector<float> errors_;
+};
+
+std::size_t part_of(const CellPlace& place) {
+    return static_cast<std::size_t>(place.cell / cells_per_error_part);
+}
+
+/// `row`: of parts. A sample between cells belongs to both.
+void add_errors(std::span<const float> errors, std::span<const CellPlace> cols, std::size_t row,
+                PartErrors& parts) {
+    for (std::size_t col = 0; col < errors.size(); ++col) {
+        for (const std::size_t beside : {col - (col > 0 ? 1 : 0), col}) {
+            float& largest = parts.at(row * error_parts + part_of(cols[beside]));
+            largest = higher(largest, errors[col]);
+        }
+    }
+}
 
 FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& heights,
                         const Grid<float>& samples) {
     const int border = sample_border(tile.level);
-    const glm::ivec2 first = TileTree::first(tile);
-    const glm::ivec2 last = tree.sample(tile, tree.cells(tile));
-    const auto part_of = [&](glm::ivec2 from_first) {
-        return glm::min(from_first / TileTree::step(tile), tree.cells(tile) - 1) /
-               cells_per_error_part;
-    };
-    FoundInSamples found;
-    for (int row = first.y; row <= last.y; ++row) {
-        for (int col = first.x; col <= last.x; ++col) {
-            const float height = samples(col - first.x + border, row - first.y + border);
-            if (std::isnan(height)) {
-                found.proof.has_voids = true;
-                continue;
-            }
-            const float difference = height - surface_at(tree, tile, heights, {col, row});
-            found.proof.low = lower(found.proof.low, height);
-            found.proof.high = higher(found.proof.high, height);
-            const glm::ivec2 from_first = glm::ivec2(col, row) - first;
-            found.add_error(std::abs(difference), // a sample between cells belongs to all of them
-                            part_of(glm::max(from_first - 1, glm::ivec2(0))), part_of(from_first));
+    const std::vector<CellPlace> cols = places_along(tree, tile, 0);
+    const std::vector<CellPlace> rows = places_along(tree, tile, 1);
+    SurfaceRows surface(heights, cols);
+    SampleColumns columns(cols.size());
+    PartErrors errors{};
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const float* const in_row = samples.row(static_cast<int>(row) + border)
+                                        .subspan(static_cast<std::size_t>(border))
+                                        .data();
+        const float* const on_surface = surface.at(rows[row]).data();
+        columns.add(in_row, on_surface);
+        const bool is_last = row + 1 == rows.size();
+        const std::size_t part = part_of(rows[row > 0 ? row - 1 : row]);
+        if (!is_last && part == part_of(rows[row])) {
+            continue;
+        }
+        add_errors(columns.errors(), cols, part, errors);
+        columns.forget_errors();
+        columns.add(in_row, on_surface); // a row between parts belongs to both
+        if (is_last) {
+            add_errors(columns.errors(), cols, part_of(rows[row]), errors);
         }
     }
-    return found;
+    return {columns.proof(), errors};
 }
 
 float rounding_of(const TileProof& proof) {

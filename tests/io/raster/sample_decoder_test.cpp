@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -91,6 +92,29 @@ TEST_F(UsualVoids, AreVoidsInAllPartsOfAFileOrInNone) {
                                 [](double height) { return std::isnan(height); }),
                   voids)
             << bottom;
+    }
+}
+
+// Parts of a file that hold heights alone are decoded in another way than those with a void.
+TEST_F(UsualVoids, ChangeNoHeightAroundThem) {
+    MadeRaster raster = placed(20, slope);
+    raster.type = GDT_Float32;
+    raster.nodata = -500.0;
+    const terrain::Terrain whole = read(raster);
+    ASSERT_EQ(whole.heightfield.void_count, 0U);
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const double value : {-500.0, -9999.0, -32768.0, std::nan(""), -infinite, 1e9}) {
+        MadeRaster holed = raster;
+        holed.values[207] = value;
+        const terrain::Terrain terrain = read(holed);
+        EXPECT_EQ(terrain.heightfield.void_count, 1U) << value;
+        for (std::size_t i = 0; i < holed.values.size(); ++i) {
+            if (i != 207) {
+                ASSERT_EQ(terrain.heightfield.heights.samples()[i],
+                          whole.heightfield.heights.samples()[i])
+                    << value;
+            }
+        }
     }
 }
 

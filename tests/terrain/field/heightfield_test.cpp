@@ -86,6 +86,43 @@ TEST(BilinearHeight, OfASingleSampleIsThatSample) {
     EXPECT_EQ(bilinear_height(heights.view(), {0.3, 12.0}), 7.0);
 }
 
+TEST(SurfaceRange, HoldsAllHeightsBetweenTwoPlacesAndReachesTheExtremes) {
+    const Grid<float> heights = random_heights(9, 7, 3);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> eighths(-16.0, 80.0); // partly beside the grid
+    const auto place = [&] { return std::round(eighths(random)) / 8.0; };
+    for (int i = 0; i < 2000; ++i) {
+        const glm::dvec2 a(place(), place());
+        const glm::dvec2 b(place(), place());
+        const glm::dvec2 first = glm::min(a, b);
+        const glm::dvec2 last = glm::max(a, b);
+        HeightRange expected{1e9, -1e9}; // extremes are at eighths, as the places are
+        for (double row = first.y; row <= last.y; row += 0.125) {
+            for (double col = first.x; col <= last.x; col += 0.125) {
+                const double height = bilinear_height(heights.view(), {col, row});
+                expected = {std::min(expected.low, height), std::max(expected.high, height)};
+            }
+        }
+        const HeightRange found = surface_range(heights.view(), first, last);
+        ASSERT_EQ(found.low, expected.low);
+        ASSERT_EQ(found.high, expected.high);
+    }
+}
+
+TEST(SurfaceRange, OfWholeCellsIsThatOfTheirVertices) {
+    const Grid<float> heights = random_heights(9, 7, 5);
+    const HeightRange found = surface_range(heights.view(), {2.0, 1.0}, {5.0, 6.0});
+    HeightRange expected{1e9, -1e9};
+    for (int row = 1; row <= 6; ++row) {
+        for (int col = 2; col <= 5; ++col) {
+            const double height = heights(col, row);
+            expected = {std::min(expected.low, height), std::max(expected.high, height)};
+        }
+    }
+    EXPECT_EQ(found.low, expected.low);
+    EXPECT_EQ(found.high, expected.high);
+}
+
 TEST(TouchesVoid, ExactlyWhereTheVoidHasWeight) {
     Heightfield heightfield;
     heightfield.heights = Grid<float>(4, 4);
