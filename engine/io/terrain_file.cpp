@@ -45,7 +45,7 @@ Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
     if (samples && samples->void_count == samples->heights.size()) {
         return Error{
             fmt::format("{}: all {}×{} samples are voids, at least one height was expected", name,
-                        plan.grid.cols, plan.grid.rows)};
+                        dataset.GetRasterXSize(), dataset.GetRasterYSize())};
     }
     return samples;
 }

@@ -342,7 +342,7 @@ Result<terrain::Terrain> TileSet::terrain(const TileTerrainOptions& options) con
         result.notes.push_back(std::move(note));
     }
     if (read->samples.void_count == read->samples.heights.size()) {
-        return all_voids(*this, samples_grid, result);
+        return all_voids(*this, planned->grid, result);
     }
     result.heightfield = heightfield_of(std::move(read->samples), *place, planned->reduction);
     if (state_->is_spacing_assumed) {

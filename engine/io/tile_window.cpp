@@ -17,11 +17,34 @@ constexpr int max_reduction = 1'000'000;
 // largest grid, 512 a side, as where steps of a degree are narrow near a pole.
 constexpr double max_cells = 1 << 23;
 
+/// The samples of a window, and which of the whole set's they are: so that a sample has the same
+/// place in all windows, to the last digit.
+struct NumberedGrid {
+    TileGrid window;
+    glm::dvec2 origin{0.0}; ///< of the number (0, 0)
+    glm::ivec2 first{0};    ///< number of the window's first sample
+
+    [[nodiscard]] glm::dvec2 place(glm::ivec2 number) const {
+        return origin + window.step * glm::dvec2(number);
+    }
+};
+
+/// Samples that are not of the whole set are numbered from the window's first on.
+NumberedGrid numbered(const TileGrid& window, const TileGrid& whole) {
+    constexpr double max_number = 1e9;
+    const glm::dvec2 first = (window.first - whole.first) / whole.step;
+    const glm::dvec2 away = glm::abs(first - glm::round(first));
+    const bool is_of_whole = window.step == whole.step && std::max(away.x, away.y) < near_sample &&
+                             std::max(std::abs(first.x), std::abs(first.y)) < max_number;
+    return is_of_whole ? NumberedGrid{window, whole.first, glm::ivec2(glm::round(first))}
+                       : NumberedGrid{window, window.first, {0, 0}};
+}
+
 /// The samples of a grid on a layer's lattice.
 class LayerPoints {
 public:
     /// Absent if PROJ has no transform between the two systems.
-    static std::optional<LayerPoints> create(const std::string& grid_crs, const TileGrid& grid,
+    static std::optional<LayerPoints> create(const std::string& grid_crs, const NumberedGrid& grid,
                                              const TileLayer& layer) {
         LayerPoints points(grid, layer);
         if (layer.crs == grid_crs) {
@@ -31,8 +54,6 @@ public:
         if (!transform) {
             return std::nullopt;
         }
-        points.controls_ = Grid<glm::dvec2>((grid.cols + control_step - 1) / control_step + 1,
-                                            (grid.rows + control_step - 1) / control_step + 1);
         points.fill_controls(*transform);
         return points;
     }
@@ -85,19 +106,11 @@ public:
                is_near(grid_.cols - 1, grid_.rows - 1);
     }
 
-    /// Lattice position of a sample; NaN if undefined.
+    /// Lattice position of a sample, in whole parts of a step so small that no height changes:
+    /// differences of positions are then exact, in all windows. NaN if undefined.
     [[nodiscard]] glm::dvec2 at(int col, int row) const {
-        if (controls_.empty()) {
-            return layer_->lattice_from_crs(grid_.first + grid_.step * glm::dvec2(col, row));
-        }
-        const int i = col / control_step;
-        const int j = row / control_step;
-        const double u = static_cast<double>(col % control_step) / control_step;
-        const double v = static_cast<double>(row % control_step) / control_step;
-        const int i1 = std::min(i + 1, controls_.cols() - 1);
-        const int j1 = std::min(j + 1, controls_.rows() - 1);
-        return glm::mix(glm::mix(controls_(i, j), controls_(i1, j), u),
-                        glm::mix(controls_(i, j1), controls_(i1, j1), u), v);
+        constexpr double parts = 0x1p30;
+        return glm::round(parts * exact_at(col, row)) / parts;
     }
 
 private:
@@ -105,13 +118,34 @@ private:
     // Earth's radius R: for 8 samples 1e-6 samples per metre of spacing.
     static constexpr int control_step = 8;
 
-    LayerPoints(const TileGrid& grid, const TileLayer& layer) : grid_(grid), layer_(&layer) {}
+    LayerPoints(const NumberedGrid& grid, const TileLayer& layer)
+        : grid_(grid.window), numbers_(grid), layer_(&layer) {}
 
+    [[nodiscard]] glm::dvec2 exact_at(int col, int row) const {
+        if (controls_.empty()) {
+            return layer_->lattice_from_crs(numbers_.place(numbers_.first + glm::ivec2(col, row)));
+        }
+        const glm::ivec2 from_control = numbers_.first + glm::ivec2(col, row) - first_control_;
+        const int i = from_control.x / control_step;
+        const int j = from_control.y / control_step;
+        const double u = static_cast<double>(from_control.x % control_step) / control_step;
+        const double v = static_cast<double>(from_control.y % control_step) / control_step;
+        const int i1 = std::min(i + 1, controls_.cols() - 1);
+        const int j1 = std::min(j + 1, controls_.rows() - 1);
+        return glm::mix(glm::mix(controls_(i, j), controls_(i1, j), u),
+                        glm::mix(controls_(i, j1), controls_(i1, j1), u), v);
+    }
+
+    // At the samples whose numbers are multiples of the step, in all windows.
     void fill_controls(const CrsTransform& transform) {
+        const glm::ivec2 phase = ((numbers_.first % control_step) + control_step) % control_step;
+        first_control_ = numbers_.first - phase;
+        const glm::ivec2 count =
+            (phase + glm::ivec2(grid_.cols, grid_.rows) + control_step - 1) / control_step + 1;
+        controls_ = Grid<glm::dvec2>(count.x, count.y);
         for (int j = 0; j < controls_.rows(); ++j) {
             for (int i = 0; i < controls_.cols(); ++i) {
-                controls_(i, j) =
-                    grid_.first + grid_.step * glm::dvec2(i, j) * static_cast<double>(control_step);
+                controls_(i, j) = numbers_.place(first_control_ + control_step * glm::ivec2(i, j));
             }
         }
         transform.apply(controls_.samples());
@@ -121,8 +155,10 @@ private:
     }
 
     TileGrid grid_;
+    NumberedGrid numbers_;
     const TileLayer* layer_;
     Grid<glm::dvec2> controls_;
+    glm::ivec2 first_control_{0}; // number of its sample
 };
 
 /// Samples along the longest side of a layer's tiles.
@@ -358,10 +394,11 @@ TileWindow TileSet::read(const TileGrid& grid, Gaps gaps, std::stop_token stop) 
     const GdalMessages ignored_messages; // projections are undefined at some places
     std::atomic<std::size_t> bytes_read{0};
     const LayerReading reading = state_->reading(bytes_read, stop);
+    const NumberedGrid samples = numbered(grid, state_->grid);
     std::vector<std::optional<LayerPoints>> points;
     for (const TileLayer& layer : state_->layers) {
         points.push_back(may_meet(state_->crs, grid, layer)
-                             ? LayerPoints::create(state_->crs, grid, layer)
+                             ? LayerPoints::create(state_->crs, samples, layer)
                              : std::nullopt);
         if (points.back() && has_gaps(result.heights)) {
             fill_from(layer, *points.back(), reading, grid, result, edges);

@@ -8,6 +8,7 @@
 
 #include "engine/io/raster/raster.h"
 #include "engine/io/terrain_file.h"
+#include "engine/io/tile_set.h"
 #include "tests/io/made_raster.h"
 #include "tests/support/plain_permissions.h"
 #include "tests/support/temporary_folder.h"
@@ -150,6 +151,24 @@ TEST_F(BadRaster, AllVoid) {
                 HasSubstr("voids"));
     EXPECT_THAT(refused(made(made_raster(5, 4, [](int, int) { return -32768.0; }), "c.tif")),
                 HasSubstr("voids"));
+}
+
+TEST_F(BadRaster, VoidsAreCountedInTheFileNotInWhatFitsTheMemory) {
+    MadeRaster raster = made_raster(70, 50, [](int, int) { return -9999.0; });
+    raster.nodata = -9999.0;
+    raster.crs = "EPSG:32631";
+    raster.geotransform = {300000.0, 10.0, 0.0, 5600000.0, 0.0, -10.0};
+    const std::filesystem::path path = made(raster, "a.tif");
+    TileTerrainOptions options;
+    options.raster.memory_budget = 20 * 20 * bytes_per_sample;
+    const auto terrain = read_terrain(path, options.raster);
+    ASSERT_FALSE(terrain);
+    EXPECT_THAT(terrain.error().message, HasSubstr("all 70×50 samples are voids"));
+    const auto tiles = TileSet::open(path);
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    const auto of_tiles = tiles->terrain(options);
+    ASSERT_FALSE(of_tiles);
+    EXPECT_THAT(of_tiles.error().message, HasSubstr("all 70×50 samples are voids"));
 }
 
 TEST_F(BadRaster, ImageryThatClaimsGiantBlocksIsRefusedToo) {

@@ -117,10 +117,6 @@ void repeat_border_rows(Grid<float>& heights, int first, int last) {
     }
 }
 
-/// Metres. A coarser vertex must not be a void beside a finer one that is none, and a pole has one
-/// height at all levels: what is known nowhere near it does not depend on anything.
-constexpr float height_of_void_pole = 0.0F;
-
 /// A level of a globe over the next finer one, near its seam and its poles.
 class ClosedStep {
 public:

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/terrain/tree/level_step.h"
 #include "engine/terrain/tree/part_errors.h"
 #include "engine/terrain/tree/tile_error.h"
 
@@ -65,7 +66,7 @@ public:
           surface_(cols.size()) {}
 
     /// Valid until the next call.
-    [[nodiscard]] const std::vector<float>& at(const CellPlace& row) {
+    [[nodiscard]] std::span<const float> at(const CellPlace& row) {
         if (row.cell != cell_) {
             cell_ = row.cell;
             set_row(cell_ + 1, upper_);
@@ -107,7 +108,10 @@ public:
     explicit SampleColumns(std::size_t cols)
         : low_(cols, infinite), high_(cols, -infinite), voids_(cols), errors_(cols) {}
 
-    void add(const float* __restrict heights, const float* __restrict surface) {
+    /// As many heights as columns, and the surface there.
+    void add(std::span<const float> row, std::span<const float> surface_row) {
+        const float* __restrict const heights = row.data();
+        const float* __restrict const surface = surface_row.data();
         float* __restrict const low = low_.data();
         float* __restrict const high = high_.data();
         float* __restrict const voids = voids_.data();
@@ -163,10 +167,9 @@ FoundInSamples found_in(const TileTree& tree, TreeTile tile, const Grid<float>& 
     SampleColumns columns(cols.size());
     PartErrors errors{};
     for (std::size_t row = 0; row < rows.size(); ++row) {
-        const float* const in_row = samples.row(static_cast<int>(row) + border)
-                                        .subspan(static_cast<std::size_t>(border))
-                                        .data();
-        const float* const on_surface = surface.at(rows[row]).data();
+        const auto in_row = samples.row(static_cast<int>(row) + border)
+                                .subspan(static_cast<std::size_t>(border), cols.size());
+        const std::span<const float> on_surface = surface.at(rows[row]);
         columns.add(in_row, on_surface);
         const bool is_last = row + 1 == rows.size();
         const std::size_t part = part_of(rows[row > 0 ? row - 1 : row]);
@@ -220,18 +223,29 @@ std::optional<std::string> contradiction_of_samples(const TileProof& proof,
     return std::nullopt;
 }
 
-/// Compares a proof with the vertices inside the tile, which are means of its own samples.
+bool may_have_void_pole(const TileTree& tree, TreeTile tile, const TileProof& proof) {
+    const geo::GlobalWrap& wrap = tree.wrap();
+    const bool is_first = TileTree::first(tile).y == 0;
+    const bool is_last = tree.sample(tile, tree.cells(tile)).y == tree.rows() - 1;
+    return proof.has_voids && ((wrap.begins_at_pole && is_first) || (wrap.ends_at_pole && is_last));
+}
+
+/// Compares a proof with the vertices inside the tile, which are means of its own samples, and of
+/// what stands for a void pole.
 std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeTile tile,
                                                      const TileProof& proof,
                                                      const Grid<float>& heights) {
     const float largest =
         proof.low > proof.high ? 0.0F : higher(std::abs(proof.low), std::abs(proof.high));
     const float rounding = largest * rounding_per_level * static_cast<float>(tile.level);
+    const bool has_pole = may_have_void_pole(tree, tile, proof);
+    const float low = has_pole ? lower(proof.low, height_of_void_pole) : proof.low;
+    const float high = has_pole ? higher(proof.high, height_of_void_pole) : proof.high;
     const glm::ivec2 cells = tree.cells(tile);
     for (int row = 2; row <= cells.y; ++row) {
         for (int col = 2; col <= cells.x; ++col) {
             const float height = heights(col, row);
-            if (height < proof.low - rounding || height > proof.high + rounding) {
+            if (height < low - rounding || height > high + rounding) {
                 return fmt::format("heights from {} to {} m found, but its vertices reach {} m",
                                    proof.low, proof.high, height);
             }

@@ -200,6 +200,31 @@ TEST(GlobeIndexWithVoids, HasAVoidAtThePoleBesideARowOfVoids) {
     EXPECT_FALSE((*index)->find({0, 1, 1})->has_voids);
 }
 
+TEST(GlobeIndexWithVoids, AVoidPoleAmongVoidsContradictsNoProof) {
+    const test::TemporaryFolder folder;
+    auto raster = test::made_raster(360, 82, [](int col, int row) {
+        return row >= 68 ? -9999.0 : 500.0 + 10.0 * row + col % 7; // 0 at the pole is below it
+    });
+    raster.crs = "EPSG:4326";
+    raster.geotransform = {-180.0, 1.0, 0.0, 90.0, 0.0, -180.0 / 82.0};
+    raster.nodata = -9999.0;
+    ASSERT_TRUE(test::write(raster, folder.path() / "globe.tif"));
+    auto tiles = TileSet::open(folder.path() / "globe.tif");
+    ASSERT_TRUE(tiles);
+    const TileGrid grid = tiles->grid();
+    const auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder.path());
+    ASSERT_TRUE(source) << source.error().message;
+    ASSERT_TRUE(std::isnan(source->south_height));
+    ASSERT_TRUE(make_index(*source, {}));
+    const auto index = ErrorIndex::open(*source);
+    ASSERT_TRUE(index && *index);
+    const IndexedTiles read(*source, **index);
+    ASSERT_EQ(source->tree.root().level, ErrorIndex::first_stored_level);
+    const auto found = read.read(source->tree.root());
+    ASSERT_TRUE(found);
+    EXPECT_TRUE(found->errors.empty()) << found->errors.front().message;
+}
+
 TEST(ColumnRuns, RepeatNothingWithoutATurn) {
     const auto runs = column_runs(-5, 20, {10, 0});
     ASSERT_EQ(runs.size(), 1U);
