@@ -122,6 +122,10 @@ void add_stream(FigureJson& row, const std::optional<scene::TileStreamStats>& st
     }
 }
 
+std::string index_of(const scene::TileStreamOptions& stream) {
+    return stream.find_proof == nullptr ? "none" : stream.is_all_proven ? "whole" : "partial";
+}
+
 } // namespace
 
 Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_token& stop) {
@@ -157,6 +161,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();
+        results.index = index_of(stream->options());
     }
     return results;
 }
@@ -175,7 +180,8 @@ FigureTable figure_table(const FlightResults& results) {
                       .environment = results.environment,
                       .shard = {},
                       .settings = {{"size", size_text(options.view.size)},
-                                   {"waits_for_tiles", options.waits_for_tiles}},
+                                   {"waits_for_tiles", options.waits_for_tiles},
+                                   {"index", results.index}},
                       .summary = {},
                       .columns = flight_columns()};
     table.end = results.end;

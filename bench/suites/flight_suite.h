@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "app/cli/lifted_frames.h"
@@ -29,6 +30,7 @@ struct FlightResults {
     session::FrameTimes times;
     cli::LiftedFrames lifted;
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
+    std::string index = "none";                   ///< of the stream; or partial, or whole
     std::size_t failed_files = 0;
     std::size_t max_memory = 0;      ///< of the process, bytes
     std::vector<double> kept_errors; ///< of each frame, pixels; empty without an error bound

@@ -36,7 +36,7 @@ struct KnownTile {
 };
 
 /// The tiles of a streamed terrain as a camera sees them: which may be visible, and how large their
-/// errors are. Valid as long as its arguments.
+/// errors are. Valid as long as its arguments. Not for several threads at once.
 class StreamView {
 public:
     StreamView(const scene::TerrainNode& terrain, const scene::Camera& camera, glm::ivec2 size,
@@ -165,7 +165,8 @@ private:
     double pixels_per_metre_ = 1.0; // in perspective: at a distance of one metre
     std::optional<terrain::HorizonView> horizon_;
     std::optional<terrain::EarthHorizon> earth_horizon_;
-    mutable std::map<terrain::TreeTile, double> errors_; // of proven tiles, as far as known
+    // Of proven tiles, as far as known: a tile's proof never changes.
+    mutable std::map<terrain::TreeTile, double> errors_;
 };
 
 } // namespace reljef::view

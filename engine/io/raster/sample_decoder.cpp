@@ -258,17 +258,17 @@ bool SampleDecoder::decode_heights(std::span<double> stored) const {
     }
     // Plain pointers and no branches: vector code.
     double* const values = stored.data();
-    int others = 0;
+    int may_be_voids = 0;
     for (std::size_t i = 0; i < stored.size(); ++i) {
-        others |= std::abs(scale_ * values[i] + offset_) <= highest_height ? 0 : 1;
+        may_be_voids |= std::abs(scale_ * values[i] + offset_) <= highest_height ? 0 : 1;
         for (const double value : voids) {
-            others |= values[i] == value ? 1 : 0;
+            may_be_voids |= values[i] == value ? 1 : 0;
         }
     }
-    for (std::size_t i = 0; others == 0 && i < stored.size(); ++i) {
+    for (std::size_t i = 0; may_be_voids == 0 && i < stored.size(); ++i) {
         values[i] = scale_ * values[i] + offset_;
     }
-    return others == 0;
+    return may_be_voids == 0;
 }
 
 void SampleDecoder::decode(std::span<double> first, std::span<const double> others,

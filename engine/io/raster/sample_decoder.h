@@ -51,10 +51,6 @@ public:
     void decode(std::span<double> first, std::span<const double> others,
                 std::span<const unsigned char> mask);
 
-    /// decode() of plain values without a mask, if all are heights. False, and then nothing is
-    /// decoded, if some may be voids.
-    [[nodiscard]] bool decode_heights(std::span<double> stored) const;
-
     /// As decode() of plain values without a mask, but counts nothing. False, and then nothing is
     /// decoded, if there are usual voids whose meaning depends on the whole file
     /// (isolated_voids()).
@@ -89,6 +85,9 @@ private:
         std::array<float, 5> unknown{}; ///< whose meaning depends on the whole file
     };
     [[nodiscard]] FloatVoids float_voids() const;
+    /// decode() of plain values without a mask, if all are heights. False, and then nothing is
+    /// decoded, if some may be voids.
+    [[nodiscard]] bool decode_heights(std::span<double> stored) const;
     [[nodiscard]] std::vector<std::string> counts_of_usual(bool voids) const;
     [[nodiscard]] double metres(double value);
     [[nodiscard]] double of_color(double red, double green, double blue);

@@ -135,15 +135,13 @@ template <class Store>
 void store_tile(const Tile& tile, std::span<const double> values, int taps, const Store& store) {
     const int cols = tile.cols * taps;
     const GridView<const double> stored(values.data(), cols, tile.rows * taps, cols);
-    for (int row = 0; taps == 1 && row < tile.rows; ++row) {
+    const auto height_at = [&](int col, int row) {
+        return taps == 1 ? stored(col, row)
+                         : mean_of(stored.window(col * taps, row * taps, taps, taps));
+    };
+    for (int row = 0; row < tile.rows; ++row) {
         for (int col = 0; col < tile.cols; ++col) {
-            store(tile.col + col, tile.row + row, stored(col, row));
-        }
-    }
-    for (int row = 0; taps > 1 && row < tile.rows; ++row) {
-        for (int col = 0; col < tile.cols; ++col) {
-            store(tile.col + col, tile.row + row,
-                  mean_of(stored.window(col * taps, row * taps, taps, taps)));
+            store(tile.col + col, tile.row + row, height_at(col, row));
         }
     }
 }

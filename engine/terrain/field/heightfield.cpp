@@ -212,6 +212,7 @@ double bilinear_height(GridView<const float> heights, glm::dvec2 sample) {
 // Cells are extreme at the corners of their parts.
 HeightRange surface_range(GridView<const float> heights, glm::dvec2 first, glm::dvec2 last) {
     check(!heights.empty(), "surface_range of an empty grid");
+    check(first.x <= last.x && first.y <= last.y, "surface_range between exchanged places");
     const glm::dvec2 end(heights.cols() - 1, heights.rows() - 1);
     const glm::dvec2 low = glm::clamp(first, glm::dvec2(0.0), end);
     const glm::dvec2 high = glm::clamp(last, glm::dvec2(0.0), end);

@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/session/log.h"
+#include "engine/session/terrain_index.h"
 #include "tests/bench/bench_program.h"
+#include "tests/support/process_state.h"
 #include "tests/support/temporary_folder.h"
 
 namespace reljef::bench {
@@ -82,6 +85,26 @@ TEST(Flight, that_does_not_wait_draws_what_is_there_and_states_its_error) {
         EXPECT_EQ(report.at("settings").at("waits_for_tiles"), false);
         const auto& row = report.at("rows").at(0);
         EXPECT_GE(row.at("kept_error_px"), row.at("median_kept_error_px"));
+    }
+}
+
+TEST(Flight, UsesAnIndexThatIsThereAndTellsWhichOneItHad) {
+    const test::TemporaryFolder folder;
+    const test::EnvironmentVariable cache("XDG_CACHE_HOME", (folder.path() / "cache").string());
+    FlightOptions options = short_flight(folder);
+    options.terrain.index = session::IndexUse::existing;
+    options.view.max_error = 0.5;
+    for (const bool has_index : {false, true}) {
+        if (has_index) {
+            session::Log silent;
+            const auto indexed = session::index_terrain(options.terrain, silent, {});
+            ASSERT_TRUE(indexed) << indexed.error().message;
+        }
+        const auto results = run_flight(options, {});
+        ASSERT_TRUE(results) << results.error().message;
+        const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
+        EXPECT_EQ(report.at("settings").at("index"), has_index ? "whole" : "none");
+        EXPECT_EQ(results->max_tiles_unproven > 0, !has_index);
     }
 }
 

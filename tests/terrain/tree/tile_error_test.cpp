@@ -448,6 +448,16 @@ Grid<float> samples_around(const TileTree& tree, TreeTile tile, const Grid<float
     return around;
 }
 
+/// Each claims something that the samples contradict.
+std::vector<TileProof> wrong_proofs(const TileProof& proof) {
+    std::vector<TileProof> wrong(4, proof);
+    wrong[0].error *= 0.9F;
+    wrong[1].low += 1.0F;
+    wrong[2].high -= 1.0F;
+    wrong[3].has_voids = !proof.has_voids;
+    return wrong;
+}
+
 void expect_parts_from_samples(const TileTree& tree, const Grid<float>& samples) {
     const Proven proven = prove_all(tree, samples);
     for (const auto& [tile, proof] : proven.tiles) {
@@ -468,9 +478,9 @@ void expect_parts_from_samples(const TileTree& tree, const Grid<float>& samples)
             EXPECT_LE(error, exact.part_errors.at(i) + rounding + 2.01 * proof.error / 255.0);
         }
         EXPECT_FALSE(check_proof(tree, tile, proof, heights).parts);
-        TileProof too_small = proof;
-        too_small.error *= 0.9F;
-        EXPECT_TRUE(check_proof(tree, tile, too_small, heights, &around).contradiction);
+        for (const TileProof& wrong : wrong_proofs(proof)) {
+            EXPECT_TRUE(check_proof(tree, tile, wrong, heights, &around).contradiction);
+        }
     }
 }
 
