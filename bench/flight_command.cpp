@@ -46,8 +46,9 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     cli::add_terrain_options(*arguments, choice->options.terrain);
     cli::add_index_option(*arguments, choice->options.terrain, session::IndexUse::existing);
     arguments->get_option("--no-index")
-        ->description("do not use the index of 'reljef index', by which errors of tiles are known "
-                      "and coarse tiles need not be averaged");
+        ->description("do not use the index that 'reljef index' has made. By default it is used "
+                      "where it is: errors of tiles are then known, and coarse tiles are not "
+                      "averaged anew. Standard input has none");
     cli::add_view_options(*arguments, choice->options.view);
     arguments->get_option("--max-error")
         ->description("polygons: at most PX pixels of error, with as few triangles as possible "
@@ -66,9 +67,8 @@ cli::Command add_flight_command(CLI::App& program, cli::Interrupt& interrupt) {
     arguments->footer(
         "Each frame waits for all its tiles, as in reljef render. Waiting and drawing are timed\n"
         "separately. With --no-wait, frames are drawn as in reljef view, and the kept errors tell\n"
-        "what the missing tiles cost; only with the index that 'reljef index' makes they are "
-        "known.\nMemory is that of the process; what it used before the\n"
-        "terrain was opened is subtracted.\n"
+        "what the missing tiles cost. They are known only with an index ('reljef index').\n"
+        "Memory is that of the process; what it used before the terrain was opened is subtracted.\n"
         "Examples:\n"
         "  reljef-bench flight srtm/ --path track.gpx --frames 6000 --memory 64 --json "
         "flight.json\n"

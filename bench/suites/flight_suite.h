@@ -30,7 +30,7 @@ struct FlightResults {
     session::FrameTimes times;
     cli::LiftedFrames lifted;
     std::optional<scene::TileStreamStats> stream; ///< absent if not streamed
-    std::string index = "none";                   ///< of the stream; or partial, or whole
+    std::string index = "none";                   ///< of the stream: none, partial or whole
     std::size_t failed_files = 0;
     std::size_t max_memory = 0;      ///< of the process, bytes
     std::vector<double> kept_errors; ///< of each frame, pixels; empty without an error bound

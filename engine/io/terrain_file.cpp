@@ -43,9 +43,11 @@ Result<Samples> samples_with_heights(GDALDataset& dataset, const ReadPlan& plan,
                                      std::vector<std::string>& notes) {
     auto samples = read_samples(dataset, plan, name, options, messages, notes);
     if (samples && samples->void_count == samples->heights.size()) {
+        const RasterOptions::Window whole{0, 0, dataset.GetRasterXSize(), dataset.GetRasterYSize()};
+        const RasterOptions::Window read = options.window.value_or(whole);
         return Error{
             fmt::format("{}: all {}×{} samples are voids, at least one height was expected", name,
-                        dataset.GetRasterXSize(), dataset.GetRasterYSize())};
+                        read.cols, read.rows)};
     }
     return samples;
 }

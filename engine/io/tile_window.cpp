@@ -31,10 +31,12 @@ struct NumberedGrid {
 
 /// Samples that are not of the whole set are numbered from the window's first on.
 NumberedGrid numbered(const TileGrid& window, const TileGrid& whole) {
+    // Samples: coordinates of 10^7 m are rounded by 2·10^-9 m, and windows begin at samples.
+    constexpr double same_place = 1e-3;
     constexpr double max_number = 1e9;
     const glm::dvec2 first = (window.first - whole.first) / whole.step;
     const glm::dvec2 away = glm::abs(first - glm::round(first));
-    const bool is_of_whole = window.step == whole.step && std::max(away.x, away.y) < near_sample &&
+    const bool is_of_whole = window.step == whole.step && std::max(away.x, away.y) < same_place &&
                              std::max(std::abs(first.x), std::abs(first.y)) < max_number;
     return is_of_whole ? NumberedGrid{window, whole.first, glm::ivec2(glm::round(first))}
                        : NumberedGrid{window, window.first, {0, 0}};

@@ -51,8 +51,8 @@ struct FrameTimes {
 struct DeviceFramesOptions {
     bool timed = false;       ///< waits for the end of each frame
     int memory_megabytes = 0; ///< SourceOptions::memory_megabytes of the scene
-    /// False: tiles are requested, frames show what is there, and error_notes() do not tell what
-    /// would keep the bound: what the frames lack is on its way.
+    /// False: tiles are requested, and frames show what is there. error_notes() then do not
+    /// judge their errors: what they lack is on its way.
     bool waits_for_tiles = true;
     /// Tints what draws each tile (view/choice/choice_picture.h).
     bool shows_choice = false;

@@ -223,11 +223,20 @@ std::optional<std::string> contradiction_of_samples(const TileProof& proof,
     return std::nullopt;
 }
 
-bool may_have_void_pole(const TileTree& tree, TreeTile tile, const TileProof& proof) {
-    const geo::GlobalWrap& wrap = tree.wrap();
-    const bool is_first = TileTree::first(tile).y == 0;
+/// Whether vertices inside the tile may be means with a void pole: the last cell may be so short
+/// that those before it reach the pole. The first row is reached by none.
+bool may_mix_void_pole(const TileTree& tree, TreeTile tile, const TileProof& proof) {
     const bool is_last = tree.sample(tile, tree.cells(tile)).y == tree.rows() - 1;
-    return proof.has_voids && ((wrap.begins_at_pole && is_first) || (wrap.ends_at_pole && is_last));
+    return proof.has_voids && tree.wrap().ends_at_pole && is_last;
+}
+
+/// Of those inside a tile, the vertices before a short cell at the seam of a globe are means with
+/// samples beyond it. The end of the other columns.
+int end_of_own_cols(const TileTree& tree, TreeTile tile) {
+    const int cells = tree.cells(tile).x;
+    const bool is_at_seam =
+        tree.wrap().around && tree.sample(tile, tree.cells(tile)).x == tree.cols() - 1;
+    return is_at_seam ? cells : cells + 1;
 }
 
 /// Compares a proof with the vertices inside the tile, which are means of its own samples, and of
@@ -238,12 +247,12 @@ std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeT
     const float largest =
         proof.low > proof.high ? 0.0F : higher(std::abs(proof.low), std::abs(proof.high));
     const float rounding = largest * rounding_per_level * static_cast<float>(tile.level);
-    const bool has_pole = may_have_void_pole(tree, tile, proof);
+    const bool has_pole = may_mix_void_pole(tree, tile, proof);
     const float low = has_pole ? lower(proof.low, height_of_void_pole) : proof.low;
     const float high = has_pole ? higher(proof.high, height_of_void_pole) : proof.high;
     const glm::ivec2 cells = tree.cells(tile);
     for (int row = 2; row <= cells.y; ++row) {
-        for (int col = 2; col <= cells.x; ++col) {
+        for (int col = 2; col < end_of_own_cols(tree, tile); ++col) {
             const float height = heights(col, row);
             if (height < low - rounding || height > high + rounding) {
                 return fmt::format("heights from {} to {} m found, but its vertices reach {} m",

@@ -105,6 +105,7 @@ TEST(Flight, UsesAnIndexThatIsThereAndTellsWhichOneItHad) {
         const auto report = nlohmann::json::parse(figure_json(figure_table(*results)));
         EXPECT_EQ(report.at("settings").at("index"), has_index ? "whole" : "none");
         EXPECT_EQ(results->max_tiles_unproven > 0, !has_index);
+        EXPECT_EQ(report.at("rows").at(0).at("kept_error_px").is_number(), has_index);
     }
 }
 

@@ -200,29 +200,40 @@ TEST(GlobeIndexWithVoids, HasAVoidAtThePoleBesideARowOfVoids) {
     EXPECT_FALSE((*index)->find({0, 1, 1})->has_voids);
 }
 
-TEST(GlobeIndexWithVoids, AVoidPoleAmongVoidsContradictsNoProof) {
+/// Reads a tile of a globe by an index that is made for it.
+std::optional<IndexedTile> read_of_globe(test::MadeRaster raster, TreeTile tile) {
     const test::TemporaryFolder folder;
-    auto raster = test::made_raster(360, 82, [](int col, int row) {
-        return row >= 68 ? -9999.0 : 500.0 + 10.0 * row + col % 7; // 0 at the pole is below it
-    });
     raster.crs = "EPSG:4326";
-    raster.geotransform = {-180.0, 1.0, 0.0, 90.0, 0.0, -180.0 / 82.0};
+    raster.geotransform = {-180.0, 360.0 / raster.cols, 0.0, 90.0, 0.0, -180.0 / raster.rows};
     raster.nodata = -9999.0;
-    ASSERT_TRUE(test::write(raster, folder.path() / "globe.tif"));
+    EXPECT_TRUE(test::write(raster, folder.path() / "globe.tif"));
     auto tiles = TileSet::open(folder.path() / "globe.tif");
-    ASSERT_TRUE(tiles);
+    EXPECT_TRUE(tiles);
     const TileGrid grid = tiles->grid();
     const auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder.path());
-    ASSERT_TRUE(source) << source.error().message;
-    ASSERT_TRUE(std::isnan(source->south_height));
-    ASSERT_TRUE(make_index(*source, {}));
+    EXPECT_TRUE(source && make_index(*source, {}));
     const auto index = ErrorIndex::open(*source);
-    ASSERT_TRUE(index && *index);
-    const IndexedTiles read(*source, **index);
-    ASSERT_EQ(source->tree.root().level, ErrorIndex::first_stored_level);
-    const auto found = read.read(source->tree.root());
-    ASSERT_TRUE(found);
-    EXPECT_TRUE(found->errors.empty()) << found->errors.front().message;
+    EXPECT_TRUE(index && *index);
+    return IndexedTiles(*source, **index).read(tile);
+}
+
+TEST(GlobeIndexWithVoids, AVoidPoleAmongVoidsContradictsNoProof) {
+    const auto raster = test::made_raster(360, 82, [](int col, int row) {
+        return row >= 68 ? -9999.0 : 500.0 + 10.0 * row + col % 7; // 0 at the pole is below it
+    });
+    const auto root = read_of_globe(raster, {3, 0, 0});
+    ASSERT_TRUE(root);
+    EXPECT_TRUE(root->errors.empty()) << root->errors.front().message;
+}
+
+// 137 cells around at level 3: the last one of level 4 is half as wide as the others.
+TEST(GlobeIndexAtTheSeam, GroundBeyondAShortCellContradictsNoProof) {
+    const auto raster = test::made_raster(
+        1096, 200, [](int col, int /*row*/) { return col > 0 && col < 16 ? 100.0 : 0.0; });
+    const auto east = read_of_globe(raster, {4, 1, 0});
+    ASSERT_TRUE(east);
+    EXPECT_TRUE(east->errors.empty()) << east->errors.front().message;
+    EXPECT_GT(*std::ranges::max_element(east->heights.samples()), 1.0F);
 }
 
 TEST(ColumnRuns, RepeatNothingWithoutATurn) {
