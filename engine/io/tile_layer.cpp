@@ -6,6 +6,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "engine/io/files/tile_grid.h"
 #include "engine/io/raster/gdal_dataset.h"
 #include "engine/io/raster/sample_decoder.h"
 #include "engine/io/raster/sample_reader.h"
@@ -191,11 +192,11 @@ public:
         const glm::ivec2 high = glm::min(glm::ivec2(values.cols(), values.rows()),
                                          glm::ivec2(window_.cols, window_.rows) - first);
         for (int row = low.y; row < high.y && low.x < high.x; ++row) {
-            const auto at = static_cast<std::size_t>(first.x + low.x);
+            const glm::ivec2 cell = first + glm::ivec2(low.x, row);
             const double* const from = values.row(row).data() + low.x;
-            const std::uint8_t* const closed = closed_.row(first.y + row).data() + at;
-            double* __restrict const sums = sum_.row(first.y + row).data() + at;
-            double* __restrict const weights = weight_.row(first.y + row).data() + at;
+            const std::uint8_t* const closed = closed_.row(cell.y).data() + cell.x;
+            double* __restrict const sums = sum_.row(cell.y).data() + cell.x;
+            double* __restrict const weights = weight_.row(cell.y).data() + cell.x;
             for (int i = 0; i < high.x - low.x; ++i) { // no branches: vector code
                 const bool counts = !std::isnan(from[i]) && closed[i] == 0;
                 sums[i] += counts ? from[i] : 0.0;

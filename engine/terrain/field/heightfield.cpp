@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <glm/common.hpp>
+
 #include "engine/core/check.h"
 #include "engine/core/parallel_for.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 namespace reljef::terrain {
