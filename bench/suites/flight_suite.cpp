@@ -122,7 +122,7 @@ void add_stream(FigureJson& row, const std::optional<scene::TileStreamStats>& st
     }
 }
 
-std::string index_of(const scene::TileStreamOptions& stream) {
+std::string index_state(const scene::TileStreamOptions& stream) {
     return stream.find_proof == nullptr ? "none" : stream.is_all_proven ? "whole" : "partial";
 }
 
@@ -161,7 +161,7 @@ Result<FlightResults> run_flight(const FlightOptions& options, const std::stop_t
     const auto& stream = scene->terrain->get<scene::TerrainNode>()->stream;
     if (stream != nullptr) {
         results.stream = stream->stats();
-        results.index = index_of(stream->options());
+        results.index = index_state(stream->options());
     }
     return results;
 }

@@ -63,8 +63,8 @@ public:
     /// Bounds of all samples on the lattice.
     [[nodiscard]] PointBounds bounds() const {
         PointBounds bounds;
-        for (int row = 0; row < grid_.rows; ++row) {
-            for (int col = 0; col < grid_.cols; ++col) {
+        for (int row = 0; row < grid_.window.rows; ++row) {
+            for (int col = 0; col < grid_.window.cols; ++col) {
                 bounds.add(at(col, row));
             }
         }
@@ -75,8 +75,8 @@ public:
     [[nodiscard]] glm::ivec2 nearest_to(glm::dvec2 point) const {
         glm::ivec2 nearest(0);
         double min_distance = std::numeric_limits<double>::infinity();
-        for (int row = 0; row < grid_.rows; ++row) {
-            for (int col = 0; col < grid_.cols; ++col) {
+        for (int row = 0; row < grid_.window.rows; ++row) {
+            for (int col = 0; col < grid_.window.cols; ++col) {
                 if (const double found = glm::distance(at(col, row), point); found < min_distance) {
                     min_distance = found;
                     nearest = {col, row};
@@ -90,8 +90,8 @@ public:
     [[nodiscard]] glm::dvec2 steps_at(glm::ivec2 sample) const {
         const auto [col, row] = std::pair(sample.x, sample.y);
         const glm::dvec2 here = at(col, row);
-        return {glm::distance(at(col + (col + 1 < grid_.cols ? 1 : -1), row), here),
-                glm::distance(at(col, row + (row + 1 < grid_.rows ? 1 : -1)), here)};
+        return {glm::distance(at(col + (col + 1 < grid_.window.cols ? 1 : -1), row), here),
+                glm::distance(at(col, row + (row + 1 < grid_.window.rows ? 1 : -1)), here)};
     }
 
     /// Whether all samples lie on the layer's lattice, without a projection.
@@ -104,8 +104,9 @@ public:
             const glm::dvec2 away = glm::abs(at(col, row) - first - glm::dvec2(col, row));
             return std::max(away.x, away.y) < 0.5 * near_sample;
         };
-        return is_near(0, 0) && is_near(grid_.cols - 1, 0) && is_near(0, grid_.rows - 1) &&
-               is_near(grid_.cols - 1, grid_.rows - 1);
+        return is_near(0, 0) && is_near(grid_.window.cols - 1, 0) &&
+               is_near(0, grid_.window.rows - 1) &&
+               is_near(grid_.window.cols - 1, grid_.window.rows - 1);
     }
 
     /// Lattice position of a sample, in whole parts of a step so small that no height changes:
@@ -120,14 +121,13 @@ private:
     // Earth's radius R: for 8 samples 1e-6 samples per metre of spacing.
     static constexpr int control_step = 8;
 
-    LayerPoints(const NumberedGrid& grid, const TileLayer& layer)
-        : grid_(grid.window), numbers_(grid), layer_(&layer) {}
+    LayerPoints(const NumberedGrid& grid, const TileLayer& layer) : grid_(grid), layer_(&layer) {}
 
     [[nodiscard]] glm::dvec2 exact_at(int col, int row) const {
         if (controls_.empty()) {
-            return layer_->lattice_from_crs(numbers_.place(numbers_.first + glm::ivec2(col, row)));
+            return layer_->lattice_from_crs(grid_.place(grid_.first + glm::ivec2(col, row)));
         }
-        const glm::ivec2 from_control = numbers_.first + glm::ivec2(col, row) - first_control_;
+        const glm::ivec2 from_control = grid_.first + glm::ivec2(col, row) - first_control_;
         const int i = from_control.x / control_step;
         const int j = from_control.y / control_step;
         const double u = static_cast<double>(from_control.x % control_step) / control_step;
@@ -140,14 +140,16 @@ private:
 
     // At the samples whose numbers are multiples of the step, in all windows.
     void fill_controls(const CrsTransform& transform) {
-        const glm::ivec2 phase = ((numbers_.first % control_step) + control_step) % control_step;
-        first_control_ = numbers_.first - phase;
+        const glm::ivec2 phase = ((grid_.first % control_step) + control_step) % control_step;
+        first_control_ = grid_.first - phase;
         const glm::ivec2 count =
-            (phase + glm::ivec2(grid_.cols, grid_.rows) + control_step - 1) / control_step + 1;
+            (phase + glm::ivec2(grid_.window.cols, grid_.window.rows) + control_step - 1) /
+                control_step +
+            1;
         controls_ = Grid<glm::dvec2>(count.x, count.y);
         for (int j = 0; j < controls_.rows(); ++j) {
             for (int i = 0; i < controls_.cols(); ++i) {
-                controls_(i, j) = numbers_.place(first_control_ + control_step * glm::ivec2(i, j));
+                controls_(i, j) = grid_.place(first_control_ + control_step * glm::ivec2(i, j));
             }
         }
         transform.apply(controls_.samples());
@@ -156,8 +158,7 @@ private:
         }
     }
 
-    TileGrid grid_;
-    NumberedGrid numbers_;
+    NumberedGrid grid_;
     const TileLayer* layer_;
     Grid<glm::dvec2> controls_;
     glm::ivec2 first_control_{0}; // number of its sample

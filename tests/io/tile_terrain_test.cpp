@@ -87,7 +87,7 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Rasters, SceneOfReduction,
                          testing::Combine(testing::Values(2, 3, 7),
-                                          testing::Values("EPSG:32631", "EPSG:4326"),
+                                          testing::Values("EPSG:32631", "EPSG:4326", ""),
                                           testing::Bool()));
 
 TEST_P(SceneOfReduction, IsThatOfAllSamples) {
@@ -104,7 +104,9 @@ TEST_P(SceneOfReduction, IsThatOfAllSamples) {
     TileTerrainOptions options;
     options.raster.memory_budget = static_cast<std::size_t>(size.x / reduction) *
                                    static_cast<std::size_t>(size.y / reduction) * bytes_per_sample;
-    const auto tiles = TileSet::open(path);
+    TileSetOptions planes;
+    planes.allows_planes = true;
+    const auto tiles = TileSet::open(path, planes);
     ASSERT_TRUE(tiles) << tiles.error().message;
     const auto whole = tiles->terrain({});
     const auto of_tiles = tiles->terrain(options);

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/terrain/tree/column_ranges.h"
 #include "engine/terrain/tree/level_step.h"
 #include "engine/terrain/tree/part_errors.h"
 #include "engine/terrain/tree/tile_error.h"
@@ -102,44 +103,32 @@ private:
     std::vector<float> surface_;
 };
 
-/// Joins the rows of a tile's samples, each column by itself.
+/// The rows of a tile's samples, joined in each column by itself.
 class SampleColumns {
 public:
-    explicit SampleColumns(std::size_t cols)
-        : low_(cols, infinite), high_(cols, -infinite), voids_(cols), errors_(cols) {}
+    explicit SampleColumns(std::size_t cols) : ranges_(cols), errors_(cols) {}
 
     /// As many heights as columns, and the surface there.
     void add(std::span<const float> row, std::span<const float> surface_row) {
-        const float* __restrict const heights = row.data();
-        const float* __restrict const surface = surface_row.data();
-        float* __restrict const low = low_.data();
-        float* __restrict const high = high_.data();
-        float* __restrict const voids = voids_.data();
+        ranges_.add(row);
+        const float* const heights = row.data();
+        const float* const surface = surface_row.data();
         float* __restrict const errors = errors_.data();
-        for (std::size_t i = 0; i < low_.size(); ++i) {
-            low[i] = lower(low[i], heights[i]);
-            high[i] = higher(high[i], heights[i]);
-            voids[i] = heights[i] == heights[i] ? voids[i] : 1.0F; // NaN: void
+        for (std::size_t i = 0; i < errors_.size(); ++i) {
             errors[i] = higher(errors[i], std::abs(heights[i] - surface[i]));
         }
     }
-    /// The errors of the rows added since the last call.
+    /// The largest error of each column, of the rows since forget_errors().
     [[nodiscard]] std::span<const float> errors() const { return errors_; }
     void forget_errors() { std::fill(errors_.begin(), errors_.end(), 0.0F); }
     [[nodiscard]] TileProof proof() const {
         TileProof proof;
-        for (std::size_t i = 0; i < low_.size(); ++i) {
-            proof.low = lower(proof.low, low_[i]);
-            proof.high = higher(proof.high, high_[i]);
-            proof.has_voids = proof.has_voids || voids_[i] > 0.0F;
-        }
+        ranges_.join_with(proof, 0, ranges_.cols());
         return proof;
     }
 
 private:
-    std::vector<float> low_;
-    std::vector<float> high_;
-    std::vector<float> voids_; // 1: there is one
+    ColumnRanges ranges_;
     std::vector<float> errors_;
 };
 
@@ -230,8 +219,8 @@ bool may_mix_void_pole(const TileTree& tree, TreeTile tile, const TileProof& pro
     return proof.has_voids && tree.wrap().ends_at_pole && is_last;
 }
 
-/// Of those inside a tile, the vertices before a short cell at the seam of a globe are means with
-/// samples beyond it. The end of the other columns.
+/// The end of the columns of heights whose vertices are means of the tile's own samples. At the
+/// seam of a globe, the last cell may be so short that those before it reach beyond.
 int end_of_own_cols(const TileTree& tree, TreeTile tile) {
     const int cells = tree.cells(tile).x;
     const bool is_at_seam =
@@ -250,9 +239,10 @@ std::optional<std::string> contradiction_of_vertices(const TileTree& tree, TreeT
     const bool has_pole = may_mix_void_pole(tree, tile, proof);
     const float low = has_pole ? lower(proof.low, height_of_void_pole) : proof.low;
     const float high = has_pole ? higher(proof.high, height_of_void_pole) : proof.high;
-    const glm::ivec2 cells = tree.cells(tile);
-    for (int row = 2; row <= cells.y; ++row) {
-        for (int col = 2; col < end_of_own_cols(tree, tile); ++col) {
+    const int last_row = tree.cells(tile).y;
+    const int end_col = end_of_own_cols(tree, tile);
+    for (int row = 2; row <= last_row; ++row) {
+        for (int col = 2; col < end_col; ++col) {
             const float height = heights(col, row);
             if (height < low - rounding || height > high + rounding) {
                 return fmt::format("heights from {} to {} m found, but its vertices reach {} m",

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include "engine/core/check.h"
+#include "engine/terrain/tree/column_ranges.h"
 #include "engine/terrain/tree/level_fill.h"
 #include "engine/terrain/tree/level_residuals.h"
 #include "engine/terrain/tree/level_step.h"
@@ -23,59 +24,36 @@ public:
     /// `cols`: of vertices with the border; of them, `end` and the following ones lie beyond the
     /// raster.
     BaseRanges(glm::ivec2 tiles, int cols, int end)
-        : tiles_(tiles.x, tiles.y), low_(static_cast<std::size_t>(cols), infinite),
-          high_(low_.size(), -infinite), voids_(low_.size(), 0.0F),
+        : tiles_(tiles.x, tiles.y), columns_(static_cast<std::size_t>(cols)),
           end_(static_cast<std::size_t>(std::min(end, cols))) {}
 
     /// Rows in order, with the chunk's border.
     void add(int row, std::span<const float> heights, bool is_last) {
-        join(heights);
+        columns_.add(heights);
         const int vertex = row - chunk_border;
         if (is_last || (vertex >= 0 && vertex % tree_tile_cells == 0)) {
             close(vertex > 0 ? (vertex - 1) / tree_tile_cells : -1);
-            join(heights);
+            columns_.add(heights);
         }
     }
     [[nodiscard]] float largest() const { return largest_; }
     [[nodiscard]] Grid<TileProof>& tiles() { return tiles_; }
 
 private:
-    void join(std::span<const float> heights) {
-        const float* const more = heights.data();
-        float* __restrict const low = low_.data();
-        float* __restrict const high = high_.data();
-        float* __restrict const voids = voids_.data();
-        for (std::size_t i = 0; i < heights.size(); ++i) {
-            low[i] = lower(low[i], more[i]);
-            high[i] = higher(high[i], more[i]);
-            voids[i] = more[i] == more[i] ? voids[i] : 1.0F; // NaN: void
-        }
-    }
     /// Ends a row of tiles; rows outside the chunk have none.
     void close(int row) {
         for (int col = 0; row >= 0 && row < tiles_.rows() && col < tiles_.cols(); ++col) {
             const auto first = static_cast<std::size_t>(chunk_border) +
                                static_cast<std::size_t>(col) * tree_tile_cells;
-            const std::size_t end = std::min(first + tree_tile_cells + 1, end_);
-            TileProof& tile = tiles_(col, row);
-            for (std::size_t i = first; i < end; ++i) {
-                tile.low = lower(tile.low, low_[i]);
-                tile.high = higher(tile.high, high_[i]);
-                tile.has_voids = tile.has_voids || voids_[i] > 0.0F;
-            }
+            columns_.join_with(tiles_(col, row), first,
+                               std::min(first + tree_tile_cells + 1, end_));
         }
-        for (std::size_t i = 0; i < low_.size(); ++i) {
-            largest_ = higher(higher(largest_, high_[i]), -low_[i]);
-        }
-        std::fill(low_.begin(), low_.end(), infinite);
-        std::fill(high_.begin(), high_.end(), -infinite);
-        std::fill(voids_.begin(), voids_.end(), 0.0F);
+        largest_ = higher(largest_, columns_.largest());
+        columns_.clear();
     }
 
     Grid<TileProof> tiles_;
-    std::vector<float> low_; // of the vertices of a column, so far in a row of tiles
-    std::vector<float> high_;
-    std::vector<float> voids_; // 1: there is one
+    ColumnRanges columns_; // of the vertices, so far in a row of tiles
     std::size_t end_;
     float largest_ = 0.0F;
 };

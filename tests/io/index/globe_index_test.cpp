@@ -178,62 +178,59 @@ INSTANTIATE_TEST_SUITE_P(
                     StoredGlobe{{.cols = 45, .rows = 700}},
                     StoredGlobe{{.cols = 1100, .rows = 66, .has_poles = false}}));
 
-TEST(GlobeIndexWithVoids, HasAVoidAtThePoleBesideARowOfVoids) {
-    const test::TemporaryFolder folder;
-    auto raster = test::made_raster(
-        180, 90, [](int col, int row) { return row == 0 ? -9999.0 : 10.0 * row + col % 7; });
-    raster.crs = "EPSG:4326";
-    raster.geotransform = {-180.0, 2.0, 0.0, 90.0, 0.0, -2.0};
-    raster.nodata = -9999.0;
-    ASSERT_TRUE(test::write(raster, folder.path() / "globe.tif"));
-    auto tiles = TileSet::open(folder.path() / "globe.tif");
-    ASSERT_TRUE(tiles);
-    const TileGrid grid = tiles->grid();
-    const auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder.path());
-    ASSERT_TRUE(source) << source.error().message;
-    EXPECT_TRUE(std::isnan(source->north_height));
-    EXPECT_FALSE(std::isnan(source->south_height));
-    ASSERT_TRUE(make_index(*source, {}));
-    const auto index = ErrorIndex::open(*source);
-    ASSERT_TRUE(index && *index);
-    EXPECT_TRUE((*index)->find({0, 1, 0})->has_voids);
-    EXPECT_FALSE((*index)->find({0, 1, 1})->has_voids);
-}
+/// A raster over the whole Earth, and its index.
+class IndexedGlobe {
+public:
+    explicit IndexedGlobe(test::MadeRaster raster) {
+        raster.crs = "EPSG:4326";
+        raster.geotransform = {-180.0, 360.0 / raster.cols, 0.0, 90.0, 0.0, -180.0 / raster.rows};
+        raster.nodata = -9999.0;
+        EXPECT_TRUE(test::write(raster, folder_.path() / "globe.tif"));
+        auto tiles = TileSet::open(folder_.path() / "globe.tif");
+        EXPECT_TRUE(tiles);
+        const TileGrid grid = tiles->grid();
+        auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder_.path());
+        EXPECT_TRUE(source && make_index(*source, {}));
+        source_.emplace(std::move(*source));
+        auto index = ErrorIndex::open(*source_);
+        EXPECT_TRUE(index && *index);
+        index_.emplace(std::move(**index));
+    }
+    [[nodiscard]] const IndexSource& source() const { return *source_; }
+    [[nodiscard]] bool has_voids(TreeTile tile) const { return index_->find(tile)->has_voids; }
+    void expect_no_contradiction(TreeTile tile) const {
+        const auto read = IndexedTiles(*source_, *index_).read(tile);
+        ASSERT_TRUE(read);
+        EXPECT_TRUE(read->errors.empty()) << read->errors.front().message;
+    }
 
-/// Reads a tile of a globe by an index that is made for it.
-std::optional<IndexedTile> read_of_globe(test::MadeRaster raster, TreeTile tile) {
-    const test::TemporaryFolder folder;
-    raster.crs = "EPSG:4326";
-    raster.geotransform = {-180.0, 360.0 / raster.cols, 0.0, 90.0, 0.0, -180.0 / raster.rows};
-    raster.nodata = -9999.0;
-    EXPECT_TRUE(test::write(raster, folder.path() / "globe.tif"));
-    auto tiles = TileSet::open(folder.path() / "globe.tif");
-    EXPECT_TRUE(tiles);
-    const TileGrid grid = tiles->grid();
-    const auto source = index_source(std::move(*tiles), grid, Gaps::holes, folder.path());
-    EXPECT_TRUE(source && make_index(*source, {}));
-    const auto index = ErrorIndex::open(*source);
-    EXPECT_TRUE(index && *index);
-    return IndexedTiles(*source, **index).read(tile);
+private:
+    test::TemporaryFolder folder_;
+    std::optional<IndexSource> source_;
+    std::optional<ErrorIndex> index_;
+};
+
+TEST(GlobeIndexWithVoids, HasAVoidAtThePoleBesideARowOfVoids) {
+    const IndexedGlobe globe(test::made_raster(
+        180, 90, [](int col, int row) { return row == 0 ? -9999.0 : 10.0 * row + col % 7; }));
+    EXPECT_TRUE(std::isnan(globe.source().north_height));
+    EXPECT_FALSE(std::isnan(globe.source().south_height));
+    EXPECT_TRUE(globe.has_voids({0, 1, 0}));
+    EXPECT_FALSE(globe.has_voids({0, 1, 1}));
 }
 
 TEST(GlobeIndexWithVoids, AVoidPoleAmongVoidsContradictsNoProof) {
-    const auto raster = test::made_raster(360, 82, [](int col, int row) {
+    const IndexedGlobe globe(test::made_raster(360, 82, [](int col, int row) {
         return row >= 68 ? -9999.0 : 500.0 + 10.0 * row + col % 7; // 0 at the pole is below it
-    });
-    const auto root = read_of_globe(raster, {3, 0, 0});
-    ASSERT_TRUE(root);
-    EXPECT_TRUE(root->errors.empty()) << root->errors.front().message;
+    }));
+    globe.expect_no_contradiction({3, 0, 0});
 }
 
 // 137 cells around at level 3: the last one of level 4 is half as wide as the others.
 TEST(GlobeIndexAtTheSeam, GroundBeyondAShortCellContradictsNoProof) {
-    const auto raster = test::made_raster(
-        1096, 200, [](int col, int /*row*/) { return col > 0 && col < 16 ? 100.0 : 0.0; });
-    const auto east = read_of_globe(raster, {4, 1, 0});
-    ASSERT_TRUE(east);
-    EXPECT_TRUE(east->errors.empty()) << east->errors.front().message;
-    EXPECT_GT(*std::ranges::max_element(east->heights.samples()), 1.0F);
+    const IndexedGlobe globe(test::made_raster(
+        1096, 200, [](int col, int /*row*/) { return col > 0 && col < 16 ? 100.0 : 0.0; }));
+    globe.expect_no_contradiction({4, 1, 0});
 }
 
 TEST(ColumnRuns, RepeatNothingWithoutATurn) {
