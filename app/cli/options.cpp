@@ -383,12 +383,14 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
     add_parsed(command, "--exaggeration", choice.exaggeration,
                number_in("--exaggeration", 0.0, terrain::max_exaggeration, true),
                "factor for the heights, in the picture only (1)", "X");
-    add_parsed(command, "--placement", choice.placement,
-               word_of<terrain::PlacementKind>("--placement",
-                                               {{"plane", terrain::PlacementKind::plane},
-                                                {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
-               "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains)",
-               "KIND");
+    add_parsed(
+        command, "--placement", choice.placement,
+        word_of<terrain::PlacementKind>("--placement",
+                                        {{"plane", terrain::PlacementKind::plane},
+                                         {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
+        "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains; plane "
+        "for techniques that search, if it distorts the terrain by less than a tenth)",
+        "KIND");
     add_gaps_option(command, choice);
     command
         .add_option(

@@ -22,28 +22,11 @@
 #include "engine/session/scene_daylight.h"
 #include "engine/session/streaming.h"
 #include "engine/session/terrain_index.h"
+#include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/tint.h"
 
 namespace reljef::session {
 namespace {
-
-constexpr std::size_t part_for_triangles = 4; // of the memory
-
-// With little memory: a quarter of those of the tiles that are enough for any view.
-constexpr std::size_t min_triangles =
-    scene::TileStream::min_drawn * terrain::tree_tile_cells * terrain::tree_tile_cells / 2;
-
-std::size_t triangles_within(int megabytes) {
-    const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
-    return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
-}
-
-// Of a terrain that is read whole, and of a vertex at each sample.
-constexpr std::size_t bytes_per_whole_sample = 24 + 40;
-
-std::size_t vertices_within(int megabytes) {
-    return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;
-}
 
 Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice, const SceneOptions& view,
                                    const io::SceneDescription& description) {
@@ -61,8 +44,16 @@ Result<terrain::ColorRamp> ramp_of(const SourceOptions& choice, const SceneOptio
     return io::read_ramp_file(name);
 }
 
+bool prefers_plane(const scene::Technique& technique, const terrain::Terrain& terrain) {
+    constexpr double max_distortion = 0.1;
+    return scene::needs_plane(technique.id()) ||
+           (scene::is_faster_on_plane(technique.id()) &&
+            terrain::plane_distortion(terrain.heightfield) <= max_distortion);
+}
+
 Result<scene::TerrainOptions> terrain_options(const SourceOptions& choice, const SceneOptions& view,
-                                              const io::SceneDescription& description) {
+                                              const TerrainSource& source) {
+    const io::SceneDescription& description = source.description;
     scene::TerrainOptions options;
     auto ramp = ramp_of(choice, view, description);
     if (!ramp) {
@@ -76,8 +67,7 @@ Result<scene::TerrainOptions> terrain_options(const SourceOptions& choice, const
         options.placement = *description.placement == "plane" ? terrain::PlacementKind::plane
                                                               : terrain::PlacementKind::ellipsoid;
     }
-    const bool needs_plane = view.technique && scene::is_faster_on_plane(view.technique->id());
-    if (!options.placement && needs_plane) {
+    if (!options.placement && view.technique && prefers_plane(*view.technique, source.terrain)) {
         options.placement = terrain::PlacementKind::plane;
     }
     return options;
@@ -353,12 +343,6 @@ Result<void> place_meshes(TerrainScene& scene, const TerrainSource& source,
     return placed ? place_point_lights(scene, source, view, log) : placed;
 }
 
-void set_limits(scene::TerrainNode& shown, const TerrainSource& source, int megabytes) {
-    shown.stream = make_stream(source, shown.surface);
-    shown.max_triangles = triangles_within(megabytes);
-    shown.max_vertices = vertices_within(megabytes);
-}
-
 } // namespace
 
 Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terrain,
@@ -366,7 +350,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     TerrainScene result;
     result.is_gallery = source.description.generator == "gallery";
     result.failed_files = source.terrain.errors.size();
-    const auto options = terrain_options(terrain, view, source.description);
+    const auto options = terrain_options(terrain, view, source);
     if (!options) {
         return options.error();
     }
@@ -376,7 +360,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     result.terrain = *node;
     auto& shown = *result.terrain->get<scene::TerrainNode>();
-    set_limits(shown, source, terrain.memory_megabytes);
+    set_memory(shown, source, terrain.memory_megabytes);
     set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
     auto city = city_surface(std::move(source.city_heights), shown.surface->heightfield().spacing,
@@ -422,25 +406,6 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
         result.source = std::make_shared<const TerrainSource>(std::move(source));
     }
     return result;
-}
-
-int megabytes_for_every_sample(const scene::Scene& scene) {
-    std::size_t bytes = 0;
-    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
-        const auto* terrain = node.get<scene::TerrainNode>();
-        const bool draws_fewer = terrain != nullptr &&
-                                 scene::error_bound(terrain->material.technique) == 0.0 &&
-                                 scene::triangle_bound(*terrain, terrain->material.technique) > 0.0;
-        bytes += draws_fewer
-                     ? bytes_per_whole_sample * terrain->surface->heightfield().heights.size()
-                     : 0;
-    });
-    return static_cast<int>(bytes >> 20U) + (bytes > 0 ? 1 : 0);
-}
-
-int megabytes_for_triangles(std::size_t triangles) {
-    return static_cast<int>((triangles * scene::bytes_per_triangle * part_for_triangles) >> 20U) +
-           1;
 }
 
 Result<TerrainSource> open_source(io::SceneDescription description, const SourceOptions& terrain,

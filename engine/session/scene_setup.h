@@ -73,13 +73,6 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
                                 const SceneOptions& view, Log& log,
                                 const std::stop_token& stop = {});
 
-/// The memory that holds all samples of terrains as vertices, where their technique draws every
-/// sample and their memory does not hold them (scene::triangle_bound), MiB; 0: all are drawn.
-int megabytes_for_every_sample(const scene::Scene& scene);
-
-/// The memory that allows a number of triangles in a view of terrains in memory, MiB.
-int megabytes_for_triangles(std::size_t triangles);
-
 /// Opens a terrain and sets up its scene: open_terrain, add_proofs, make_scene, geoid_note and,
 /// with `view.prepares_maps`, prepare_maps.
 Result<TerrainScene> open_scene(io::SceneDescription description, const SourceOptions& terrain,

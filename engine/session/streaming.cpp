@@ -26,6 +26,24 @@
 namespace reljef::session {
 namespace {
 
+constexpr std::size_t part_for_triangles = 4; // of the memory
+
+// With little memory: a quarter of those of the tiles that are enough for any view.
+constexpr std::size_t min_triangles =
+    scene::TileStream::min_drawn * terrain::tree_tile_cells * terrain::tree_tile_cells / 2;
+
+std::size_t triangles_within(int megabytes) {
+    const std::size_t bytes = static_cast<std::size_t>(megabytes) << 20U;
+    return std::max(min_triangles, bytes / part_for_triangles / scene::bytes_per_triangle);
+}
+
+// Of a terrain that is read whole, and of a vertex at each sample.
+constexpr std::size_t bytes_per_whole_sample = 24 + 40;
+
+std::size_t vertices_within(int megabytes) {
+    return (static_cast<std::size_t>(megabytes) << 20U) / bytes_per_whole_sample;
+}
+
 template <class Visit> void for_each_stream(const scene::Scene& scene, const Visit& visit) {
     scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4&) {
         const auto* terrain = node.get<scene::TerrainNode>();
@@ -245,6 +263,12 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
+void set_memory(scene::TerrainNode& shown, const TerrainSource& source, int megabytes) {
+    shown.stream = make_stream(source, shown.surface);
+    shown.max_triangles = triangles_within(megabytes);
+    shown.max_vertices = vertices_within(megabytes);
+}
+
 void request_tiles(std::span<const view::TileRequests> requests) {
     struct Merged {
         std::vector<terrain::TreeTile> missing;
@@ -346,6 +370,25 @@ MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size) {
             clamped_int(std::ceil(static_cast<double>(whole) / (1U << 20U)), 1, largest);
     }
     return needed;
+}
+
+int megabytes_for_every_sample(const scene::Scene& scene) {
+    std::size_t bytes = 0;
+    scene::visit_visible(scene.root(), [&](const scene::Node& node, const glm::dmat4& /*matrix*/) {
+        const auto* terrain = node.get<scene::TerrainNode>();
+        const bool draws_fewer = terrain != nullptr &&
+                                 scene::error_bound(terrain->material.technique) == 0.0 &&
+                                 scene::triangle_bound(*terrain, terrain->material.technique) > 0.0;
+        bytes += draws_fewer
+                     ? bytes_per_whole_sample * terrain->surface->heightfield().heights.size()
+                     : 0;
+    });
+    return static_cast<int>(bytes >> 20U) + (bytes > 0 ? 1 : 0);
+}
+
+int megabytes_for_triangles(std::size_t triangles) {
+    return static_cast<int>((triangles * scene::bytes_per_triangle * part_for_triangles) >> 20U) +
+           1;
 }
 
 std::optional<int> megabytes_for_all_samples(const scene::Scene& scene) {

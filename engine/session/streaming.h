@@ -19,6 +19,9 @@ namespace reljef::session {
 std::shared_ptr<scene::TileStream>
 make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview);
 
+/// Gives a node the stream of its source, and what may be drawn of it with `megabytes` of memory.
+void set_memory(scene::TerrainNode& shown, const TerrainSource& source, int megabytes);
+
 /// Requests the tiles of views from their streams; the tiles of the first views come first.
 void request_tiles(std::span<const view::TileRequests> requests);
 
@@ -51,6 +54,13 @@ struct MemoryForBound {
 MemoryForBound memory_for_bound(const scene::Scene& scene, glm::ivec2 size);
 /// With which terrains in memory would not be averages of their samples, MiB; empty: they are none.
 std::optional<int> megabytes_for_all_samples(const scene::Scene& scene);
+
+/// The memory that holds all samples of terrains as vertices, where their technique draws every
+/// sample and their memory does not hold them (scene::triangle_bound), MiB; 0: all are drawn.
+int megabytes_for_every_sample(const scene::Scene& scene);
+
+/// The memory that allows a number of triangles in a view of terrains in memory, MiB.
+int megabytes_for_triangles(std::size_t triangles);
 
 /// A streamed terrain that may be shown instead of another one of the same ground.
 struct StreamedSurface {

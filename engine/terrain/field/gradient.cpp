@@ -194,4 +194,28 @@ glm::dvec3 metres_at(const Placement& placement, glm::dvec3 sample) {
     return metres;
 }
 
+double plane_distortion(const Heightfield& heightfield) {
+    if (!heightfield.georeference) {
+        return 0.0;
+    }
+    const auto placement = Placement::create(heightfield, PlacementKind::ellipsoid);
+    if (!placement) {
+        return 0.0;
+    }
+    const Border border(heightfield);
+    const glm::dvec2 last(heightfield.heights.cols() - 1, heightfield.heights.rows() - 1);
+    constexpr int steps = 8;
+    double distortion = 0.0;
+    for (int row = 0; row <= steps; ++row) {
+        for (int col = 0; col <= steps; ++col) {
+            const glm::dvec2 part = glm::dvec2(col, row) / static_cast<double>(steps);
+            const Axes axes = axes_at(*placement, last * part, border);
+            const glm::dvec2 metres(glm::length(axes.east), glm::length(axes.north));
+            const glm::dvec2 wrong = glm::abs(metres / heightfield.spacing - 1.0);
+            distortion = std::max({distortion, wrong.x, wrong.y, 1.0 - axes.up.z});
+        }
+    }
+    return distortion;
+}
+
 } // namespace reljef::terrain
