@@ -119,6 +119,11 @@ glm::dvec3 StreamedSurface::world_from_sample(glm::dvec3 sample) const {
         {builder.on_overview(glm::dvec2(sample)), sample.z});
 }
 
+std::optional<double> StreamedSurface::columns_all_around() const {
+    return stream_->maker().tree().wraps_longitude() ? std::optional<double>(last_.x)
+                                                     : std::nullopt;
+}
+
 std::optional<glm::dvec3> StreamedSurface::sample_from_world(glm::dvec3 world) const {
     const scene::TileBuilder& builder = stream_->maker();
     const auto on_overview = builder.overview().placement().sample_from_world(world);

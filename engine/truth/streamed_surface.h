@@ -45,6 +45,7 @@ public:
     [[nodiscard]] std::optional<Ray> sample_ray(const Ray& world_ray) const override;
     [[nodiscard]] glm::dvec3 world_from_sample(glm::dvec3 sample) const override;
     [[nodiscard]] std::optional<glm::dvec3> sample_from_world(glm::dvec3 world) const override;
+    [[nodiscard]] std::optional<double> columns_all_around() const override;
 
     /// Tiles that may be loaded at once. The tiles of three such loads stay in memory.
     [[nodiscard]] std::size_t max_load() const { return max_load_; }

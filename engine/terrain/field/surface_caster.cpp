@@ -31,6 +31,9 @@ public:
     [[nodiscard]] std::optional<glm::dvec3> sample_from_world(glm::dvec3 world) const override {
         return placement_.sample_from_world(world);
     }
+    [[nodiscard]] std::optional<double> columns_all_around() const override {
+        return placement_.columns_all_around();
+    }
 
 private:
     const SurfaceTile& tile_;

@@ -295,6 +295,9 @@ bool SurfaceRay::waits_at(const RayPlace& place) {
 void SurfaceRay::search_chord(const RayPlace& from, const RayPlace& to, bool moves_hit) {
     if (!from.sample || !to.sample) {
         side_ = Side::unknown;
+    } else if (crosses_seam(from, to)) {
+        search_across_seam(from, to);
+        return;
     } else {
         const Chord chord{from, to, moves_hit};
         walk({*from.sample, *to.sample - *from.sample}, {0.0, 1.0}, &chord);
@@ -305,6 +308,36 @@ void SurfaceRay::search_chord(const RayPlace& from, const RayPlace& to, bool mov
         side_ = surface_->is_over(*to.sample) ? side_ : Side::unknown;
     }
     t_ = to.t;
+}
+
+bool SurfaceRay::crosses_seam(const RayPlace& from, const RayPlace& to) const {
+    const auto around = surface_->columns_all_around();
+    return around && std::abs(to.sample->x - from.sample->x) > 0.5 * *around;
+}
+
+// The shorter way around the globe. It starts anew after waiting: a tile does not say on which side
+// of the seam it is.
+void SurfaceRay::search_across_seam(const RayPlace& from, const RayPlace& to) {
+    const double around = *surface_->columns_all_around();
+    const bool eastward = to.sample->x < from.sample->x;
+    const glm::dvec3 turn(eastward ? around : -around, 0.0, 0.0);
+    const glm::dvec3 way = *to.sample + turn - *from.sample;
+    const double seam = eastward ? around : 0.0;
+    const double part = way.x == 0.0 ? 0.0 : std::clamp((seam - from.sample->x) / way.x, 0.0, 1.0);
+    glm::dvec3 last = *from.sample + part * way;
+    last.x = seam;
+    const double t = from.t + part * (to.t - from.t);
+    const Side before = side_;
+    tile_.reset();
+    search_chord(from, {t, last}, false);
+    if (!is_done()) {
+        search_chord({t, last - turn}, to, false);
+    }
+    if (needed_) {
+        side_ = before;
+        tile_.reset();
+        t_ = from.t;
+    }
 }
 
 // Through the tiles from tile_ on.

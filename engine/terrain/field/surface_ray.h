@@ -53,7 +53,8 @@ Box reach(const TiledSurface& surface, MinMax heights);
 ///
 /// Where the mapping is not affine, the ray is bent in sample coordinates. Where it may touch the
 /// surface it is halved until the middle of each piece lies within 0.001 samples and 0.001 m of its
-/// chord. The hit then moves along the ray onto the surface.
+/// chord. The hit then moves along the ray onto the surface. Where the last column of a globe is
+/// its first, the piece with the seam is divided there.
 class SurfaceRay {
 public:
     /// Precondition: a finite ray; finite limits if the mapping is not affine.
@@ -92,6 +93,8 @@ private:
     bool clears_surface(const RayPlace& from, const RayPlace& halfway, const RayPlace& to);
     bool waits_at(const RayPlace& place);
     void search_chord(const RayPlace& from, const RayPlace& to, bool moves_hit);
+    [[nodiscard]] bool crosses_seam(const RayPlace& from, const RayPlace& to) const;
+    void search_across_seam(const RayPlace& from, const RayPlace& to);
     void walk(const Ray& sample_ray, Interval range, const Chord* chord);
     bool passes(const TileWalk& walk, const Ray& sample_ray);
     SurfaceHit on_ray(const SurfaceHit& chord_hit, const Chord& chord);

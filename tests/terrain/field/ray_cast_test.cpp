@@ -393,6 +393,47 @@ TEST(Pick, SeesACrossingAtTheJointOfTwoPieces) {
     }
 }
 
+// A globe and its rays, turned by half of a turn: rays over the middle then pass the seam.
+TEST(Pick, SeesTheSameGroundAcrossTheSeamOfAGlobe) {
+    const Heightfield globe = test::closed_globe(60, 0.5, 0.5, 23);
+    const int around = test::cells_of(globe).x;
+    const int half = around / 2;
+    Heightfield turned = globe;
+    turned.heights = test::made_heights(around + 1, globe.heights.rows(), [&](int col, int row) {
+        return static_cast<double>(globe.heights((col + half) % around, row));
+    });
+    const MinMaxPyramid pyramid(globe.heights.view());
+    const MinMaxPyramid turned_pyramid(turned.heights.view());
+    const Placement placement = test::placed(globe);
+    const SurfaceCaster caster(globe.heights.view(), pyramid, placement);
+    const SurfaceCaster across_seam(turned.heights.view(), turned_pyramid, placement);
+    test::Chance chance(29);
+    const auto place = [&](double low, double high) {
+        return glm::dvec3(half + chance.between(-4.0, 4.0), chance.between(5.0, 55.0),
+                          chance.between(low, high));
+    };
+    const auto other_side = [&](glm::dvec3 sample) {
+        sample.x += sample.x < half ? half : -half;
+        return sample;
+    };
+    for (int i = 0; i < test::rounds(3000, 500); ++i) {
+        const glm::dvec3 from = place(9001.0, 40e3);
+        glm::dvec3 to = place(-9000.0, 9000.0);
+        to.y = from.y + chance.between(-3.0, 3.0);
+        const auto hit_between = [&](const SurfaceCaster& surface, glm::dvec3 a, glm::dvec3 b) {
+            const glm::dvec3 eye = placement.world_from_sample(a);
+            return surface.first_hit({eye, glm::normalize(placement.world_from_sample(b) - eye)});
+        };
+        const auto expected = hit_between(caster, from, to);
+        const auto hit = hit_between(across_seam, other_side(from), other_side(to));
+        ASSERT_EQ(hit.has_value(), expected.has_value()) << i;
+        if (hit) {
+            ASSERT_NEAR(hit->t, expected->t, 1.0) << i;
+            ASSERT_NEAR(hit->sample.y, expected->sample.y, 1e-3) << i;
+        }
+    }
+}
+
 TEST(Pick, EndsWhereverTheRayComesFrom) {
     test::Chance chance(13);
     std::vector<Heightfield> fields;
