@@ -29,7 +29,7 @@ glm::vec3 color_of(const Eye& eye, const Ray& ray, const Seen& seen, const Scene
         return shading.at(*seen.mesh, caster, ray, eye.distance(ray, seen.mesh->t));
     }
     return seen.terrain ? shading.at(*seen.terrain, ray, eye.distance(ray, seen.terrain->surface.t))
-                        : shading.background(ray, eye.sky());
+                        : shading.background(ray, eye);
 }
 
 Hit shown_hit(const Seen& seen) {

@@ -22,6 +22,9 @@ public:
     /// Metres of air in front of a hit; 0 on a map, which has no viewing distance.
     [[nodiscard]] double distance(const Ray& ray, double t) const;
 
+    /// Not on a map.
+    [[nodiscard]] bool looks_through_air() const { return is_perspective(); }
+
     /// Sees the sky's picture, if it is one. `axes`: scene::ground_axes().
     void see(const std::optional<scene::Sky>& sky, const glm::dmat3& axes) {
         sky_ = sky ? scene::seen_sky(*sky, camera_, size_, axes) : std::nullopt;

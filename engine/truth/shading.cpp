@@ -40,6 +40,11 @@ glm::vec3 behind_air(const scene::Sky& sky, const std::optional<scene::Light>& s
                     glm::exp(-depth * sky.fading));
 }
 
+bool meets_plane(const scene::Sky& sky, const Ray& ray) {
+    const auto [above, up] = scene::air_place(sky, ray.origin);
+    return sky.plane && glm::dot(ray.direction, up) < 0.0 && above > 0.0;
+}
+
 bool is_below(const scene::TerrainSurface& surface, glm::dvec3 local) {
     const auto sample = surface.placement().sample_from_world(local);
     const Grid<float>& heights = surface.heightfield().heights;
@@ -54,8 +59,8 @@ glm::vec3 sky_color(const scene::Sky& sky, const std::optional<scene::Light>& su
                     const scene::SeenSky* picture) {
     const glm::dvec3 direction = glm::normalize(ray.direction);
     const auto [above, up] = scene::air_place(sky, ray.origin);
-    const double fall = -glm::dot(direction, up);
-    if (sky.plane && fall > 0.0 && above > 0.0) {
+    if (meets_plane(sky, ray)) {
+        const double fall = -glm::dot(direction, up);
         const double air =
             scene::plane_air(sky, above) / scene::steepness_to_plane(sky, above, fall);
         return behind_air(sky, sun, *sky.plane, direction, air);
@@ -178,12 +183,17 @@ glm::vec3 Backdrop::from_points(const glm::dmat4& world_from_local, glm::dvec3 l
                                 glm::vec3(glm::normalize(turned)));
 }
 
-glm::vec3 Backdrop::behind(const Ray& ray, const scene::SeenSky* picture) const {
-    return sky ? sky_color(*sky, sun, ray, picture) : glm::vec3(0.0F);
+glm::vec3 Backdrop::behind(const Ray& ray, const Eye& eye) const {
+    if (!sky) {
+        return glm::vec3(0.0F);
+    }
+    return !eye.looks_through_air() && meets_plane(*sky, ray)
+               ? *sky->plane
+               : sky_color(*sky, sun, ray, eye.sky());
 }
 
-glm::vec3 Shading::background(const Ray& ray, const scene::SeenSky* picture) const {
-    return backdrop_.behind(ray, picture);
+glm::vec3 Shading::background(const Ray& ray, const Eye& eye) const {
+    return backdrop_.behind(ray, eye);
 }
 
 Ray sun_ray_from(glm::dvec3 place, glm::dvec2 spacing, glm::dvec3 to_sun) {

@@ -11,6 +11,7 @@
 #include "engine/core/grid.h"
 #include "engine/scene/graph/scene.h"
 #include "engine/scene/streaming/terrain_light.h"
+#include "engine/truth/eye.h"
 #include "engine/truth/scene_caster.h"
 
 namespace reljef::truth {
@@ -35,8 +36,8 @@ struct Backdrop {
     /// Linear radiance of point lights at albedo 1. `local`: the place; `normal`: of any length.
     [[nodiscard]] glm::vec3 from_points(const glm::dmat4& world_from_local, glm::dvec3 local,
                                         glm::dvec3 normal) const;
-    /// Linear; black without a sky. `picture`: that of the sky; null: none.
-    [[nodiscard]] glm::vec3 behind(const Ray& ray, const scene::SeenSky* picture) const;
+    /// Linear; black without a sky.
+    [[nodiscard]] glm::vec3 behind(const Ray& ray, const Eye& eye) const;
 };
 
 enum class SunShadow {
@@ -79,8 +80,8 @@ public:
                                double distance) const;
     /// The same through `distance` metres of air.
     [[nodiscard]] glm::vec3 at(const SceneHit& hit, const Ray& ray, double distance) const;
-    /// The sky; black without one. `picture`: as seen_sky().
-    [[nodiscard]] glm::vec3 background(const Ray& ray, const scene::SeenSky* picture) const;
+    /// The sky; black without one.
+    [[nodiscard]] glm::vec3 background(const Ray& ray, const Eye& eye) const;
     [[nodiscard]] const std::optional<scene::Sky>& sky() const { return backdrop_.sky; }
 
 private:

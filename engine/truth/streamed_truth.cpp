@@ -302,7 +302,7 @@ Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,
                 meshes_.from_points(*hit, ray.at(hit->t), backdrop_.point_lights);
             batch.colors[i] = backdrop_.through_air(color, ray, eye.distance(ray, hit->t));
         } else if (!batch.hits[i]) {
-            batch.colors[i] = backdrop_.behind(ray, eye.sky());
+            batch.colors[i] = backdrop_.behind(ray, eye);
         }
     }
     const scene::TileStream& stream = surface_.stream();

@@ -56,6 +56,20 @@ TEST(Shading, OfAPlaneIsLambertsLaw) {
                 white_sun.color * std::sqrt(0.5F) + white_sun.ambient, 1e-5F);
 }
 
+TEST(Shading, OfThePlaneBesideAMapHasNoAir) {
+    scene::Sky sky;
+    sky.plane = glm::vec3(0.4F, 0.3F, 0.2F);
+    sky.visibility = 1000.0;
+    const Backdrop backdrop{{}, sky};
+    for (const auto projection :
+         {scene::ProjectionKind::orthographic, scene::ProjectionKind::perspective}) {
+        const Eye eye({.eye = {0.0, 0.0, 2000.0}, .up = {0.0, 1.0, 0.0}, .projection = projection},
+                      {9, 9}, {{-5.0, -5.0, 0.0}, {5.0, 5.0, 1.0}});
+        const float off = glm::distance(backdrop.behind(eye.ray(glm::dvec2(4.5)), eye), *sky.plane);
+        EXPECT_EQ(off == 0.0F, projection == scene::ProjectionKind::orthographic) << off;
+    }
+}
+
 // A slope of 45 degrees, and a lamp a metre above it along its normal.
 TEST(Shading, OfAPlaneBelowAPointLightIsItsLaw) {
     for (const bool has_sun : {false, true}) {
