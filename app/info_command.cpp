@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/console_log.h"
@@ -56,6 +57,12 @@ glm::dvec2 read_from_source(const terrain::Heightfield& heightfield, glm::dvec2 
     return {sample.x, rows_of(heightfield).closed_row(sample.y)};
 }
 
+bool has_inside(const geo::GeodeticMap& map, const FullGrid& grid, double latitude) {
+    const auto sample = map.sample(latitude, 0.0);
+    return sample && glm::all(glm::greaterThan(*sample, grid.first)) &&
+           glm::all(glm::lessThan(*sample, grid.last));
+}
+
 geo::GeodeticArea area_of(const geo::GeodeticMap& map, const FullGrid& grid) {
     geo::GeodeticArea box{90.0, 1e9, -90.0, -1e9};
     constexpr int steps = 32;
@@ -71,7 +78,11 @@ geo::GeodeticArea area_of(const geo::GeodeticMap& map, const FullGrid& grid) {
             box.east = std::max(box.east, place.y);
         }
     }
-    return box;
+    const bool has_south = has_inside(map, grid, -90.0);
+    const bool has_north = has_inside(map, grid, 90.0);
+    const bool has_pole = has_south || has_north; // all meridians lead to it
+    return {has_south ? -90.0 : box.south, has_pole ? -180.0 : box.west,
+            has_north ? 90.0 : box.north, has_pole ? 180.0 : box.east};
 }
 
 Json extent_of(const terrain::Heightfield& heightfield, const FullGrid& grid) {

@@ -294,6 +294,7 @@ Viewed view(ViewerChoice choice, const cli::Interrupt& interrupt) {
         choice.view.samples = description->samples;
     }
     session::limit_software_threads(choice.terrain.threads);
+    session::set_driver_cache();
     interrupt.end_after(cli::Interrupt::longest_frame);
     // A path may follow the ground.
     const FirstSamples first = choice.view.path.empty() ? FirstSamples::few : FirstSamples::all;

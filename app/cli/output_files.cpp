@@ -12,6 +12,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// The place that a chain of links names, also if nothing is there.
+fs::path without_links(fs::path place) {
+    constexpr int max_links = 40; // as in Linux
+    std::error_code code;
+    for (int i = 0; i < max_links && fs::is_symlink(fs::symlink_status(place, code)); ++i) {
+        place = place.parent_path() / fs::read_symlink(place, code);
+    }
+    return place;
+}
+
 bool is_same_file(const fs::path& a, const fs::path& b) {
     if (a.empty() || b.empty()) {
         return false;
@@ -20,8 +30,10 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     if (fs::equivalent(a, b, code)) {
         return true;
     }
-    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a, code), code);
-    return whole_a == fs::weakly_canonical(fs::absolute(b, code), code);
+    const auto whole = [&](const fs::path& path) {
+        return fs::weakly_canonical(fs::absolute(without_links(path), code), code);
+    };
+    return whole(a) == whole(b);
 }
 
 // Whether writing `output` would replace `input`, or a file in the folder `input`.

@@ -35,9 +35,7 @@ scene::Scene busy_scene() {
     }
     scene::Scene scene;
     scene.add_mesh(std::move(mesh));
-    scene::Camera above;
-    above.eye = {0.0, 0.0, 1.0};
-    scene.add_camera(above);
+    scene.add_camera({.eye = {0.0, 0.0, 1.0}});
     return scene;
 }
 
@@ -126,7 +124,9 @@ bool is_over_by_rounding(const view::FrameStats& stats, const scene::Camera& cam
 DeviceFrames::DeviceFrames(Device device, Log& log, const DeviceFramesOptions& options)
     : device_(std::move(device)), log_(log), options_(options) {
     if (options_.timed) {
-        static_cast<void>(device_.renderer().draw(busy_scene(), true));
+        const bool has_triangles = !device_.renderer().shows_rays();
+        static_cast<void>(
+            device_.renderer().draw(has_triangles ? busy_scene() : scene::Scene(), true));
         static_cast<void>(device_.renderer().draw(scene::Scene(), true)); // frees the other's mesh
         times_.memory_before = process_memory().peak;
     }
@@ -196,7 +196,7 @@ void DeviceFrames::begin_parts(const scene::Scene& scene, glm::ivec2 picture) {
 
 void DeviceFrames::take_stats(const view::FrameStats& stats, const scene::Scene& scene) {
     stats_ = stats;
-    frames_as_triangles_ += stats_.reliefs_as_triangles > 0 ? 1 : 0;
+    frames_as_triangles_ += stats.reliefs_as_triangles > 0 && stats.rays == 0 ? 1 : 0;
     note_kept_error(scene);
     note_fewer_vertices(scene);
     if (scene.camera().whole == glm::ivec2(0)) {

@@ -10,6 +10,7 @@
 #include "engine/cast/simd_target.h"
 #include "engine/core/check.h"
 #include "engine/core/stopwatch.h"
+#include "engine/io/cache/disk_cache.h"
 #include "engine/view/picture/eye_dome.h"
 
 namespace reljef::session {
@@ -354,6 +355,20 @@ void limit_software_threads(int threads) {
     }
 }
 
+void set_driver_cache() {
+    for (const char* const name : {"MESA_SHADER_CACHE_DIR", "MESA_SHADER_CACHE_DISABLE",
+                                   "MESA_GLSL_CACHE_DIR", "MESA_GLSL_CACHE_DISABLE"}) {
+        if (std::getenv(name) != nullptr) {
+            return;
+        }
+    }
+    if (const auto folder = io::driver_cache_folder()) {
+        ::setenv("MESA_SHADER_CACHE_DIR", folder->c_str(), 1);
+    } else {
+        ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    }
+}
+
 namespace {
 
 render::DriverOptions opengl_options(const DeviceOptions& options, bool is_software) {
@@ -427,6 +442,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
         return create_with_rays(options, RayUse::only);
     }
     limit_software_threads(options.threads);
+    set_driver_cache();
     if (!options.context && options.prefers_rays) {
         auto gpu = platform::make_gpu_context(hidden(options));
         return gpu ? create_with_context(options, std::move(*gpu))

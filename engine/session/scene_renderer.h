@@ -167,6 +167,10 @@ struct DeviceOptions {
 /// Sets the threads of software contexts (llvmpipe) created later; 0 changes nothing.
 void limit_software_threads(int threads);
 
+/// Lets Mesa's drivers of contexts created later keep their shaders in io::driver_cache_folder(),
+/// or nowhere. Where the environment names a folder or forbids it, that holds.
+void set_driver_cache();
+
 /// A renderer, and the context without a visible window that it draws with, if OpenGL draws.
 class Device {
 public:

@@ -154,6 +154,7 @@ std::optional<scene::Technique> default_technique(const scene::TerrainNode& terr
     const scene::Technique exact{scene::Exact{}};
     const bool is_named = view.technique || view.max_error;
     const bool is_exact = view.rays != RayUse::none && !is_named && terrain.stream == nullptr &&
+                          terrain.detail == nullptr && // which lies on polygons
                           terrain.surface->placement().kind() == terrain::PlacementKind::plane &&
                           cast::obstacle_of(terrain, exact).empty();
     return is_exact ? std::optional(exact) : std::nullopt;

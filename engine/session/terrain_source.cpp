@@ -1,6 +1,7 @@
 #include "engine/session/terrain_source.h"
 
 #include <algorithm>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -344,7 +345,8 @@ void log_notes(const TerrainSource& source, Log& log) {
 Result<io::SceneDescription> describe(const std::string& terrain) {
     for (const terrains::BuiltInScene& scene : terrains::built_in_scenes()) {
         if (scene.name == terrain) {
-            return io::parse_scene(scene.text, std::string(scene.name), fs::current_path());
+            std::error_code code; // of a folder that was removed; the scene names no files in it
+            return io::parse_scene(scene.text, std::string(scene.name), fs::current_path(code));
         }
     }
     const fs::path path(terrain);

@@ -47,6 +47,27 @@ TEST(InfoCommand, feet_are_not_metres) {
     EXPECT_NEAR(info["height_range"]["high_m"], 300.34, 0.01);
 }
 
+TEST(InfoCommand, TheExtentOfARasterAroundAPoleHasAllMeridians) {
+    const test::TemporaryFolder folder;
+    folder.write("pole.prj",
+                 R"(PROJCS["polar",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",)"
+                 R"(SPHEROID["WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],)"
+                 R"(UNIT["Degree",0.0174532925199433]],PROJECTION["Stereographic_South_Pole"],)"
+                 R"(PARAMETER["False_Easting",0.0],PARAMETER["False_Northing",0.0],)"
+                 R"(PARAMETER["Central_Meridian",0.0],PARAMETER["Standard_Parallel_1",-71.0],)"
+                 R"(UNIT["Meter",1.0]])");
+    const auto dem = folder.write("pole.asc", "ncols 4\nnrows 4\nxllcenter -150000\n"
+                                              "yllcenter -150000\ncellsize 100000\n"
+                                              "1 2 3 4 1 2 3 4 1 2 3 4 1 2 3 4 ");
+    const auto result = test::reljef({"info", dem.string(), "--json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const auto extent = nlohmann::json::parse(result.out)["extent"];
+    EXPECT_EQ(extent["south"], -90.0);
+    EXPECT_EQ(extent["west"], -180.0);
+    EXPECT_EQ(extent["east"], 180.0);
+    EXPECT_NEAR(extent["north"], -88.04, 0.02); // of a corner
+}
+
 TEST(InfoCommand, text_names_the_essentials) {
     const auto result = test::reljef({"info", "urban"});
     ASSERT_EQ(result.exit_code, 0);

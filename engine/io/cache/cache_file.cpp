@@ -87,6 +87,15 @@ Result<std::optional<Descriptor>> open_cache_file(const fs::path& path, CacheAcc
     return open_file(path, status, access == CacheAccess::write ? O_RDWR | O_CREAT : O_RDONLY);
 }
 
+Result<void> make_cache_folder(const fs::path& folder) {
+    make_folder(folder);
+    const auto opened = open_folder(folder);
+    if (!opened) {
+        return opened.error();
+    }
+    return *opened ? Result<void>() : Result<void>(unusable_file(folder));
+}
+
 Result<std::optional<std::string>> read_cache_file(const fs::path& path, std::size_t max_bytes) {
     struct stat status {};
     const auto file = open_file(path, status);

@@ -24,6 +24,9 @@ enum class CacheAccess { read, write };
 Result<std::optional<Descriptor>> open_cache_file(const std::filesystem::path& path,
                                                   CacheAccess access);
 
+/// Makes a folder for this user only, on demand. Fails as read_cache_file.
+Result<void> make_cache_folder(const std::filesystem::path& folder);
+
 /// Writes a file of some parts that only this user can read. Makes the folder, for this user only,
 /// on demand. Fails as read_cache_file, and if the file cannot be written; then nothing of it is
 /// left.

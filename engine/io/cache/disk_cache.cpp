@@ -223,6 +223,20 @@ std::optional<fs::path> cache_folder() {
     return std::nullopt;
 }
 
+std::optional<fs::path> driver_cache_folder() {
+    constexpr std::uintmax_t min_free_bytes = std::uintmax_t{16} << 20U; // ten times Mesa's index
+    const auto folder = cache_folder();
+    if (!folder || !make_cache_folder(*folder)) {
+        return std::nullopt;
+    }
+    const fs::path of_mesa = *folder / "mesa_shader_cache"; // as Mesa names it
+    std::error_code code;
+    const bool has_room = fs::space(*folder, code).available >= min_free_bytes && !code;
+    const bool is_trusted =
+        make_cache_folder(of_mesa) && open_cache_file(of_mesa / "index", CacheAccess::read);
+    return has_room && is_trusted ? folder : std::nullopt;
+}
+
 fs::path cone_file(const fs::path& folder, GridView<const float> unit_heights) {
     return cone_key(unit_heights).file_in(folder);
 }

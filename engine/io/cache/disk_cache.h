@@ -15,6 +15,11 @@ namespace reljef::io {
 /// if neither is an absolute path.
 std::optional<std::filesystem::path> cache_folder();
 
+/// The folder in cache_folder() in which Mesa's drivers keep shaders; made on demand. Absent where
+/// other users could write to it, and on a nearly full disk: Mesa maps a file there, and the system
+/// ends a program whose mapped file finds no room.
+std::optional<std::filesystem::path> driver_cache_folder();
+
 struct CacheOptions {
     std::optional<std::filesystem::path> folder; ///< created on demand; absent: no cache
     double min_seconds = 0.5;                    ///< faster results are not stored

@@ -7,11 +7,13 @@
 #include <system_error>
 #include <utility>
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
 #include "engine/core/atomic_file.h"
+#include "engine/io/checks/xml_nesting.h"
 #include "engine/io/footprints/geometry_on_earth.h"
 #include "engine/io/footprints/polygon_parts.h"
 #include "engine/io/raster/crs_transform.h"
@@ -41,7 +43,7 @@ Result<void> check_footprint_file(const fs::path& path) {
                                  size_text(static_cast<double>(size)),
                                  size_text(static_cast<double>(max_footprint_bytes)))};
     }
-    return {};
+    return check_xml_nesting(path);
 }
 
 Result<Dataset> open_footprints(const fs::path& path, const GdalMessages& messages) {
@@ -226,6 +228,7 @@ Result<FootprintFile> read_footprints(const fs::path& path, const FootprintOptio
                                       const std::stop_token& stop) {
     register_drivers();
     const GdalMessages messages;
+    const CPLConfigOptionSetter object("OGR_GEOJSON_MAX_OBJ_SIZE", "64", true); // MB
     const auto dataset = open_footprints(path, messages);
     if (!dataset) {
         return dataset.error();

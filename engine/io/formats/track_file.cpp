@@ -1,4 +1,8 @@
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <system_error>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -6,6 +10,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/geo/place.h"
+#include "engine/io/checks/xml_nesting.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_dataset.h"
@@ -14,6 +19,7 @@ namespace reljef::io {
 namespace {
 
 constexpr std::size_t max_track_points = 100'000;
+constexpr std::uintmax_t max_track_bytes = std::uintmax_t{64} << 20U;
 constexpr double min_step = 1.0; // metres; skips nearer points
 
 using Segments = std::vector<const OGRLineString*>;
@@ -126,19 +132,33 @@ FoundTrack find_track(GDALDataset& dataset) {
     return found;
 }
 
-} // namespace
-
-Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
-    check(metres_a_second > 0.0, "read_track needs a speed");
+Result<void> check_track_file(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code code;
     if (std::filesystem::is_fifo(path, code) || std::filesystem::is_socket(path, code)) {
         return Error{
             fmt::format("{}: is no regular file, a path was expected", name)}; // may never open
     }
+    const std::uintmax_t size = std::filesystem::file_size(path, code);
+    if (!code && size > max_track_bytes) {
+        return Error{fmt::format("{}: {} bytes found, a path of at most {} was expected", name,
+                                 size, max_track_bytes)};
+    }
+    return check_xml_nesting(path);
+}
+
+} // namespace
+
+Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
+    check(metres_a_second > 0.0, "read_track needs a speed");
+    const std::string name = path.string();
+    if (auto good = check_track_file(path); !good) {
+        return good.error();
+    }
     register_drivers();
     const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
+    const CPLConfigOptionSetter object("OGR_GEOJSON_MAX_OBJ_SIZE", "64", true); // MB
     constexpr std::array<const char*, 5> formats{"GPX", "LIBKML", "KML", "GeoJSON", nullptr};
     const Dataset dataset(GDALDataset::Open(
         name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, formats.data()));

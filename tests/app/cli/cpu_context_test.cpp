@@ -67,6 +67,18 @@ TEST_F(CpuContext, NeedsNoTechnique) {
     }
 }
 
+TEST_F(CpuContext, ShowsADetailTextureWithoutATechnique) {
+    const auto with = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {urban_, "--pose", "low", "--context", "cpu"});
+        const auto result = render(options);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return shown();
+    };
+    const Image detailed = with({"--detail", "cobble:width=3"});
+    EXPECT_EQ(detailed, with({"--detail", "cobble:width=3", "--max-error", "1"}));
+    EXPECT_NE(detailed, with({}));
+}
+
 TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
     const std::vector<std::string> cpu{"--context", "cpu"};
     const auto with = [&](std::vector<std::string> options) {

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,6 +85,28 @@ TEST_F(FullDiskVideo, IsToldAndLeavesNothing) {
     EXPECT_EQ(result.out, "");
 }
 
+// A driver maps a file there, and the system ends a program whose mapped file finds no room.
+TEST_F(FullDiskVideo, OfTheCacheCostsNoPicture) {
+    const test::TemporaryFolder disk;
+    const std::string picture = (folder_.path() / "a.png").string();
+    test::ProgramOptions options;
+    options.folder = disk.path();
+    const auto result =
+        test::run_program("/usr/bin/unshare",
+                          {"-rm", "/bin/sh", "-c",
+                           R"(mount -t tmpfs -o size=16k none . 2>/dev/null || exit 77
+            unset MESA_SHADER_CACHE_DIR MESA_SHADER_CACHE_DISABLE
+            cd "$PWD"; XDG_CACHE_HOME=$PWD exec "$0" "$@")",
+                           RELJEF_BINARY, "render", dem_, "--technique", "relief", "--size",
+                           "32x24", "--context", "osmesa", "-o", picture},
+                          options);
+    if (result.exit_code == 77 || result.err.rfind("unshare: ", 0) == 0) {
+        GTEST_SKIP() << "no disk of one's own here";
+    }
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(picture));
+}
+
 TEST(ClosedStreams, OutputThatIsLostIsAFailure) {
     expect_refusal(in_shell("", {"techniques"}, ">&-"), 1, {"standard output"});
     expect_refusal(in_shell("", {"techniques"}, ">/dev/full"), 1, {"standard output", "No space"});
@@ -124,6 +148,11 @@ TEST_F(SameFile, TwoOutputsUnderOneName) {
     expect_kept({"-o", "a.png", "--contact-sheet", "./a.png"}, {"a.png", "--contact-sheet"});
     expect_kept({"-o", "a.exr", "--hit", "../" + folder_.path().filename().string() + "/a.exr"},
                 {"a.exr", "--hit"});
+}
+
+TEST_F(SameFile, ALinkToTheOtherOutputThatIsNotThereYet) {
+    std::filesystem::create_symlink("a.exr", folder_.path() / "b.exr");
+    expect_kept({"-o", "a.exr", "--hit", "b.exr"}, {"a.exr", "--hit"});
 }
 
 TEST_F(SameFile, NumberedPictureUnderTheSheetsName) {
