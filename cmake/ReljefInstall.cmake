@@ -75,7 +75,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libreljef-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-  "libglm-dev, libfmt-dev, libgdal-dev, libpng-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libgeographiclib-dev, libhwy-dev, libembree-dev, libmeshoptimizer-dev")
+  "libglm-dev, libfmt-dev, libgdal-dev, libpng-dev, libexpat1-dev, libcurl4-openssl-dev | libcurl-ssl-dev, libglfw3-dev, libtomlplusplus-dev, libgeographiclib-dev, libhwy-dev, libembree-dev, libmeshoptimizer-dev")
 set(CPACK_DEBIAN_DOCS_PACKAGE_NAME reljef-doc)
 set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
 include(CPack)

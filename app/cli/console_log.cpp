@@ -16,7 +16,7 @@ constexpr std::array kind_names{"note", "left out", "shown coarser"}; // by sess
 } // namespace
 
 void ConsoleLog::message(session::MessageKind kind, std::string_view sentence) {
-    if (!quiet_ || kind != session::MessageKind::note) {
+    if (!quiet_) {
         const auto index = static_cast<std::size_t>(kind);
         write_stderr(fmt::format("reljef: {}: {}\n", kind_names.at(index), sentence));
     }

@@ -389,7 +389,7 @@ void add_terrain_options(CLI::App& command, TerrainChoice& choice) {
                                         {{"plane", terrain::PlacementKind::plane},
                                          {"ellipsoid", terrain::PlacementKind::ellipsoid}}),
         "plane, or ellipsoid: on the curved Earth (ellipsoid for georeferenced terrains; plane "
-        "for techniques that search, if it distorts the terrain by less than a tenth)",
+        "for techniques that search, if it distorts the terrain by at most a tenth)",
         "KIND");
     add_gaps_option(command, choice);
     command

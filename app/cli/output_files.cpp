@@ -33,7 +33,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
     const auto whole = [&](const fs::path& path) {
         return fs::weakly_canonical(fs::absolute(without_links(path), code), code);
     };
-    return whole(a) == whole(b);
+    return !whole(a).empty() && whole(a) == whole(b);
 }
 
 // Whether writing `output` would replace `input`, or a file in the folder `input`.

@@ -168,7 +168,8 @@ struct DeviceOptions {
 void limit_software_threads(int threads);
 
 /// Lets Mesa's drivers of contexts created later keep their shaders in io::driver_cache_folder(),
-/// or nowhere. Where the environment names a folder or forbids it, that holds.
+/// or nowhere. Where the environment names a folder or forbids it, that holds. Sets the
+/// environment: call it before other threads start.
 void set_driver_cache();
 
 /// A renderer, and the context without a visible window that it draws with, if OpenGL draws.

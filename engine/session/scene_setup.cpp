@@ -361,7 +361,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     }
     result.terrain = *node;
     auto& shown = *result.terrain->get<scene::TerrainNode>();
-    set_memory(shown, source, terrain.memory_megabytes);
+    set_stream_and_limits(shown, source, terrain.memory_megabytes);
     set_overlay(result, source.description, view);
     result.bounds = result.terrain->world_bounds();
     auto city = city_surface(std::move(source.city_heights), shown.surface->heightfield().spacing,

@@ -263,7 +263,7 @@ make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSur
     return std::make_shared<scene::TileStream>(std::move(maker), read, options);
 }
 
-void set_memory(scene::TerrainNode& shown, const TerrainSource& source, int megabytes) {
+void set_stream_and_limits(scene::TerrainNode& shown, const TerrainSource& source, int megabytes) {
     shown.stream = make_stream(source, shown.surface);
     shown.max_triangles = triangles_within(megabytes);
     shown.max_vertices = vertices_within(megabytes);

@@ -19,8 +19,9 @@ namespace reljef::session {
 std::shared_ptr<scene::TileStream>
 make_stream(const TerrainSource& source, std::shared_ptr<const scene::TerrainSurface> overview);
 
-/// Gives a node the stream of its source, and what may be drawn of it with `megabytes` of memory.
-void set_memory(scene::TerrainNode& shown, const TerrainSource& source, int megabytes);
+/// Gives a node the stream of its source, and the numbers of triangles and vertices that may be
+/// drawn with `megabytes` of memory, MiB.
+void set_stream_and_limits(scene::TerrainNode& shown, const TerrainSource& source, int megabytes);
 
 /// Requests the tiles of views from their streams; the tiles of the first views come first.
 void request_tiles(std::span<const view::TileRequests> requests);

@@ -22,7 +22,7 @@ public:
     /// Metres of air in front of a hit; 0 on a map, which has no viewing distance.
     [[nodiscard]] double distance(const Ray& ray, double t) const;
 
-    /// Not on a map.
+    /// False on a map.
     [[nodiscard]] bool looks_through_air() const { return is_perspective(); }
 
     /// Sees the sky's picture, if it is one. `axes`: scene::ground_axes().

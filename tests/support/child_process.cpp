@@ -50,7 +50,9 @@ environment_with(const std::map<std::string, std::optional<std::string>>& change
     std::vector<std::string> result;
     for (char** entry = ::environ; *entry != nullptr; ++entry) {
         const std::string_view text = *entry;
-        if (!changes.contains(std::string(text.substr(0, text.find('='))))) {
+        const std::string name(text.substr(0, text.find('=')));
+        // This process may have set it to a folder that is gone (session::set_driver_cache).
+        if (!changes.contains(name) && name != "MESA_SHADER_CACHE_DIR") {
             result.emplace_back(text);
         }
     }

@@ -229,7 +229,7 @@ std::optional<fs::path> driver_cache_folder() {
     if (!folder || !make_cache_folder(*folder)) {
         return std::nullopt;
     }
-    const fs::path of_mesa = *folder / "mesa_shader_cache"; // as Mesa names it
+    const fs::path of_mesa = *folder / "mesa_shader_cache"; // of Mesa 22
     std::error_code code;
     const bool has_room = fs::space(*folder, code).available >= min_free_bytes && !code;
     const bool is_trusted =

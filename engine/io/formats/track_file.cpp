@@ -135,9 +135,8 @@ FoundTrack find_track(GDALDataset& dataset) {
 Result<void> check_track_file(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code code;
-    if (std::filesystem::is_fifo(path, code) || std::filesystem::is_socket(path, code)) {
-        return Error{
-            fmt::format("{}: is no regular file, a path was expected", name)}; // may never open
+    if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code)) {
+        return Error{fmt::format("{}: is no regular file, a path was expected", name)};
     }
     const std::uintmax_t size = std::filesystem::file_size(path, code);
     if (!code && size > max_track_bytes) {

@@ -45,8 +45,8 @@ bool searches_layers(TechniqueId id);
 
 /// Whether it draws surfaces over a plane only, none on the ellipsoid.
 bool needs_plane(TechniqueId id);
-/// Whether a georeferenced terrain is put on a plane for it unless the ellipsoid is requested: its
-/// rays are straight there.
+/// Whether a georeferenced terrain is put on a plane for it, unless the ellipsoid is requested or
+/// the plane distorts it too much: its rays are straight there.
 bool is_faster_on_plane(TechniqueId id);
 
 /// Whether it shows the back of a mesh, too.

@@ -21,8 +21,8 @@ glm::dmat3 grid_axes(const Heightfield& heightfield, const Placement& placement,
 /// World metres of a step of each coordinate of a sample: column, row, true metre of height.
 glm::dvec3 metres_at(const Placement& placement, glm::dvec3 sample);
 
-/// How wrong a georeferenced terrain is on a plane, as a part: the largest of the errors of lengths
-/// along columns and rows, and of the verticals' rises, over a lattice of samples. 0 where it
+/// How wrong a georeferenced terrain is on a plane, over a lattice of samples: the largest relative
+/// error of lengths along columns and rows, and 1 - cosine of the verticals' tilts. 0 where it
 /// cannot lie on the ellipsoid.
 double plane_distortion(const Heightfield& heightfield);
 

@@ -315,29 +315,27 @@ bool SurfaceRay::crosses_seam(const RayPlace& from, const RayPlace& to) const {
     return around && std::abs(to.sample->x - from.sample->x) > 0.5 * *around;
 }
 
-// The shorter way around the globe. It starts anew after waiting: a tile does not say on which side
-// of the seam it is.
+// The shorter way around the globe, from each of its ends: beyond the seam there are no columns. It
+// starts anew after waiting, because a tile does not say from which end the ray came to it.
 void SurfaceRay::search_across_seam(const RayPlace& from, const RayPlace& to) {
     const double around = *surface_->columns_all_around();
     const bool eastward = to.sample->x < from.sample->x;
     const glm::dvec3 turn(eastward ? around : -around, 0.0, 0.0);
     const glm::dvec3 way = *to.sample + turn - *from.sample;
-    const double seam = eastward ? around : 0.0;
-    const double part = way.x == 0.0 ? 0.0 : std::clamp((seam - from.sample->x) / way.x, 0.0, 1.0);
-    glm::dvec3 last = *from.sample + part * way;
-    last.x = seam;
-    const double t = from.t + part * (to.t - from.t);
-    const Side before = side_;
+    const Chord before_seam{from, {to.t, *from.sample + way}, false};
+    const Chord behind_seam{{from.t, *to.sample - way}, to, false};
+    const Side side = side_;
     tile_.reset();
-    search_chord(from, {t, last}, false);
+    walk({*before_seam.from.sample, way}, {0.0, 1.0}, &before_seam);
     if (!is_done()) {
-        search_chord({t, last - turn}, to, false);
+        walk({*behind_seam.from.sample, way}, {0.0, 1.0}, &behind_seam);
     }
     if (needed_) {
-        side_ = before;
+        side_ = side;
         tile_.reset();
-        t_ = from.t;
     }
+    t_ = is_done() ? from.t : to.t;
+    side_ = is_done() || surface_->is_over(*to.sample) ? side_ : Side::unknown;
 }
 
 // Through the tiles from tile_ on.

@@ -53,8 +53,8 @@ Box reach(const TiledSurface& surface, MinMax heights);
 ///
 /// Where the mapping is not affine, the ray is bent in sample coordinates. Where it may touch the
 /// surface it is halved until the middle of each piece lies within 0.001 samples and 0.001 m of its
-/// chord. The hit then moves along the ray onto the surface. Where the last column of a globe is
-/// its first, the piece with the seam is divided there.
+/// chord. The hit then moves along the ray onto the surface. The piece with the seam of a
+/// globe, where the last column is the first, is searched on both sides of it.
 class SurfaceRay {
 public:
     /// Precondition: a finite ray; finite limits if the mapping is not affine.

@@ -40,6 +40,7 @@ public:
     /// As Placement.
     [[nodiscard]] virtual glm::dvec3 world_from_sample(glm::dvec3 sample) const = 0;
     [[nodiscard]] virtual std::optional<glm::dvec3> sample_from_world(glm::dvec3 world) const = 0;
+    /// By how many columns sample_from_world() jumps at the seam of a globe; empty without one.
     [[nodiscard]] virtual std::optional<double> columns_all_around() const = 0;
 
     [[nodiscard]] bool is_over(glm::dvec3 sample) const {

@@ -2,6 +2,7 @@
 #include "engine/io/checks/xml_nesting.h"
 
 #include <string>
+#include <string_view>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,6 +24,15 @@ std::string repeated(const std::string& text, int times) {
     return all;
 }
 
+// With its byte order mark, little-endian.
+std::string utf16(std::u16string_view text) {
+    std::string bytes = "\xFF\xFE";
+    for (const char16_t unit : text) {
+        bytes += {static_cast<char>(unit & 0xFFU), static_cast<char>(unit >> 8U)};
+    }
+    return bytes;
+}
+
 class XmlNesting : public testing::Test {
 protected:
     /// Whether a file with this text is within a depth of 3.
@@ -41,20 +51,23 @@ TEST_F(XmlNesting, CountsOpenElements) {
 }
 
 TEST_F(XmlNesting, WhatHidesElementsCountsToo) {
+    const std::string deep = repeated("<a>", 4);
     EXPECT_FALSE(is_flat(repeated("<a b='/>'>", 4))) << "a value that looks like an end";
-    EXPECT_FALSE(is_flat("<a><!-- </a></a></a> --><a><a><a>")) << "an end in a comment";
-    EXPECT_FALSE(is_flat("<a><![CDATA[</a></a>]]]><a><a><a>")) << "an end in a text";
-    EXPECT_FALSE(is_flat("</a></a></a>" + repeated("<a>", 4))) << "ends without a beginning";
-    std::string wide;
-    for (const char c : repeated("<a>", 4)) {
-        wide += {c, '\0'};
-    }
-    EXPECT_FALSE(is_flat("\xFF\xFE" + wide)) << "UTF-16";
+    EXPECT_FALSE(is_flat("<a><!-- </a></a></a> -->" + deep)) << "an end in a comment";
+    EXPECT_FALSE(is_flat("<a><![CDATA[</a></a>]]]>" + deep)) << "an end in a text";
+    EXPECT_FALSE(is_flat("<?p it's ?>" + deep)) << "a quote in an instruction";
+    EXPECT_FALSE(is_flat(repeated("<a><?p > </a> ?>", 4))) << "an end in an instruction";
+    EXPECT_FALSE(is_flat("<!DOCTYPE a [<!-- it's -->]>" + deep)) << "a quote in a comment";
+    EXPECT_FALSE(is_flat("<!DOCTYPE a [<!ENTITY e '<b><b><b><b></b></b></b></b>'>]><a>&e;</a>"))
+        << "elements of an entity";
+    EXPECT_FALSE(is_flat("<?xml version='1.0' encoding='windows-1251'?>" + deep));
+    EXPECT_FALSE(is_flat(utf16(u"<a>\u2F3C\u3E61<a>\u2F3C\u3E61<a>\u2F3C\u3E61<a>")));
 }
 
 TEST_F(XmlNesting, WhatIsNoElementDoesNotCount) {
-    EXPECT_TRUE(is_flat("<a><!-- <a><a><a> ---><![CDATA[<a><a>]]]><b>1 > 0</b></a>"));
-    EXPECT_TRUE(is_flat("<!DOCTYPE a><?p <?><a></a>"));
+    EXPECT_TRUE(is_flat("<a><!-- <a><a><a> --><![CDATA[<a><a>]]]><b>1 > 0</b></a>"));
+    EXPECT_TRUE(is_flat("<!DOCTYPE a><a><?p <a><a><a> ?></a>"));
+    EXPECT_TRUE(is_flat(utf16(u"<a>\u043C\u043E\u043B\u043E\u043A\u043E\u043C</a>")));
     EXPECT_TRUE(is_flat("{\"a\": \"" + repeated("<a>", 9) + "\"}")) << "no XML";
     EXPECT_TRUE(is_flat(""));
 }
@@ -63,6 +76,7 @@ TEST_F(XmlNesting, DeepTracksAndOutlinesAreRefused) {
     const auto track = read_track(folder_.write("a.gpx", "<gpx>" + repeated("<trk>", 100)), 10.0);
     ASSERT_FALSE(track);
     EXPECT_THAT(track.error().message, HasSubstr("nested more than 64 deep"));
+    EXPECT_THAT(read_track("/dev/zero", 10.0).error().message, HasSubstr("no regular file"));
     const auto outlines =
         read_footprints(folder_.write("a.kml", "<kml>" + repeated("<Folder>", 100)), {}, {});
     ASSERT_FALSE(outlines);

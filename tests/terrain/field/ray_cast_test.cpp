@@ -407,6 +407,14 @@ TEST(Pick, SeesTheSameGroundAcrossTheSeamOfAGlobe) {
     const Placement placement = test::placed(globe);
     const SurfaceCaster caster(globe.heights.view(), pyramid, placement);
     const SurfaceCaster across_seam(turned.heights.view(), turned_pyramid, placement);
+    // A tile of the turned globe that ends at its seam.
+    const geo::WrappedRows rows = globe.georeference->geodetic.rows();
+    const TileLattice lattice{{around - 40, 10}, {around, 50}, 1.0, {40, 40}, rows};
+    const GridView<const float> tile_heights =
+        turned.heights.view().window(around - 40, 10, 41, 41);
+    const MinMaxPyramid tile_pyramid(tile_heights);
+    const Placement of_tile = placement.of_tile({1, rows, rows}, lattice);
+    const SurfaceCaster beside_seam(tile_heights, tile_pyramid, of_tile);
     test::Chance chance(29);
     const auto place = [&](double low, double high) {
         return glm::dvec3(half + chance.between(-4.0, 4.0), chance.between(5.0, 55.0),
@@ -416,6 +424,7 @@ TEST(Pick, SeesTheSameGroundAcrossTheSeamOfAGlobe) {
         sample.x += sample.x < half ? half : -half;
         return sample;
     };
+    int hits = 0;
     for (int i = 0; i < test::rounds(3000, 500); ++i) {
         const glm::dvec3 from = place(9001.0, 40e3);
         glm::dvec3 to = place(-9000.0, 9000.0);
@@ -428,10 +437,17 @@ TEST(Pick, SeesTheSameGroundAcrossTheSeamOfAGlobe) {
         const auto hit = hit_between(across_seam, other_side(from), other_side(to));
         ASSERT_EQ(hit.has_value(), expected.has_value()) << i;
         if (hit) {
+            ++hits;
             ASSERT_NEAR(hit->t, expected->t, 1.0) << i;
             ASSERT_NEAR(hit->sample.y, expected->sample.y, 1e-3) << i;
+            const auto hit_of_tile = hit_between(beside_seam, other_side(from), other_side(to));
+            const glm::dvec2 in_tile = glm::dvec2(hit->sample) - lattice.first;
+            const bool is_on_tile = in_tile.x > 0.0 && in_tile.y > 0.0 && in_tile.y < 40.0;
+            ASSERT_TRUE(hit_of_tile || !is_on_tile) << i;
+            ASSERT_GT(hit_of_tile ? hit_of_tile->t : hit->t, hit->t - 1.0) << i;
         }
     }
+    EXPECT_GT(hits, test::rounds(3000, 500) / 2);
 }
 
 TEST(Pick, EndsWhereverTheRayComesFrom) {
