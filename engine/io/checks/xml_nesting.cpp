@@ -1,8 +1,10 @@
 #include "engine/io/checks/xml_nesting.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <type_traits>
 
 #include <expat.h>
@@ -10,6 +12,8 @@
 
 namespace reljef::io {
 namespace {
+
+constexpr XML_Index max_tag_bytes = XML_Index{1} << 20U;
 
 struct FreeParser {
     void operator()(XML_Parser parser) const { XML_ParserFree(parser); }
@@ -37,6 +41,9 @@ int read_as_bytes(void* /*data*/, const XML_Char* /*name*/, XML_Encoding* encodi
 // Counts elements in entities, too.
 Parser make_parser(OpenElements& open) {
     Parser parser(XML_ParserCreate(nullptr));
+    if (parser == nullptr) {
+        throw std::bad_alloc();
+    }
     open.parser = parser.get();
     XML_SetUserData(parser.get(), &open);
     XML_SetUnknownEncodingHandler(parser.get(), read_as_bytes, nullptr);
@@ -59,10 +66,18 @@ Result<void> check_xml_nesting(const std::filesystem::path& path, int max_depth)
     const Parser parser = make_parser(open);
     std::ifstream file(path, std::ios::binary);
     std::array<char, 1 << 16> piece;
-    XML_Status status = parser ? XML_STATUS_OK : XML_STATUS_ERROR;
+    XML_Index bytes = 0;
+    XML_Status status = XML_STATUS_OK;
     while (status == XML_STATUS_OK &&
            (file.read(piece.data(), piece.size()) || file.gcount() > 0)) {
         status = XML_Parse(parser.get(), piece.data(), static_cast<int>(file.gcount()), XML_FALSE);
+        bytes += file.gcount();
+        // A tag that has not ended is read again with each piece.
+        const XML_Index begin = std::max(XML_GetCurrentByteIndex(parser.get()), XML_Index{0});
+        if (status == XML_STATUS_OK && bytes - begin > max_tag_bytes) {
+            return Error{fmt::format("{}: a tag of over {} bytes found, a shorter one was expected",
+                                     path.string(), max_tag_bytes)};
+        }
     }
     if (open.count <= max_depth) {
         return {};

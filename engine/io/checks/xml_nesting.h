@@ -10,9 +10,9 @@ namespace reljef::io {
 /// bytes for each character of deeper ones.
 inline constexpr int max_xml_depth = 64;
 
-/// Fails, with one sentence, if elements of a file are nested deeper, also by entities. Reads the
-/// file in small pieces, up to the first place that is no well-formed XML: readers end there, too.
-/// Precondition: a regular file.
+/// Fails, with one sentence, if elements of a file are nested deeper, also by entities, or if a tag
+/// or a comment has over 1 MB. Reads the file in small pieces, up to the first place that is no
+/// well-formed XML: readers end there, too. Precondition: a regular file.
 Result<void> check_xml_nesting(const std::filesystem::path& path, int max_depth = max_xml_depth);
 
 } // namespace reljef::io

@@ -72,6 +72,15 @@ TEST_F(XmlNesting, WhatIsNoElementDoesNotCount) {
     EXPECT_TRUE(is_flat(""));
 }
 
+// Readers would begin it anew with each piece: hours for a file of 500 MB.
+TEST_F(XmlNesting, ATagWithoutAnEndIsRefused) {
+    const std::string long_text(3U << 20U, 'x');
+    EXPECT_FALSE(is_flat("<a b='" + long_text + "'></a>"));
+    EXPECT_FALSE(is_flat("<a" + long_text));
+    EXPECT_TRUE(is_flat("<a>" + long_text + "</a>"));
+    EXPECT_TRUE(is_flat("<a><![CDATA[" + long_text + "]]></a>"));
+}
+
 TEST_F(XmlNesting, DeepTracksAndOutlinesAreRefused) {
     const auto track = read_track(folder_.write("a.gpx", "<gpx>" + repeated("<trk>", 100)), 10.0);
     ASSERT_FALSE(track);
