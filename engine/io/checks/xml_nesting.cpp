@@ -4,7 +4,6 @@
 #include <array>
 #include <fstream>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 #include <expat.h>
@@ -38,11 +37,11 @@ int read_as_bytes(void* /*data*/, const XML_Char* /*name*/, XML_Encoding* encodi
     return XML_STATUS_OK;
 }
 
-// Counts elements in entities, too.
+// Counts elements in entities, too. Null without memory.
 Parser make_parser(OpenElements& open) {
     Parser parser(XML_ParserCreate(nullptr));
     if (parser == nullptr) {
-        throw std::bad_alloc();
+        return parser;
     }
     open.parser = parser.get();
     XML_SetUserData(parser.get(), &open);
@@ -64,6 +63,9 @@ Parser make_parser(OpenElements& open) {
 Result<void> check_xml_nesting(const std::filesystem::path& path, int max_depth) {
     OpenElements open{.max_count = max_depth};
     const Parser parser = make_parser(open);
+    if (parser == nullptr) {
+        return Error{fmt::format("{}: cannot be read: there is not enough memory", path.string())};
+    }
     std::ifstream file(path, std::ios::binary);
     std::array<char, 1 << 16> piece;
     XML_Index bytes = 0;
