@@ -228,7 +228,6 @@ Result<FootprintFile> read_footprints(const fs::path& path, const FootprintOptio
                                       const std::stop_token& stop) {
     register_drivers();
     const GdalMessages messages;
-    const CPLConfigOptionSetter object("OGR_GEOJSON_MAX_OBJ_SIZE", "64", true); // MB
     const auto dataset = open_footprints(path, messages);
     if (!dataset) {
         return dataset.error();

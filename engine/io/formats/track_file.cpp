@@ -157,7 +157,6 @@ Result<Flight> read_track(const std::filesystem::path& path, double metres_a_sec
     register_drivers();
     const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
-    const CPLConfigOptionSetter object("OGR_GEOJSON_MAX_OBJ_SIZE", "64", true); // MB
     constexpr std::array<const char*, 5> formats{"GPX", "LIBKML", "KML", "GeoJSON", nullptr};
     const Dataset dataset(GDALDataset::Open(
         name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, formats.data()));

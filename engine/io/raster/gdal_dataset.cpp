@@ -254,6 +254,7 @@ void register_drivers() {
         set_default("GDAL_ONE_BIG_READ", "NO");
         // Avoids listing a large folder for each file.
         set_default("GDAL_READDIR_LIMIT_ON_OPEN", "50");
+        set_default("OGR_GEOJSON_MAX_OBJ_SIZE", "64"); // MB of memory
         set_default("GDAL_HTTP_CONNECTTIMEOUT", "10"); // seconds
         set_default("GDAL_HTTP_TIMEOUT", "60");
         // A stalled transfer blocks a thread and the program's exit no longer than this.
