@@ -16,13 +16,17 @@ constexpr double never = std::numeric_limits<double>::infinity();
 // Floats have errors of 2^-24 of the distance from the rays' anchor, and a ray adds a few of them.
 constexpr double rounding = 0x1p-20;
 
-// All rays of a block: bounds of their origins and directions. Origins or directions are equal.
+// All rays of a block: bounds of their origins and directions.
 struct Beam {
     Box origins;
     Box directions;
 
-    [[nodiscard]] glm::dvec3 low(double t) const { return origins.low + t * directions.low; }
-    [[nodiscard]] glm::dvec3 high(double t) const { return origins.high + t * directions.high; }
+    [[nodiscard]] glm::dvec3 low(double t) const {
+        return origins.low + t * (t < 0.0 ? directions.high : directions.low);
+    }
+    [[nodiscard]] glm::dvec3 high(double t) const {
+        return origins.high + t * (t < 0.0 ? directions.low : directions.high);
+    }
 };
 
 Beam beam_of(const PictureRays& rays, const PixelBlock& block) {
@@ -32,6 +36,12 @@ Beam beam_of(const PictureRays& rays, const PixelBlock& block) {
         beam.origins.add(rays.origin.at(corner));
         beam.directions.add(rays.direction.at(corner));
     }
+    const auto widen = [&](const PictureRays::Vectors& vectors, Box& box) {
+        const glm::dvec3 bulge = vectors.bulge(glm::dvec2(block.size));
+        box = {box.low - bulge, box.high + bulge};
+    };
+    widen(rays.origin, beam.origins);
+    widen(rays.direction, beam.directions);
     return beam;
 }
 

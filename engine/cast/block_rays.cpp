@@ -21,12 +21,56 @@ constexpr double height_rounding = 0x1p-20;
 // Bases are whole numbers that floats have exactly.
 constexpr double max_base = 0x1p22;
 
-BlockRays::Vectors relative(const PictureRays::Vectors& vectors, glm::dvec3 middle) {
-    return {glm::vec3(middle), glm::vec3(vectors.right), glm::vec3(vectors.down)};
+constexpr double half_block = 0.5 * block_side;
+
+struct PixelChanges {
+    glm::dvec3 right{0.0}; // for a pixel
+    glm::dvec3 down{0.0};
+};
+
+// `pixel`: the block's middle.
+PixelChanges changes_at(const PictureRays::Vectors& vectors, glm::dvec2 pixel) {
+    const auto& bends = vectors.bends;
+    return {vectors.right + 2.0 * pixel.x * bends[0] + pixel.y * bends[1],
+            vectors.down + pixel.x * bends[1] + 2.0 * pixel.y * bends[2]};
+}
+
+// Anywhere in the block.
+PixelChanges largest_changes(const PictureRays::Vectors& vectors, glm::dvec2 pixel) {
+    const PixelChanges at = changes_at(vectors, pixel);
+    const glm::dvec3 across = glm::abs(vectors.bends[1]);
+    return {glm::abs(at.right) + half_block * (2.0 * glm::abs(vectors.bends[0]) + across),
+            glm::abs(at.down) + half_block * (2.0 * glm::abs(vectors.bends[2]) + across)};
+}
+
+// `pixel`: the block's middle; `middle`: the vector there.
+BlockRays::Vectors relative(const PictureRays::Vectors& vectors, glm::dvec2 pixel,
+                            glm::dvec3 middle) {
+    const auto& bends = vectors.bends;
+    const PixelChanges at = changes_at(vectors, pixel);
+    const PixelChanges largest = largest_changes(vectors, pixel);
+    constexpr glm::dvec2 half(0.5 * beam_cols, 0.5 * beam_rows);
+    return {.middle = glm::vec3(middle),
+            .right = glm::vec3(at.right),
+            .down = glm::vec3(at.down),
+            .bends = {glm::vec3(bends[0]), glm::vec3(bends[1]), glm::vec3(bends[2])},
+            .is_bent = vectors.is_bent(),
+            .half_beam = glm::vec3(half.x * largest.right + half.y * largest.down +
+                                   half.x * half.x * glm::abs(bends[0]) +
+                                   half.x * half.y * glm::abs(bends[1]) +
+                                   half.y * half.y * glm::abs(bends[2]))};
+}
+
+// Along columns or rows.
+float speed_of(const PictureRays::Vectors& directions, glm::dvec2 pixel) {
+    const PixelChanges largest = largest_changes(directions, pixel);
+    const glm::dvec3 fastest =
+        glm::abs(directions.at(pixel)) + half_block * (largest.right + largest.down);
+    return static_cast<float>(std::max(fastest.x, fastest.y));
 }
 
 bool are_finite(const PictureRays::Vectors& vectors) {
-    const glm::dvec3 sum = vectors.first + vectors.right + vectors.down;
+    const glm::dvec3 sum = vectors.at(glm::dvec2(1.0));
     return std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
 }
 
@@ -38,7 +82,7 @@ double lift_of(terrain::MinMax total) {
 
 BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock& block) {
     const PictureRays::Vectors origin = places_at(rays, rays.anchor);
-    const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * block_side;
+    const glm::dvec2 middle = glm::dvec2(block.first) + half_block;
     const glm::dvec3 place = origin.at(middle);
     const glm::dvec2 base =
         glm::clamp(glm::round(glm::dvec2(place)), glm::dvec2(-max_base), glm::dvec2(max_base));
@@ -47,8 +91,9 @@ BlockRays rays_of(const RayTile& tile, const PictureRays& rays, const PixelBlock
     block_rays.base = glm::ivec2(base);
     block_rays.base_height = static_cast<float>(place.z);
     const double base_height = block_rays.base_height;
-    block_rays.origin = relative(origin, place - glm::dvec3(base, base_height));
-    block_rays.direction = relative(rays.direction, rays.direction.at(middle));
+    block_rays.origin = relative(origin, middle, place - glm::dvec3(base, base_height));
+    block_rays.direction = relative(rays.direction, middle, rays.direction.at(middle));
+    block_rays.speed = speed_of(rays.direction, middle);
     block_rays.begin = static_cast<float>(rays.range.begin - rays.anchor);
     block_rays.end = static_cast<float>(
         std::min(rays.range.end - rays.anchor, 0.5 * std::numeric_limits<float>::max()));
@@ -190,24 +235,48 @@ private:
             add(0, piece.rays, walls, piece.block);
             return;
         }
-        const TilesAlong along = tiles_along(placed_.nodes, piece.rays, piece.block);
-        if (!glm::any(along.turns)) {
-            add_all(along.tiles, piece.rays, walls, piece.block);
+        const auto along = [&](const PictureRays& rays) {
+            return tiles_along(placed_.nodes, rays, piece.block, placed_.turn);
+        };
+        const TilesAlong all = along(piece.rays);
+        if (!glm::any(all.turns)) {
+            add_all(all.tiles, piece.rays, walls, piece.block);
+            return;
+        }
+        if (piece.rays.origin.is_bent() || piece.rays.direction.is_bent()) {
+            add_quarters(piece, walls);
             return;
         }
         const auto tolerance = [&](double t) { return placed_.curve->unseen_samples(t); };
         for (const PictureRays& rays :
-             without_turns(piece.rays, piece.block, along.turns, tolerance)) {
-            add_all(tiles_along(placed_.nodes, rays, piece.block).tiles, rays, walls, piece.block);
+             without_turns(piece.rays, piece.block, all.turns, tolerance)) {
+            add_all(along(rays).tiles, rays, walls, piece.block);
             walls = begin_wall;
         }
     }
 
-    void add_all(const std::vector<std::size_t>& tiles, const PictureRays& rays, unsigned walls,
+    // Fewer rays have one order more often. Those of a beam without one become linear.
+    void add_quarters(const RayPiece& piece, unsigned walls) {
+        constexpr glm::ivec2 beam(beam_cols, beam_rows);
+        const glm::ivec2 size = glm::max(piece.block.size / 2, beam);
+        for (int row = 0; row < piece.block.size.y; row += size.y) {
+            for (int col = 0; col < piece.block.size.x; col += size.x) {
+                RayPiece part = piece;
+                part.block = {piece.block.first + glm::ivec2(col, row), size};
+                if (piece.block.size == beam) {
+                    part.rays = made_linear(part.rays, part.block.first, size);
+                }
+                add_piece(part, walls);
+            }
+        }
+    }
+
+    void add_all(const std::vector<TileAlong>& tiles, const PictureRays& rays, unsigned walls,
                  const PixelBlock& part) {
-        for (const std::size_t index : tiles) {
-            const PlacedTile& tile = placed_.tiles[index];
-            add(index, in_samples(rays, tile.scale, tile.by), walls, part);
+        for (const TileAlong& along : tiles) {
+            const PlacedTile& tile = placed_.tiles[along.tile];
+            const glm::dvec2 by = tile.by + tile.scale * glm::dvec2(along.by, 0.0);
+            add(along.tile, in_samples(rays, tile.scale, by), walls, part);
         }
     }
 

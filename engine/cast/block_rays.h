@@ -60,7 +60,8 @@ struct PlacedTiles {
     double wall_floor = -std::numeric_limits<double>::infinity();
     /// Not null: the tiles are on the ellipsoid.
     std::shared_ptr<const CurvedRays> curve;
-    TileNodes nodes; ///< on the ellipsoid, of several tiles
+    TileNodes nodes; ///< on the ellipsoid, of several tiles or a globe
+    Interval turn;   ///< of a globe: columns of the curved rays after which it begins anew
     /// Of rays to the sun on the ellipsoid; null: these are straight, or there are none.
     std::shared_ptr<const SunCourse> sun_course;
 };

@@ -15,6 +15,7 @@
 #include <glm/vector_relational.hpp>
 
 #include "engine/cast/packet/block_kernel.h"
+#include "engine/cast/tile_nodes.h"
 #include "engine/core/parallel_for.h"
 #include "engine/view/draw_list.h"
 
@@ -23,36 +24,36 @@ namespace {
 
 constexpr double chord_error = 0.005;  // pixels
 constexpr double order_error = 0.002;  // where borders of tiles are passed in one direction
-constexpr double largest_error = 0.25; // of rays that are not linear in the pixel
-// Share of the error that the polynomial may have; the chords have the rest.
+constexpr double largest_error = 0.25; // of beams
+// Shares of the error that polynomials of the map and along rays may have; the chords have the
+// rest.
 constexpr double share_of_map = 0.2;
+constexpr double share_of_track = 0.1;
+constexpr double track_terms = 7.0;    // of a FanTrack's polynomials
 constexpr double earth_radius = 6.4e6; // metres
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
-
-// Of a block, parts of its sides: corners, middle, and the middles of two sides.
-constexpr std::array places{glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0),
-                            glm::dvec2(1.0, 1.0), glm::dvec2(0.5, 0.5), glm::dvec2(1.0, 0.5),
-                            glm::dvec2(0.5, 1.0)};
 
 // Blocks in which rays are not linear in the pixel are quartered, down to the pixels of beams.
 constexpr glm::ivec2 smallest_block(beam_cols, beam_rows);
 constexpr double fan_error = 0.005; // pixels, of larger blocks
 
-glm::dvec2 pixel_at(const PixelBlock& block, glm::dvec2 part) {
-    return glm::dvec2(block.first) + part * glm::dvec2(block.size);
-}
-
 bool has_eye(const scene::Camera& camera) {
     return camera.projection == scene::ProjectionKind::perspective;
 }
 
-// The largest tangent of a latitude of the box: parallels bend by it.
-double parallel_bend(const terrain::Placement& placement, const Box& local) {
+// The largest tangent of a latitude: parallels bend by it. Of a globe's part, or of the box around
+// a terrain: its own corners may be at a pole, far from what is seen.
+double parallel_bend(const CurvedRays::Terrain& terrain) {
+    const terrain::Placement& placement = terrain.placement;
+    const bool is_globe = placement.columns_all_around().has_value();
+    const Box& box = is_globe ? terrain.samples : terrain.local;
     double largest = 0.0;
-    for (const double x : {local.low.x, local.high.x}) {
-        for (const double y : {local.low.y, local.high.y}) {
-            const auto place = placement.geodetic_from_world({x, y, local.center().z});
+    for (const double x : {box.low.x, box.high.x}) {
+        for (const double y : {box.low.y, box.high.y}) {
+            const glm::dvec3 corner(x, y, box.center().z);
+            const auto place = placement.geodetic_from_world(
+                is_globe ? placement.world_from_sample(corner) : corner);
             largest = std::max(largest, place ? std::abs(std::tan(glm::radians(place->latitude)))
                                               : far_away);
         }
@@ -85,20 +86,12 @@ glm::dvec3 metres_of(const terrain::Placement& placement, const Box& samples) {
 
 } // namespace
 
-// The rays of a block at a depth.
-struct CurvedRays::Fan {
-    double t = 0.0;
-    std::array<glm::dvec3, places.size()> samples{};
-    PictureRays::Vectors linear; // in the pixel of the picture
-    glm::dvec3 bend{0.0};        // between this and the samples, at most
-    Box box;
-};
-
 CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
                        unsigned threads)
     : local_(local_rays(camera, size, terrain.world_from_local, terrain.local)), terrain_(terrain),
       depths_(depths_of(terrain.local, local_, has_eye(camera))),
       metres_(metres_of(terrain.placement, terrain.samples)),
+      columns_around_(terrain.placement.columns_all_around().value_or(0.0)),
       pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
     width_ = block_side * pixel_at(depths_.end);
     constexpr double share = share_of_map * chord_error;
@@ -120,7 +113,7 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
             error_ = std::max(error_, piece.error);
         }
     }
-    error_ += share_of_map * chord_error + order_error;
+    error_ += (share_of_map + share_of_track) * chord_error + order_error;
 }
 
 glm::dvec2 CurvedRays::unseen_samples(double t) const {
@@ -133,95 +126,156 @@ std::optional<glm::dvec3> CurvedRays::sample_at(glm::dvec2 pixel, double t) cons
 }
 
 double CurvedRays::tolerance_at(double t) const {
-    return (1.0 - share_of_map) * chord_error * pixel_at(t);
+    return (1.0 - share_of_map - share_of_track) * chord_error * pixel_at(t);
 }
 
 double CurvedRays::pixel_at(double t) const {
     return pixel_.x + pixel_.y * std::max(t, 0.0);
 }
 
-// Linear between the corners, halfway to the middle.
-std::optional<CurvedRays::Fan> CurvedRays::fan_at(const PixelBlock& block, double t) const {
-    Fan fan;
-    fan.t = t;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const auto sample = sample_at(reljef::cast::pixel_at(block, places[i]), t);
-        if (!sample || glm::any(glm::isnan(*sample)) || glm::any(glm::isinf(*sample))) {
-            return std::nullopt;
-        }
-        fan.samples[i] = *sample;
-        fan.box.add(*sample);
-    }
-    const auto& at = fan.samples;
-    fan.linear.right = (at[1] - at[0] + at[3] - at[2]) / (2.0 * block.size.x);
-    fan.linear.down = (at[2] - at[0] + at[3] - at[1]) / (2.0 * block.size.y);
-    const glm::dvec3 middle = 0.5 * (0.25 * (at[0] + at[1] + at[2] + at[3]) + at[4]);
-    const glm::dvec2 pixel = reljef::cast::pixel_at(block, glm::dvec2(0.5));
-    fan.linear.first = middle - pixel.x * fan.linear.right - pixel.y * fan.linear.down;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        const glm::dvec3 found = fan.linear.at(reljef::cast::pixel_at(block, places[i]));
-        fan.bend = glm::max(fan.bend, glm::abs(found - at[i]));
-    }
-    return fan;
+// Of polynomials along rays.
+bool CurvedRays::is_unseen(glm::dvec3 difference, double t) const {
+    return glm::length(difference * metres_) <= share_of_track * chord_error * pixel_at(t);
+}
+
+// Of polynomials of this degree, on an Earth whose map is as smooth as it is itself.
+double CurvedRays::track_length(double t) const {
+    const double tolerance = share_of_track * chord_error * pixel_at(t);
+    return 2.0 * earth_radius * std::pow(tolerance / earth_radius, 1.0 / track_terms);
 }
 
 // Cuts the rays of a block.
 class CurvedRays::Pieces {
 public:
     Pieces(const CurvedRays& rays, const PixelBlock& block)
-        : rays_(rays), block_(block), surface_(rays.terrain_.samples),
-          is_smallest_(block.size == smallest_block) {}
+        : rays_(rays), block_(block), surface_(rays.terrain_.samples) {}
 
     // Empty: smaller blocks are needed.
     std::optional<std::vector<RayPiece>> run(Interval range) {
-        std::optional<Fan> from = rays_.fan_at(block_, range.begin);
+        end_ = range.end;
+        untracked_until_ = range.begin;
+        from_ = fan_at(range.begin);
         length_ = first_length(range.begin);
-        was_above_ = from && is_inside(from->box);
+        was_above_ = from_ && rays_.terrain_.begins_above && is_inside(from_->box);
+        is_above_inside_ = was_above_ && is_over_ground(from_->box);
         while (range.begin < range.end && !is_done_) {
-            const double end = std::min(range.begin + length_, range.end);
-            const auto halfway = rays_.fan_at(block_, 0.5 * (range.begin + end));
-            const auto to = rays_.fan_at(block_, end);
-            const bool is_known = from && halfway && to;
-            is_too_large_ = is_too_large_ || (!is_known && !is_smallest_);
-            if (is_too_large_) {
+            range.begin = advance(range);
+            if (is_too_large_ && degree_ == FanDegree::second) {
                 return std::nullopt;
             }
-            const double min_length = shortest(end);
-            const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
-            if (is_known ? advance(*from, *halfway, *to, is_shortest) : is_shortest) {
-                range.begin = end;
-                from = to;
+            if (is_too_large_) {
+                bend_from(range.begin);
             }
-            length_ = std::max(is_known ? length_ : 0.5 * length_, min_length);
         }
-        return is_too_large_ ? std::nullopt : std::optional(std::move(pieces_));
+        return std::move(pieces_);
     }
 
 private:
+    std::optional<RayFan> fan_at(double t) {
+        if (!track_at(t) && t >= untracked_until_) {
+            make_track(t);
+        }
+        const FanTrack* const track = track_at(t);
+        std::optional<RayFan> fan =
+            track != nullptr ? track->fan(t) : ray_fan(block_, degree_, t, sample_of_);
+        if (fan) {
+            col_ = fan->samples.front().x;
+        }
+        return fan;
+    }
+
+    [[nodiscard]] const FanTrack* track_at(double t) const {
+        for (const std::optional<FanTrack>* const track : {&track_, &last_track_}) {
+            if (*track && (*track)->has(t)) {
+                return &**track;
+            }
+        }
+        return nullptr;
+    }
+
+    // The last one is kept: pieces that become shorter may need it.
+    void make_track(double begin) {
+        constexpr int max_tries = 4;
+        double length = std::min(rays_.track_length(begin), end_ - begin);
+        last_track_ = std::move(track_);
+        track_.reset();
+        for (int i = 0; i < max_tries && !track_ && length > 0.0; ++i) {
+            track_ = FanTrack::create(
+                block_, degree_, {begin, begin + length}, sample_of_,
+                [&](glm::dvec3 difference, double t) { return rays_.is_unseen(difference, t); });
+            length *= 0.5;
+        }
+        untracked_until_ = track_ ? begin : begin + length;
+    }
+
+    // Rays are of second degree from here on.
+    void bend_from(double t) {
+        degree_ = FanDegree::second;
+        is_too_large_ = false;
+        track_.reset();
+        last_track_.reset();
+        untracked_until_ = t;
+        from_ = fan_at(t);
+    }
+
+    // Returns where what is done ends.
+    double advance(Interval range) {
+        const double end = std::min(range.begin + length_, range.end);
+        const auto halfway = fan_at(0.5 * (range.begin + end));
+        const auto to = fan_at(end);
+        const bool is_known = from_ && halfway && to;
+        is_too_large_ = !is_known && !is_last();
+        if (is_too_large_) {
+            return range.begin;
+        }
+        const double min_length = shortest(end);
+        const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
+        const bool is_done_there =
+            is_known ? advance(*from_, *halfway, *to, is_shortest) : is_shortest;
+        is_above_inside_ = is_known && is_above_inside_;
+        length_ = std::max(is_known ? length_ : 0.5 * length_, min_length);
+        if (!is_done_there) {
+            return range.begin;
+        }
+        from_ = to;
+        return end;
+    }
+
+    // No block is smaller, no degree higher.
+    [[nodiscard]] bool is_last() const {
+        return block_.size == smallest_block && degree_ == FanDegree::second;
+    }
+
     [[nodiscard]] double first_length(double t) const {
         return std::sqrt(8.0 * earth_radius * rays_.tolerance_at(std::max(t, 1.0)));
     }
     [[nodiscard]] static double shortest(double t) { return 1e-3 * (1.0 + std::abs(t)); }
 
     // Whether all until `to` is done; else the length is shorter.
-    bool advance(const Fan& from, const Fan& halfway, const Fan& to, bool is_shortest) {
+    bool advance(const RayFan& from, const RayFan& halfway, const RayFan& to, bool is_shortest) {
         const glm::dvec3 chord = chord_of(from, halfway, to);
-        const glm::dvec3 bend = chord + glm::max(glm::max(from.bend, halfway.bend), to.bend);
+        const glm::dvec3 off_samples =
+            chord + glm::max(glm::max(from.misfit, halfway.misfit), to.misfit);
         Box box = from.box;
         box.add(halfway.box);
         box.add(to.box);
-        const glm::dvec3 room = 2.0 * bend;
+        const glm::dvec3 room = 2.0 * off_samples;
         box = {box.low - room, box.high + room};
-        const bool is_above = box.low.z > surface_.high.z;
+        const Interval ground = rays_.terrain_.heights.within(box);
+        const bool has_ground = ground.begin <= ground.end;
+        const bool is_over_all = box.low.z > surface_.high.z;
+        const bool is_above = is_over_all || box.low.z > ground.end;
+        is_above_inside_ = has_ground && is_inside(box) && (is_above || is_above_inside_);
         if (is_above || is_beside(box)) {
-            was_above_ = was_above_ || is_above;
+            was_above_ = was_above_ || is_over_all;
             const bool rises =
                 halfway.box.low.z > from.box.low.z && to.box.low.z > halfway.box.low.z;
-            is_done_ = is_above && rises;
+            is_done_ = is_over_all && rises;
             length_ *= 2.0;
             return true;
         }
-        if (was_above_ && box.high.z < surface_.low.z) {
+        if ((was_above_ && box.high.z < surface_.low.z) ||
+            (is_above_inside_ && box.high.z < ground.begin)) {
             is_done_ = true;
             return true;
         }
@@ -230,17 +284,21 @@ private:
             length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.2, 0.8);
             return false;
         }
-        is_too_large_ = !is_smallest_ && std::max(bend_of(from), bend_of(to)) > fan_error;
-        is_done_ = is_too_large_;
+        is_too_large_ =
+            !is_last() && std::max(degree_error_of(from), degree_error_of(to)) > fan_error;
+        if (is_too_large_) {
+            return false;
+        }
         add(from, to, chord);
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
     }
 
     // Between the chords of the rays and the rays halfway.
-    [[nodiscard]] static glm::dvec3 chord_of(const Fan& from, const Fan& halfway, const Fan& to) {
+    [[nodiscard]] static glm::dvec3 chord_of(const RayFan& from, const RayFan& halfway,
+                                             const RayFan& to) {
         glm::dvec3 largest(0.0);
-        for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t i = 0; i < from.count; ++i) {
             const glm::dvec3 chord = 0.5 * (from.samples[i] + to.samples[i]);
             largest = glm::max(largest, glm::abs(chord - halfway.samples[i]));
         }
@@ -248,15 +306,31 @@ private:
     }
 
     // Pixels. A chord is off by 4 s (1 - s) times its middle at the part s of its length.
-    [[nodiscard]] double error_of(const Fan& from, const Fan& to, glm::dvec3 chord) const {
+    [[nodiscard]] double error_of(const RayFan& from, const RayFan& to, glm::dvec3 chord) const {
         const double near = rays_.pixel_at(from.t);
         const double far = rays_.pixel_at(to.t);
         const double off = glm::length(chord * metres_);
         return std::min(off / near, 4.0 * off / (far - near)) +
-               std::max(bend_of(from), bend_of(to));
+               std::max(misfit_of(from), misfit_of(to)) +
+               std::max(unordered_of(from), unordered_of(to));
     }
-    [[nodiscard]] double bend_of(const Fan& fan) const { // pixels
-        return glm::length(fan.bend * metres_) / rays_.pixel_at(fan.t);
+    // Of bent rays: what their order by tiles misses, or by how much those of a beam that has none
+    // are moved when they become linear.
+    [[nodiscard]] double unordered_of(const RayFan& fan) const { // pixels
+        const glm::dvec2 part = glm::dvec2(block_.size) / static_cast<double>(course_parts);
+        const glm::dvec3 bulge =
+            glm::max(fan.vectors.bulge(part), 0.5 * fan.vectors.bulge(glm::dvec2(smallest_block)));
+        return glm::length(bulge * metres_) / rays_.pixel_at(fan.t);
+    }
+    [[nodiscard]] double misfit_of(const RayFan& fan) const { // pixels
+        return glm::length(fan.misfit * metres_) / rays_.pixel_at(fan.t);
+    }
+    // Where the second degree is large, a fourth may not show at the places of a fan.
+    [[nodiscard]] double degree_error_of(const RayFan& fan) const { // pixels
+        constexpr double share = 1.0 / 128.0;
+        const glm::dvec3 bulge = fan.vectors.bulge(glm::dvec2(block_.size));
+        return std::max(misfit_of(fan),
+                        share * glm::length(bulge * metres_) / rays_.pixel_at(fan.t));
     }
 
     // Over or under the surface.
@@ -265,32 +339,54 @@ private:
                glm::all(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.high)));
     }
 
+    [[nodiscard]] bool is_over_ground(const Box& box) const {
+        const Interval ground = rays_.terrain_.heights.within(box);
+        return ground.begin <= ground.end && box.low.z > ground.end;
+    }
+
     [[nodiscard]] bool is_beside(const Box& box) const {
         return glm::any(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.low))) ||
                glm::any(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.high)));
     }
 
-    void add(const Fan& from, const Fan& to, glm::dvec3 chord) {
+    void add(const RayFan& from, const RayFan& to, glm::dvec3 chord) {
         RayPiece& piece = pieces_.emplace_back();
-        piece.rays = straight_between(from.linear, to.linear, {from.t, to.t}, rays_.local_);
+        piece.rays = straight_between(from.vectors, to.vectors, {from.t, to.t}, rays_.local_);
         piece.error = error_of(from, to, chord);
         piece.block = block_;
     }
 
     const CurvedRays& rays_;
     const PixelBlock& block_;
+    // Columns of a globe are those next to the last ones.
+    SampleOfRay sample_of_ = [this](glm::dvec2 pixel, double t) {
+        auto sample = rays_.sample_at(pixel, t);
+        if (sample && rays_.columns_around_ > 0.0) {
+            col_ = col_.value_or(sample->x);
+            sample->x -=
+                rays_.columns_around_ * std::round((sample->x - *col_) / rays_.columns_around_);
+        }
+        return sample;
+    };
+    std::optional<double> col_;
+    FanDegree degree_ = FanDegree::linear;
     const Box& surface_;
     glm::dvec3 metres_ = rays_.metres_;
     double length_ = 0.0;
     bool was_above_ = false;
+    bool is_above_inside_ = false; // was above the ground, and beside none since
     bool is_done_ = false;
-    bool is_smallest_;
-    bool is_too_large_ = false; // the block
+    bool is_too_large_ = false; // the block, for the degree
+    double end_ = 0.0;          // of all depths
+    std::optional<RayFan> from_;
+    std::optional<FanTrack> track_;
+    std::optional<FanTrack> last_track_;
+    double untracked_until_ = 0.0; // depth
     std::vector<RayPiece> pieces_;
 };
 
 void CurvedRays::cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const {
-    const glm::dvec2 middle = reljef::cast::pixel_at(block, glm::dvec2(0.5));
+    const glm::dvec2 middle = glm::dvec2(block.first) + 0.5 * glm::dvec2(block.size);
     const double width = std::max(block.size.x, block.size.y) * pixel_at(depths_.end);
     const Interval depths{std::max(local_.range.begin, local_.anchor),
                           std::min(local_.range.end, depths_.end + width)};
@@ -312,16 +408,17 @@ void CurvedRays::cut(const PixelBlock& block, std::vector<RayPiece>& pieces) con
     }
 }
 
-bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
-                const terrain::Placement& placement, const Box& local) {
-    const PictureRays rays = local_rays(camera, size, world_from_local, local);
+bool show_little_bend(const scene::Camera& camera, glm::ivec2 size,
+                      const CurvedRays::Terrain& terrain) {
+    const PictureRays rays = local_rays(camera, size, terrain.world_from_local, terrain.local);
     const glm::dvec2 pixel(view::metres_a_pixel(camera, size));
-    const double depth = depths_of(local, rays, has_eye(camera)).end;
+    const double depth = depths_of(terrain.local, rays, has_eye(camera)).end;
     const double width = smallest_block.x * (pixel.x + pixel.y * std::max(depth, 0.0));
-    // The middle of a block above the chord between its sides, and beside that of a parallel.
-    const double off =
-        (1.0 + parallel_bend(placement, local)) * width * smallest_block.x / (8.0 * earth_radius);
-    return off <= largest_error;
+    // The middle of a block above the chord between its sides, and beside that of a parallel. Rays
+    // of second degree follow it, but for about a third of the angle by which it bends.
+    const double angle = (1.0 + parallel_bend(terrain)) * width / earth_radius;
+    const double off = angle * smallest_block.x / 8.0;
+    return off * std::min(angle / 3.0, 1.0) <= largest_error;
 }
 
 } // namespace reljef::cast

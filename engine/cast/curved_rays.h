@@ -8,8 +8,10 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/beam.h"
+#include "engine/cast/height_bounds.h"
 #include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
+#include "engine/cast/ray_fan.h"
 #include "engine/cast/sample_map.h"
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
@@ -20,14 +22,15 @@ namespace reljef::cast {
 
 /// The rays of a block of pixels between two depths, straight in samples.
 struct RayPiece {
-    PixelBlock block;   ///< the pixels for which the rays are linear in the pixel: whole beams
+    PixelBlock block;   ///< of whole beams
     PictureRays rays;   ///< over the range
     double error = 0.0; ///< how far these are off at checked places, pixels
 };
 
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
 /// of a block of pixels are cut into pieces, each so short that its chords have no visible error.
-/// Where the rays of a block are not linear in the pixel, it is divided.
+/// Where the rays of a block are not linear in the pixel, they are of second degree, and where that
+/// is not enough, the block is divided.
 class CurvedRays {
 public:
     struct Terrain {
@@ -35,6 +38,8 @@ public:
         glm::dmat4 world_from_local{1.0};
         Box local;   ///< around the surface, metres
         Box samples; ///< the same in samples and metres of height
+        HeightBounds heights = {};
+        bool begins_above = true; ///< rays that begin over or under the ground begin over it
     };
 
     /// `threads`: 0: one per hardware thread. Preconditions: an invertible transform, a placement
@@ -59,12 +64,12 @@ public:
     [[nodiscard]] const PictureRays& local() const { return local_; }
 
 private:
-    struct Fan;
     class Pieces;
 
     void cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const;
     [[nodiscard]] std::optional<glm::dvec3> sample_at(glm::dvec2 pixel, double t) const;
-    [[nodiscard]] std::optional<Fan> fan_at(const PixelBlock& block, double t) const;
+    [[nodiscard]] bool is_unseen(glm::dvec3 difference, double t) const; // samples
+    [[nodiscard]] double track_length(double t) const;
     [[nodiscard]] double tolerance_at(double t) const; // of chords, metres
     [[nodiscard]] double pixel_at(double t) const;     // metres
 
@@ -73,6 +78,7 @@ private:
     Interval depths_;        // of the surface
     glm::dvec3 metres_{1.0}; // of a column, a row and a metre of height, at most
     std::optional<SampleMap> map_;
+    double columns_around_; // of a globe; else 0
     glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
     double width_ = 0.0;    // of a whole block at the farthest surface, metres
     int cols_;              // of blocks
@@ -80,9 +86,9 @@ private:
     double error_ = 0.0;
 };
 
-/// Whether the pixels of a beam show so little of the curved Earth that their rays are linear in
-/// the pixel.
-bool are_linear(const scene::Camera& camera, glm::ivec2 size, const glm::dmat4& world_from_local,
-                const terrain::Placement& placement, const Box& local);
+/// Whether the pixels of a beam show so little of the curved Earth that rays of second degree in
+/// the pixel follow it.
+bool show_little_bend(const scene::Camera& camera, glm::ivec2 size,
+                      const CurvedRays::Terrain& terrain);
 
 } // namespace reljef::cast

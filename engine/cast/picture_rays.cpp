@@ -1,6 +1,7 @@
 #include "engine/cast/picture_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -59,8 +60,41 @@ template <class RayAt> PictureRays rays_through(glm::ivec2 size, const RayAt& ra
 
 PictureRays::Vectors moved(const PictureRays::Vectors& vectors, glm::dvec2 scale, glm::dvec2 by) {
     const glm::dvec3 factor(scale, 1.0);
-    return {vectors.first * factor + glm::dvec3(by, 0.0), vectors.right * factor,
-            vectors.down * factor};
+    PictureRays::Vectors found{vectors.first * factor + glm::dvec3(by, 0.0), vectors.right * factor,
+                               vectors.down * factor};
+    for (std::size_t i = 0; i < found.bends.size(); ++i) {
+        found.bends[i] = vectors.bends[i] * factor;
+    }
+    return found;
+}
+
+// a + factor · b.
+PictureRays::Vectors sum_of(const PictureRays::Vectors& a, double factor,
+                            const PictureRays::Vectors& b) {
+    PictureRays::Vectors sum{a.first + factor * b.first, a.right + factor * b.right,
+                             a.down + factor * b.down};
+    for (std::size_t i = 0; i < sum.bends.size(); ++i) {
+        sum.bends[i] = a.bends[i] + factor * b.bends[i];
+    }
+    return sum;
+}
+
+// Halfway between the best plane through the corners and the parallel one through the middle.
+PictureRays::Vectors plane_near(const PictureRays::Vectors& vectors, glm::ivec2 first,
+                                glm::ivec2 size) {
+    const glm::dvec2 middle = glm::dvec2(first) + 0.5 * glm::dvec2(size);
+    const auto at = [&](double x, double y) {
+        return vectors.at(middle + glm::dvec2(x, y) * glm::dvec2(size));
+    };
+    const std::array corner{at(-0.5, -0.5), at(0.5, -0.5), at(-0.5, 0.5), at(0.5, 0.5)};
+    PictureRays::Vectors found;
+    found.right =
+        0.5 * (corner[1] - corner[0] + corner[3] - corner[2]) / static_cast<double>(size.x);
+    found.down =
+        0.5 * (corner[2] - corner[0] + corner[3] - corner[1]) / static_cast<double>(size.y);
+    const glm::dvec3 mean = 0.25 * (corner[0] + corner[1] + corner[2] + corner[3]);
+    found.first = 0.5 * (mean + at(0.0, 0.0)) - middle.x * found.right - middle.y * found.down;
+    return found;
 }
 
 } // namespace
@@ -80,9 +114,7 @@ Interval depths_of(const Box& bounds, const PictureRays& rays, bool is_perspecti
 }
 
 PictureRays::Vectors places_at(const PictureRays& rays, double t) {
-    return {rays.origin.first + t * rays.direction.first,
-            rays.origin.right + t * rays.direction.right,
-            rays.origin.down + t * rays.direction.down};
+    return sum_of(rays.origin, t, rays.direction);
 }
 
 PictureRays straight_between(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
@@ -90,11 +122,16 @@ PictureRays straight_between(const PictureRays::Vectors& from, const PictureRays
     const double length = depths.end - depths.begin;
     PictureRays rays = like;
     rays.range = depths;
-    rays.direction = {(to.first - from.first) / length, (to.right - from.right) / length,
-                      (to.down - from.down) / length};
+    rays.direction = sum_of({}, 1.0 / length, sum_of(to, -1.0, from));
     rays.origin = from;
     rays.origin = places_at(rays, -depths.begin);
     return rays;
+}
+
+PictureRays made_linear(PictureRays rays, glm::ivec2 first, glm::ivec2 size) {
+    const PictureRays::Vectors from = plane_near(places_at(rays, rays.range.begin), first, size);
+    const PictureRays::Vectors to = plane_near(places_at(rays, rays.range.end), first, size);
+    return straight_between(from, to, rays.range, rays);
 }
 
 PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by) {

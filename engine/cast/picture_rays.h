@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -11,17 +14,28 @@
 namespace reljef::cast {
 
 /// The rays of a picture in sample coordinates (col, row, height in true metres). They are linear
-/// in the place on the picture, and their t is the depth along the view axis.
+/// in the place on the picture; over the curved Earth, of second degree. Their t is the depth along
+/// the view axis.
 struct PictureRays {
     /// A ray, and its changes for a pixel to the right and a pixel down.
     struct Vectors {
         glm::dvec3 first{0.0}; ///< at the top left corner of the picture
         glm::dvec3 right{0.0};
         glm::dvec3 down{0.0};
+        /// Factors of right², right · down and down², pixels: 0 where rays are linear.
+        std::array<glm::dvec3, 3> bends{};
 
         [[nodiscard]] glm::dvec3 at(glm::dvec2 pixel) const {
-            return first + pixel.x * right + pixel.y * down;
+            return first + pixel.x * right + pixel.y * down + pixel.x * pixel.x * bends[0] +
+                   pixel.x * pixel.y * bends[1] + pixel.y * pixel.y * bends[2];
         }
+        /// What linear vectors miss at most over a rectangle of a size in pixels, if they are right
+        /// at its corners.
+        [[nodiscard]] glm::dvec3 bulge(glm::dvec2 extent) const {
+            return 0.25 * (extent.x * extent.x * glm::abs(bends[0]) +
+                           extent.y * extent.y * glm::abs(bends[2]));
+        }
+        [[nodiscard]] bool is_bent() const { return bends != std::array<glm::dvec3, 3>{}; }
     };
 
     glm::ivec2 size{0}; ///< of the picture, pixels
@@ -57,6 +71,10 @@ PictureRays::Vectors places_at(const PictureRays& rays, double t);
 /// The rays of `like` between two depths, but straight from place to place.
 PictureRays straight_between(const PictureRays::Vectors& from, const PictureRays::Vectors& to,
                              Interval depths, const PictureRays& like);
+
+/// Linear rays that are near those of a rectangle of `size` pixels at `first`: off by half of the
+/// bulge at most, in the middle and at the corners.
+PictureRays made_linear(PictureRays rays, glm::ivec2 first, glm::ivec2 size);
 
 /// The rays in samples that are `scale` times those of `rays`, plus `by`.
 PictureRays in_samples(PictureRays rays, glm::dvec2 scale, glm::dvec2 by);

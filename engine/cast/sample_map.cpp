@@ -43,7 +43,8 @@ std::optional<glm::dvec3> found(const std::optional<terrain::SamplePolynomial>& 
 
 SampleMap::SampleMap(const terrain::Placement& placement, const Ground& ground,
                      const Tolerance& tolerance, unsigned threads)
-    : placement_(placement) {
+    : placement_(placement), around_(placement.columns_all_around().value_or(0.0)),
+      middle_(ground.samples.center().x) {
     constexpr int few_halvings = 3;
     constexpr int many_halvings = 7;
     const bool has_geoid = placement.has_geoid();
@@ -66,7 +67,7 @@ std::optional<terrain::SamplePolynomial> SampleMap::fitted(const terrain::Placem
     }
     const Box& samples = ground.samples;
     const glm::dvec3 middle = placement.world_from_sample(glm::dvec3(
-        glm::clamp(glm::dvec2(*above), glm::dvec2(samples.low), glm::dvec2(samples.high)),
+        glm::clamp(glm::dvec2(in_turn(*above)), glm::dvec2(samples.low), glm::dvec2(samples.high)),
         samples.center().z));
     double reach = 0.0;
     for (const double x : {ground.local.low.x, ground.local.high.x}) {
@@ -127,12 +128,20 @@ double SampleMap::zero_at(glm::dvec2 sample) const {
     return zero;
 }
 
+glm::dvec3 SampleMap::in_turn(glm::dvec3 sample) const {
+    if (around_ > 0.0) {
+        sample.x -= around_ * std::round((sample.x - middle_) / around_);
+    }
+    return sample;
+}
+
 std::optional<glm::dvec3> SampleMap::at(glm::dvec3 place, double tolerance) const {
     if (const auto sample = found(near_, place)) {
-        return sample;
+        return in_turn(*sample);
     }
     if (zero_error_ <= tolerance) {
         if (auto sample = found(far_, place)) {
+            sample = in_turn(*sample);
             const glm::dvec2 at = (glm::dvec2(*sample) - first_) / step_;
             if (std::min({at.x, at.y, zero_count - 1.0 - at.x, zero_count - 1.0 - at.y}) >= 0.0) {
                 sample->z -= zero_at(glm::dvec2(*sample)) / placement_.exaggeration();
@@ -140,7 +149,8 @@ std::optional<glm::dvec3> SampleMap::at(glm::dvec3 place, double tolerance) cons
             }
         }
     }
-    return placement_.sample_from_world(place);
+    const auto sample = placement_.sample_from_world(place);
+    return sample ? std::optional(in_turn(*sample)) : std::nullopt;
 }
 
 } // namespace reljef::cast

@@ -34,7 +34,8 @@ public:
     SampleMap(const terrain::Placement& placement, const Ground& ground, const Tolerance& tolerance,
               unsigned threads);
 
-    /// (col, row, height) of a place within a tolerance, metres; empty outside of the map.
+    /// (col, row, height) of a place within a tolerance, metres; empty outside of the map. Columns
+    /// of a globe are those next to the middle of its ground.
     [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec3 place, double tolerance) const;
 
 private:
@@ -43,6 +44,7 @@ private:
            int halvings) const;
     void make_zeros(const Ground& ground, unsigned threads);
     [[nodiscard]] double zero_at(glm::dvec2 sample) const;
+    [[nodiscard]] glm::dvec3 in_turn(glm::dvec3 sample) const;
 
     terrain::Placement placement_;
     std::optional<terrain::SamplePolynomial> near_; // with the geoid
@@ -51,6 +53,8 @@ private:
     glm::dvec2 first_{0.0};                         // sample of the first zero
     glm::dvec2 step_{1.0};
     double zero_error_ = 0.0; // of interpolated zeros, metres
+    double around_ = 0.0;     // columns of a globe; else 0
+    double middle_ = 0.0;     // column
 };
 
 } // namespace reljef::cast

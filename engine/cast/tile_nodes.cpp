@@ -17,27 +17,33 @@ constexpr double far_beyond = std::numeric_limits<double>::infinity();
 constexpr double place_rounding = 0x1p-24;
 constexpr double ray_rounding = 0x1p-20;
 
-// Where the rays at the corners of a block begin and end.
+// Where the rays at the corners of a block begin and end; of bent ones, at those of a lattice,
+// between which they are nearly linear.
 class Course {
 public:
-    Course(const PictureRays& rays, const PixelBlock& block) {
-        constexpr std::array corners{glm::ivec2(0, 0), glm::ivec2(1, 0), glm::ivec2(1, 1),
-                                     glm::ivec2(0, 1)};
+    Course(const PictureRays& rays, const PixelBlock& block)
+        : side_(rays.origin.is_bent() || rays.direction.is_bent() ? course_parts : 1) {
         const PictureRays::Vectors from = places_at(rays, rays.range.begin);
         const PictureRays::Vectors to = places_at(rays, rays.range.end);
         const PictureRays::Vectors anchor = places_at(rays, rays.anchor);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const glm::dvec2 pixel(block.first + block.size * corners[i]);
-            begin_[i] = from.at(pixel);
-            end_[i] = to.at(pixel);
-            box_.add(begin_[i]);
-            box_.add(end_[i]);
-            const glm::dvec3 base = anchor.at(pixel);
-            reach_ =
-                glm::max(reach_, glm::max(glm::abs(begin_[i] - base), glm::abs(end_[i] - base)));
+        const glm::dvec2 part = glm::dvec2(block.size) / static_cast<double>(side_);
+        const auto count = static_cast<std::size_t>((side_ + 1) * (side_ + 1));
+        begin_.reserve(count);
+        end_.reserve(count);
+        for (int row = 0; row <= side_; ++row) {
+            for (int col = 0; col <= side_; ++col) {
+                const glm::dvec2 pixel = glm::dvec2(block.first) + part * glm::dvec2(col, row);
+                const glm::dvec3 begin = begin_.emplace_back(from.at(pixel));
+                const glm::dvec3 end = end_.emplace_back(to.at(pixel));
+                box_.add(begin);
+                box_.add(end);
+                const glm::dvec3 base = anchor.at(pixel);
+                reach_ = glm::max(reach_, glm::max(glm::abs(begin - base), glm::abs(end - base)));
+            }
         }
         const double height = std::max(std::abs(box_.low.z), std::abs(box_.high.z));
-        const glm::dvec3 margin = ray_rounding * (1.0 + reach_ + glm::dvec3(0.0, 0.0, height));
+        const glm::dvec3 margin = ray_rounding * (1.0 + reach_ + glm::dvec3(0.0, 0.0, height)) +
+                                  glm::max(from.bulge(part), to.bulge(part));
         box_ = {box_.low - margin, box_.high + margin};
     }
 
@@ -54,14 +60,33 @@ public:
 
 private:
     // How far the rays that begin before a line end behind it; in the direction of `sign`. The
-    // corners' polygon is cut there.
+    // corners' polygons are cut there.
     [[nodiscard]] double past(int axis, double line, double sign) const {
         double farthest = -far_beyond;
-        for (std::size_t i = 0; i < begin_.size(); ++i) {
-            const std::size_t next = (i + 1) % begin_.size();
-            const double from = sign * (begin_[i][axis] - line);
+        for (int row = 0; row < side_; ++row) {
+            for (int col = 0; col < side_; ++col) {
+                farthest = std::max(farthest, past_of(corners_of({col, row}), axis, line, sign));
+            }
+        }
+        return farthest;
+    }
+
+    // In order around the part.
+    [[nodiscard]] std::array<std::size_t, 4> corners_of(glm::ivec2 part) const {
+        const auto first = static_cast<std::size_t>(part.y * (side_ + 1) + part.x);
+        const std::size_t below = first + static_cast<std::size_t>(side_) + 1;
+        return {first, first + 1, below + 1, below};
+    }
+
+    [[nodiscard]] double past_of(const std::array<std::size_t, 4>& corners, int axis, double line,
+                                 double sign) const {
+        double farthest = -far_beyond;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const std::size_t here = corners[i];
+            const std::size_t next = corners[(i + 1) % corners.size()];
+            const double from = sign * (begin_[here][axis] - line);
             const double next_from = sign * (begin_[next][axis] - line);
-            const double to = sign * (end_[i][axis] - line);
+            const double to = sign * (end_[here][axis] - line);
             if (from <= 0.0) {
                 farthest = std::max(farthest, to);
             }
@@ -73,8 +98,9 @@ private:
         return farthest;
     }
 
-    std::array<glm::dvec3, 4> begin_{};
-    std::array<glm::dvec3, 4> end_{};
+    int side_; // of the lattice, parts
+    std::vector<glm::dvec3> begin_;
+    std::vector<glm::dvec3> end_;
     glm::dvec3 reach_{0.0}; // from the anchor
     Box box_;
 };
@@ -89,28 +115,49 @@ public:
     NodeWalk(const TileNodes& nodes, const Course& course, const PixelBlock& block)
         : nodes_(nodes), course_(course), block_(block) {}
 
-    TilesAlong run() {
-        if (!nodes_.empty()) {
+    TilesAlong run(Interval turn) {
+        if (nodes_.empty()) {
+            return {};
+        }
+        if (turn.begin < turn.end) {
+            visit_turns(turn);
+        } else {
             visit(nodes_.front());
         }
         return std::move(along_);
     }
 
 private:
+    // Each turn of a globe is a copy of its nodes. Rays pass no more than a few of them.
+    void visit_turns(Interval turn) {
+        constexpr double max_turns = 3.0;
+        const double around = turn.end - turn.begin;
+        const auto number = [&](double col) { return std::floor((col - turn.begin) / around); };
+        const double first = number(course_.box().low.x);
+        const auto count = static_cast<int>(
+            std::clamp(number(course_.box().high.x) - first + 1.0, 1.0, max_turns));
+        const double seam = turn.begin + (first + 1.0) * around;
+        const bool is_east = count > 1 && course_.comes_from_high(0, seam, along_.turns.x);
+        for (int i = 0; i < count; ++i) {
+            from_ = around * (first + (is_east ? count - 1 - i : i));
+            visit(nodes_.front());
+        }
+    }
+
     // A ray passes the side where it begins, perhaps one beside it, and the opposite one last.
     void visit(const TileNode& node) {
         if (!may_hit(node)) {
             return;
         }
         if (node.tile >= 0) {
-            along_.tiles.push_back(static_cast<std::size_t>(node.tile));
+            along_.tiles.push_back({static_cast<std::size_t>(node.tile), -from_});
             return;
         }
         const auto has = [&](std::size_t a, std::size_t b) {
             return node.parts[a] >= 0 || node.parts[b] >= 0;
         };
-        const bool is_east =
-            has(0, 2) && has(1, 3) && course_.comes_from_high(0, node.lines.x, along_.turns.x);
+        const bool is_east = has(0, 2) && has(1, 3) &&
+                             course_.comes_from_high(0, from_ + node.lines.x, along_.turns.x);
         const bool is_south =
             has(0, 1) && has(2, 3) && course_.comes_from_high(1, node.lines.y, along_.turns.y);
         const unsigned first = (is_east ? 1U : 0U) + (is_south ? 2U : 0U);
@@ -124,14 +171,15 @@ private:
     // Rays pass above a tile; below one they may be, too, to hit a wall behind it.
     [[nodiscard]] bool may_hit(const TileNode& node) const {
         const Box& rays = course_.box();
-        return !are_apart(node.seen, block_) && node.box.low.x <= rays.high.x &&
-               rays.low.x <= node.box.high.x && node.box.low.y <= rays.high.y &&
+        return !are_apart(node.seen, block_) && from_ + node.box.low.x <= rays.high.x &&
+               rays.low.x <= from_ + node.box.high.x && node.box.low.y <= rays.high.y &&
                rays.low.y <= node.box.high.y && rays.low.z <= node.box.high.z;
     }
 
     const TileNodes& nodes_;
     const Course& course_;
     PixelBlock block_;
+    double from_ = 0.0; // columns of the turns before
     TilesAlong along_;
 };
 
@@ -201,9 +249,10 @@ private:
 
 } // namespace
 
-TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const PixelBlock& block) {
+TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const PixelBlock& block,
+                       Interval turn) {
     const Course course(rays, block);
-    return NodeWalk(nodes, course, block).run();
+    return NodeWalk(nodes, course, block).run(turn);
 }
 
 std::vector<PictureRays> without_turns(const PictureRays& rays, const PixelBlock& block,

@@ -28,14 +28,27 @@ struct TileNode {
 /// The first node is the root.
 using TileNodes = std::vector<TileNode>;
 
+/// Parts of a block along each side between which bent rays are as good as linear.
+inline constexpr int course_parts = 8;
+
+/// A tile on the way of rays.
+struct TileAlong {
+    std::size_t tile = 0; ///< index
+    double by = 0.0;      ///< columns: added to the rays', those of the tile's turn of a globe
+
+    friend bool operator==(const TileAlong&, const TileAlong&) = default;
+};
+
 struct TilesAlong {
-    std::vector<std::size_t> tiles; ///< no ray passes one before those in front of it
+    std::vector<TileAlong> tiles; ///< no ray passes one before those in front of it
     /// Rays cross a line between tiles in both directions, so no order is that of all rays.
     glm::bvec2 turns{false};
 };
 
-/// The tiles that the rays of a block may hit in their range.
-TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const PixelBlock& block);
+/// The tiles that the rays of a block may hit in their range. `turn`: columns between which the
+/// nodes of a globe lie, and after which it begins anew; empty: it is none.
+TilesAlong tiles_along(const TileNodes& nodes, const PictureRays& rays, const PixelBlock& block,
+                       Interval turn = {});
 
 /// Rays of a block that turn along these axes, in parts in which none does: along an axis, the rays
 /// of a part pass one point, so each line is crossed in one direction. This moves no ray by more

@@ -64,6 +64,32 @@ GeodeticMap::GeodeticMap(Grid<glm::dvec3> control, glm::dvec2 first, glm::dvec2 
         value -= base_;
     }
     middle_longitude_ = latitude_longitude(middle()).y;
+    if (kind_ == Kind::degrees) {
+        find_linear_inverse();
+    }
+}
+
+// Of control points on a plane, unless they are off by what Newton's method would notice.
+void GeodeticMap::find_linear_inverse() {
+    const glm::dvec2 last(control_.cols() - 1, control_.rows() - 1);
+    const glm::dvec2 corner(control_(0, 0));
+    const glm::dvec2 by_col = (glm::dvec2(control_(control_.cols() - 1, 0)) - corner) / last.x;
+    const glm::dvec2 by_row = (glm::dvec2(control_(0, control_.rows() - 1)) - corner) / last.y;
+    const double tolerance =
+        converged_samples * std::min(glm::length(by_col) / step_.x, glm::length(by_row) / step_.y);
+    for (int row = 0; row < control_.rows(); ++row) {
+        for (int col = 0; col < control_.cols(); ++col) {
+            const glm::dvec2 plane =
+                corner + static_cast<double>(col) * by_col + static_cast<double>(row) * by_row;
+            if (!(glm::distance(plane, glm::dvec2(control_(col, row))) <= tolerance)) {
+                return;
+            }
+        }
+    }
+    const glm::dmat2 degrees(by_col, by_row);
+    if (std::abs(glm::determinant(degrees)) > 0.0) {
+        linear_inverse_ = glm::inverse(degrees);
+    }
 }
 
 GeodeticMap::Value GeodeticMap::evaluate(glm::dvec2 sample) const {
@@ -169,6 +195,11 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
                         latitude, longitude)};
     }
     const Target desired = target(latitude, longitude);
+    if (linear_inverse_) {
+        const glm::dvec2 degrees(desired.at - control_(0, 0));
+        const glm::dvec2 found = first_ + step_ * (*linear_inverse_ * degrees);
+        return glm::dvec2(found.x, rows_.closed_row(found.y));
+    }
     const auto& [first, second] = desired.directions;
     glm::dvec2 sample = middle();
     for (int iteration = 0; iteration < max_iterations; ++iteration) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <glm/mat2x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -134,10 +135,13 @@ private:
     GeodeticMap(Grid<glm::dvec3> control, glm::dvec2 first, glm::dvec2 step, Kind kind);
     [[nodiscard]] Value evaluate(glm::dvec2 sample) const;
     [[nodiscard]] Target target(double latitude, double longitude) const;
+    void find_linear_inverse();
     [[nodiscard]] glm::dvec2 middle() const;
 
     Kind kind_ = Kind::degrees;
-    Grid<glm::dvec3> control_;      // (latitude, longitude, 0) or normals, relative to base_
+    Grid<glm::dvec3> control_; // (latitude, longitude, 0) or normals, relative to base_
+    /// To control points from degrees relative to the first one: of a raster in degrees.
+    std::optional<glm::dmat2> linear_inverse_;
     glm::dvec3 base_{0.0};          // separate: keeps precision of differences
     double middle_longitude_ = 0.0; // degrees
     glm::dvec2 first_{0.0};

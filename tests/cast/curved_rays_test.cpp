@@ -128,6 +128,29 @@ TEST(CurvedRays, HitWhatTheTruthHitsInThumbnails) {
     }
 }
 
+// They do not end where they are below all ground: it may lie in front of them.
+TEST(CurvedRays, FromBelowTheGroundHitWhatTheTruthHits) {
+    for (const bool is_streamed : {false, true}) {
+        EarthStage stage({.latitude = 45.0, .turn = 20.0});
+        if (is_streamed) {
+            stage.stream();
+        }
+        stage.look({120.3, 201.7}, -2000.0, {140.0, 40.0});
+        const view::DrawnHits shown = stage.drawn(ground_size);
+        const truth::GeometricErrors found = stage.errors(shown.hits);
+        EXPECT_LE(found.wrong + found.holes + found.reprojection.unbounded,
+                  shown.hits.size() / 1000)
+            << is_streamed;
+    }
+}
+
+// Also where a corner of the terrain, which is not seen, lies at a pole.
+TEST(CurvedRays, OverATerrainThatReachesAPoleAreDrawnAwayFromIt) {
+    EarthStage stage({.latitude = 89.99, .step = 0.04});
+    stage.look({120.3, 250.0}, 5e3, {200.0, 256.0});
+    stage.expect_true("away from the pole", 0.02, ground_size);
+}
+
 TEST(CurvedRays, FromVeryFarAwayAreLeftToOpenGl) {
     EarthStage stage({});
     stage.look({120.3, 201.7}, 3e8, {140.0, 40.0});

@@ -75,13 +75,15 @@ glm::dvec2 place_of(const PictureRays& rays, glm::dvec2 pixel, double t) {
 }
 
 // Whether a ray passes tiles in another order, or one that is not there.
-bool is_out_of_order(const PictureRays& rays, const std::vector<std::size_t>& tiles,
-                     glm::dvec2 pixel) {
+bool is_out_of_order(const PictureRays& rays, const std::vector<TileAlong>& tiles, glm::dvec2 pixel,
+                     double around = 0.0) {
     auto here = tiles.begin();
     constexpr int steps = 300;
     for (int i = 0; i <= steps; ++i) {
         const double t = glm::mix(rays.range.begin, rays.range.end, i / double{steps});
-        const glm::dvec2 at = place_of(rays, pixel, t) / square;
+        glm::dvec2 at = place_of(rays, pixel, t) / square;
+        const double turn = around > 0.0 ? std::floor(at.x * square / around) : 0.0;
+        at.x -= turn * around / square;
         constexpr double near = 1e-6; // a border
         const glm::dvec2 inside = glm::fract(at);
         if (std::min({at.x, at.y, inside.x - near, inside.y - near, 1.0 - near - inside.x,
@@ -89,7 +91,7 @@ bool is_out_of_order(const PictureRays& rays, const std::vector<std::size_t>& ti
             continue;
         }
         const auto tile = static_cast<std::size_t>(std::floor(at.y) * squares + std::floor(at.x));
-        here = std::find(here, tiles.end(), tile);
+        here = std::find(here, tiles.end(), TileAlong{tile, -turn * around});
         if (here == tiles.end()) {
             return true;
         }
@@ -147,6 +149,61 @@ TEST(TileNodes, AreInTheOrderOfAllRays) {
     EXPECT_EQ(counts.turning, 0);
     EXPECT_GT(counts.turned, rounds / 100);
     EXPECT_LT(counts.moved, 1e-2);
+}
+
+// A globe of `around` columns has the same tiles again and again.
+TEST(TileNodes, OfAGlobeAreInTheOrderOfRaysAcrossItsSeam) {
+    constexpr double around = squares * square;
+    TileNodes nodes;
+    add_nodes({0, 0}, squares, nodes);
+    test::Chance chance(53);
+    int across = 0;
+    for (int round = 0; round < test::rounds(3000, 300); ++round) {
+        PictureRays rays = made_rays(chance);
+        rays.origin.first.x += 0.5 * around + around * chance.whole(-2, 2);
+        const TilesAlong along = tiles_along(nodes, rays, block, {0.0, around});
+        if (along.turns.x || along.turns.y || along.tiles.empty()) {
+            continue;
+        }
+        across += along.tiles.front().by != along.tiles.back().by ? 1 : 0;
+        for (int i = 0; i < 20; ++i) {
+            const glm::dvec2 pixel =
+                glm::dvec2(block.first) +
+                glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
+            EXPECT_FALSE(is_out_of_order(rays, along.tiles, pixel, around));
+        }
+    }
+    EXPECT_GT(across, test::rounds(300, 30));
+}
+
+// As far as the lattice shows them: rays between its places are off by their bulge.
+TEST(TileNodes, AreInTheOrderOfBentRays) {
+    TileNodes nodes;
+    add_nodes({0, 0}, squares, nodes);
+    test::Chance chance(54);
+    int in_order = 0;
+    for (int round = 0; round < test::rounds(3000, 300); ++round) {
+        PictureRays rays = made_rays(chance);
+        const glm::dvec2 middle = glm::dvec2(block.first) + 16.0;
+        for (glm::dvec3& bend : rays.direction.bends) {
+            bend = glm::dvec3(chance.between(-1e-7, 1e-7), chance.between(-1e-7, 1e-7), 0.0);
+        }
+        rays.direction.first -=
+            rays.direction.at(middle) - (rays.direction.first + middle.x * rays.direction.right +
+                                         middle.y * rays.direction.down);
+        const TilesAlong along = tiles_along(nodes, rays, block);
+        if (along.turns.x || along.turns.y) {
+            continue;
+        }
+        ++in_order;
+        for (int i = 0; i < 20; ++i) {
+            const glm::dvec2 pixel =
+                glm::dvec2(block.first) +
+                glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
+            EXPECT_FALSE(is_out_of_order(rays, along.tiles, pixel));
+        }
+    }
+    EXPECT_GT(in_order, test::rounds(1000, 100));
 }
 
 TEST(TileNodes, AreNoneBesideTheRaysOrBelowThem) {

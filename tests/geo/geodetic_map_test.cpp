@@ -142,6 +142,26 @@ TEST(GeodeticMap, AFlatMapHasNoWayBackAndSaysSo) {
     EXPECT_FALSE(map.sample(10.0, 20.0));
 }
 
+// One in degrees is inverted at once, unless it bends by what Newton's method would notice.
+TEST(GeodeticMap, InDegreesFindsItsSamplesAndThoseBesideIt) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> places(-60.0, 160.0);
+    for (const double bend : {0.0, 1e-13, 1e-9, 1e-5}) {
+        const Exact degrees = [&](glm::dvec2 s) {
+            return glm::dvec2(47.0 - 0.01 * s.y + bend * s.x * s.y,
+                              7.0 + 0.02 * s.x + 0.001 * s.y - bend * s.y * s.y);
+        };
+        const GeodeticMap map(controls(degrees, 7, 5), first, step);
+        for (int i = 0; i < 1000; ++i) {
+            const glm::dvec2 sample(places(random), places(random));
+            const glm::dvec2 place = degrees(sample);
+            const auto found = map.sample(place.x, place.y + 360.0 * (i % 3 - 1));
+            ASSERT_TRUE(found);
+            ASSERT_LT(glm::distance(*found, sample), 1e-8) << bend;
+        }
+    }
+}
+
 TEST(GeodeticMap, OfAWholeGlobeEndsAtThePoles) {
     Grid<glm::dvec2> degrees(9, 9);
     for (int row = 0; row < 9; ++row) {

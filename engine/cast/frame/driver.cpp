@@ -16,6 +16,7 @@
 
 #include "engine/cast/block_rays.h"
 #include "engine/cast/cast_hits.h"
+#include "engine/cast/frame/earth_rays.h"
 #include "engine/cast/frame/sun_light.h"
 #include "engine/core/stopwatch.h"
 #include "engine/scene/streaming/certain_sun.h"
@@ -205,9 +206,7 @@ RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, unsigned
             picture_rays(list.camera, list.size, seen.world_from_local, placement, seen.samples),
             nullptr};
     }
-    auto curve = std::make_shared<const CurvedRays>(
-        list.camera, list.size,
-        CurvedRays::Terrain{placement, seen.world_from_local, seen.local, seen.samples}, threads);
+    auto curve = earth_rays(list, seen, threads);
     PictureRays straight;
     straight.size = list.size;
     straight.range = curve->local().range;
@@ -249,6 +248,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
         PlacedTiles placed = streamed_.place(
             list, rays, {options_.threads, paints, curve != nullptr, in_parts}, stats);
         placed.curve = curve;
+        join_ends(seen, placed);
         if (paints && in_parts) {
             add_sun(list, seen, streamed_.beside(node.stream->maker(), tiles_of(list), frame.above),
                     placed);
@@ -262,6 +262,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     tile.tile = &tile_of(node, stats);
     tile.rays = rays;
     tile.seen = {{0, 0}, list.size};
+    join_ends(seen, placed);
     if (paints) {
         paint_surface(list, seen, tile, stats);
         if (node.material.technique.options.shadow) {

@@ -28,11 +28,14 @@ std::string obstacle_of(const scene::TerrainNode& terrain, const scene::Techniqu
     if (!draws_technique(technique)) {
         return fmt::format("technique {}", scene::to_string(technique));
     }
-    if (terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0) {
-        return "a streamed globe";
+    const bool is_stretched =
+        terrain.stream != nullptr && terrain.stream->maker().rows().wrap().rows() > 0;
+    if (is_stretched && !is_curved(terrain)) {
+        return "a streamed globe on a plane";
     }
-    if (is_curved(terrain) && terrain.surface->placement().columns_all_around()) {
-        return "a globe";
+    if (is_curved(terrain) && terrain.surface->placement().columns_all_around() &&
+        technique.options.shadow) {
+        return "a globe with shadows";
     }
     if (terrain.material.shader != nullptr) {
         return "a surface shader";
@@ -83,13 +86,19 @@ std::string obstacle_of(const view::DrawList& list) {
             !found.empty()) {
             return found;
         }
+        if (terrain.is_whole_globe) {
+            return list.camera.projection == scene::ProjectionKind::orthographic
+                       ? "a map of a globe"
+                       : "a globe with a pole in view";
+        }
         if (is_curved(*terrain.node) &&
-            !are_linear(list.camera, list.size, terrain.world_from_local,
-                        terrain.node->surface->placement(), terrain.local)) {
-            return "a view from so far that a block of pixels shows the bend of the Earth";
+            !show_little_bend(list.camera, list.size,
+                              {terrain.node->surface->placement(), terrain.world_from_local,
+                               terrain.local, terrain.samples})) {
+            return "a view in which 8 pixels show the bend of the Earth";
         }
         if (is_curved(*terrain.node) && casts_shadows(terrain) && bends_too_much(list, terrain)) {
-            return "a sun whose rays bend too much over so large a terrain, or so near to a pole,";
+            return "a sun whose rays bend too much over so large a terrain, or so near to a pole";
         }
     }
     return terrains.size() > 1 ? "more than one terrain" : "";
@@ -99,9 +108,8 @@ Result<void> check_support(const view::DrawList& list) {
     const std::string found = obstacle_of(list);
     return found.empty()
                ? Result<void>()
-               : Error{fmt::format("rays on the CPU: {} found, which they do not draw, but "
-                                   "exact or an error bound over one terrain; "
-                                   "--context osmesa draws the others",
+               : Error{fmt::format("rays on the CPU do not draw {} (exact or an error bound over "
+                                   "one terrain was expected); --context osmesa does",
                                    found)};
 }
 

@@ -4,8 +4,10 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
+#include "engine/cast/globe_part.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
@@ -24,9 +26,11 @@ SeenTerrain& found_or_added(std::vector<SeenTerrain>& seen, const scene::Terrain
                             const glm::dmat4& world_from_local) {
     const auto found = std::find_if(seen.begin(), seen.end(),
                                     [&](const SeenTerrain& one) { return one.node == node; });
-    return found != seen.end()
-               ? *found
-               : seen.emplace_back(SeenTerrain{node, world_from_local, {}, {}, false});
+    return found != seen.end() ? *found
+                               : seen.emplace_back(SeenTerrain{.node = node,
+                                                               .world_from_local = world_from_local,
+                                                               .local = {},
+                                                               .samples = {}});
 }
 
 void add_tile(SeenTerrain& seen, const scene::TerrainTile& tile) {
@@ -50,7 +54,102 @@ void add_surface(SeenTerrain& seen) {
     }
 }
 
+// Rows that are equally far apart, without those at poles; where there is none, all.
+Interval rows_between_poles(const scene::TerrainSurface& surface) {
+    constexpr double pole = 90.0 - 1e-9; // degrees: 0.1 mm
+    constexpr double all = std::numeric_limits<double>::infinity();
+    const glm::dvec2 latitudes = *surface.placement().latitudes_all_around();
+    return {latitudes.y > pole ? 1.0 : -all,
+            latitudes.x < -pole ? surface.heightfield().heights.rows() - 2.0 : all};
+}
+
+// Cells of tiles at a pole may be shorter than others.
+void leave_out_ends(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
+                    Interval& rows) {
+    const terrain::TileLattice lattice = builder.lattice(tile.id);
+    const geo::GlobalWrap& wrap = lattice.rows.wrap();
+    const auto row_at = [&](int vertex) {
+        return builder.on_overview(lattice.first + lattice.step * glm::dvec2(vertex)).y;
+    };
+    if (wrap.north_rows() > 0 && lattice.first.y <= 0.0) {
+        rows.begin = std::max(rows.begin, row_at(1));
+    }
+    if (wrap.south_rows() > 0 && lattice.last.y >= builder.tree().rows() - 1.0) {
+        rows.end = std::min(rows.end, row_at(lattice.cells.y - 1));
+    }
+}
+
+// `rows`: those that are equally far apart.
+void leave_out_far_side(const scene::Camera& camera, Interval rows, SeenTerrain& seen) {
+    const terrain::Placement& placement = seen.node->surface->placement();
+    seen.columns_around = *placement.columns_all_around();
+    const auto part = camera.projection == scene::ProjectionKind::perspective
+                          ? globe_part(placement,
+                                       glm::dvec3(glm::inverse(seen.world_from_local) *
+                                                  glm::dvec4(camera.eye, 1.0)),
+                                       seen.samples, rows)
+                          : std::nullopt;
+    seen.is_whole_globe = !part;
+    if (part) {
+        seen.local = part->local;
+        seen.samples = part->samples;
+    }
+}
+
+// The rows of a terrain in memory whose tiles are drawn. Tiles that are left out are not seen.
+void leave_out_unseen_rows(const view::DrawList& list, SeenTerrain& seen) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.terrain == seen.node && draw.tile->borrows) {
+            low = std::min(low, static_cast<double>(draw.tile->first.y));
+            high = std::max(high, static_cast<double>(draw.tile->first.y + draw.tile->cells.y));
+        }
+    }
+    if (low < high) {
+        seen.samples.low.y = std::max(seen.samples.low.y, low);
+        seen.samples.high.y = std::min(seen.samples.high.y, high);
+    }
+}
+
+void find_part_of_globe(const view::DrawList& list, SeenTerrain& seen) {
+    const scene::TerrainSurface& surface = *seen.node->surface;
+    if (!is_curved(*seen.node) || !surface.placement().columns_all_around()) {
+        return;
+    }
+    Interval rows = rows_between_poles(surface);
+    for (const scene::TerrainTile* const tile : tiles_in(list, *seen.node)) {
+        leave_out_ends(seen.node->stream->maker(), *tile, rows);
+    }
+    if (!seen.has_tiles) {
+        leave_out_unseen_rows(list, seen);
+    }
+    leave_out_far_side(list.camera, rows, seen);
+}
+
 } // namespace
+
+std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
+                                                const scene::TerrainNode& terrain) {
+    std::vector<const scene::TerrainTile*> tiles;
+    const auto add = [&](const scene::TerrainTile& tile) {
+        if (!tile.borrows) {
+            tiles.push_back(&tile);
+        }
+    };
+    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
+        if (draw->terrain == &terrain) {
+            std::for_each(draw->search->tiles.begin(), draw->search->tiles.end(),
+                          [&](const auto& tile) { add(*tile); });
+        }
+    }
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.terrain == &terrain) {
+            add(*draw.tile);
+        }
+    }
+    return tiles;
+}
 
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
     std::vector<SeenTerrain> seen;
@@ -65,6 +164,7 @@ std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
     }
     for (SeenTerrain& terrain : seen) {
         add_surface(terrain);
+        find_part_of_globe(list, terrain);
     }
     return seen;
 }

@@ -20,7 +20,16 @@ struct SeenTerrain {
     Box local;              ///< around all ground that is drawn, metres
     Box samples;            ///< the same in samples of the terrain's surface and metres of height
     bool has_tiles = false; ///< those of a stream, not the samples of its surface
+    /// On the ellipsoid, of a terrain that covers all longitudes: its columns; else 0. The boxes
+    /// are then those of what the eye may see.
+    double columns_around = 0.0;
+    /// Of such a terrain: the boxes are those of all ground. It is a map, or a pole may be seen.
+    bool is_whole_globe = false;
 };
+
+/// Its streamed tiles in a list, drawn or searched.
+std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
+                                                const scene::TerrainNode& terrain);
 
 /// The terrains of a list, each once.
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list);

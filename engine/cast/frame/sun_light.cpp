@@ -88,29 +88,6 @@ Box tile_box(const scene::TileBuilder& builder, const scene::TerrainTile& tile) 
     return box;
 }
 
-// The tiles of a terrain in a list, drawn or searched.
-std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
-                                                const SeenTerrain& seen) {
-    std::vector<const scene::TerrainTile*> tiles;
-    const auto add = [&](const scene::TerrainTile& tile) {
-        if (!tile.borrows) {
-            tiles.push_back(&tile);
-        }
-    };
-    for (const view::TerrainDraw* const draw : view::searched_terrains(list)) {
-        if (draw->terrain == seen.node) {
-            std::for_each(draw->search->tiles.begin(), draw->search->tiles.end(),
-                          [&](const auto& tile) { add(*tile); });
-        }
-    }
-    for (const view::TileDraw& draw : list.tiles) {
-        if (draw.terrain == seen.node) {
-            add(*draw.tile);
-        }
-    }
-    return tiles;
-}
-
 // Those above others.
 std::set<terrain::TreeTile> parents_of(std::span<const scene::TerrainTile* const> tiles,
                                        int top_level) {
@@ -131,7 +108,7 @@ SunCourse::Ground ground_of(const view::DrawList& list, const SeenTerrain& seen)
         return {seen.samples, seen.samples};
     }
     const scene::TileStream& stream = *seen.node->stream;
-    const std::vector<const scene::TerrainTile*> tiles = tiles_in(list, seen);
+    const std::vector<const scene::TerrainTile*> tiles = tiles_in(list, *seen.node);
     const auto parents = parents_of(tiles, stream.tree().root().level);
     const Grid<float>& overview = seen.node->surface->heightfield().heights;
     const terrain::MinMax total = seen.node->surface->pyramid().total();
@@ -193,7 +170,7 @@ std::vector<std::shared_ptr<const scene::TerrainTile>> tiles_above(const view::D
         }
         const scene::TileStream& stream = *seen.node->stream;
         for (const terrain::TreeTile id :
-             parents_of(tiles_in(list, seen), stream.tree().root().level)) {
+             parents_of(tiles_in(list, *seen.node), stream.tree().root().level)) {
             if (auto tile = stream.find(id)) {
                 above.push_back(std::move(tile));
             }

@@ -200,13 +200,16 @@ public:
     Placer(const view::DrawList& list, const PictureRays& rays,
            const TileContents::Options& options, float lowest)
         : list_(list), rays_(rays), options_(options), draw_(list.tiles.front()),
-          builder_(draw_.terrain->stream->maker()), zero_(builder_.from_overview(glm::dvec2(0.0))),
-          scale_(builder_.from_overview(glm::dvec2(1.0)) - zero_),
+          builder_(draw_.terrain->stream->maker()),
+          scale_(builder_.from_overview(glm::dvec2(2.0)) - builder_.from_overview(glm::dvec2(1.0))),
+          zero_(builder_.from_overview(glm::dvec2(1.0)) - scale_),
           last_(builder_.sample(builder_.tree().root(),
                                 builder_.tree().cells(builder_.tree().root()))),
           metres_(draw_.terrain->surface->placement().spacing() / scale_),
           seen_(list, draw_.terrain->surface->placement(), list.world_from_local(draw_)),
-          lowest_(lowest), is_outside_(is_outside()) {}
+          lowest_(lowest), is_outside_(is_outside()),
+          seam_(options.is_curved && builder_.tree().wraps_longitude() ? west_wall | east_wall
+                                                                       : 0U) {}
 
     [[nodiscard]] std::vector<TilePiece> pieces(const view::TileDraw& draw) const {
         return pieces_of(builder_.lattice(draw.tile->id), last_, from());
@@ -232,7 +235,7 @@ public:
         tile.scale = scale_ / piece.step;
         tile.by = (zero_ - piece.first) / piece.step;
         tile.rays = options_.is_curved ? rays_ : in_samples(rays_, tile.scale, tile.by);
-        tile.walls = piece.walls;
+        tile.walls = piece.walls | seam_;
         tile.first = piece.first;
         tile.step = piece.step;
         tile.seen = options_.is_curved ? seen_.of_local(local_box(draw, piece, samples.total()))
@@ -292,13 +295,14 @@ private:
     const TileContents::Options& options_;
     const view::TileDraw& draw_;
     const scene::TileBuilder& builder_;
-    glm::dvec2 zero_; // sample of the terrain at the overview's first
-    glm::dvec2 scale_;
-    glm::dvec2 last_;   // sample of the terrain
+    glm::dvec2 scale_; // samples of the terrain in one of the overview
+    glm::dvec2 zero_;  // sample of the terrain at the overview's first; a pole's row lies elsewhere
+    glm::dvec2 last_;  // sample of the terrain
     glm::dvec2 metres_; // of a sample of the terrain
     SeenPixels seen_;
     float lowest_;
     bool is_outside_;
+    unsigned seam_; // walls of a globe, at the other end of which rays go on
 };
 
 // Where the pieces of a drawn tile meet, and their nodes.

@@ -38,17 +38,22 @@ struct TileSamples {
 };
 
 /// The rays of a block of pixels in floats: sample coordinates relative to a base, t relative to
-/// the anchor. Linear in the offset of the pixel from the block's middle.
+/// the anchor. Linear in the offset of the pixel from the block's middle, or of second degree.
 struct BlockRays {
     struct Vectors {
         glm::vec3 middle{0.0F};
         glm::vec3 right{0.0F};
         glm::vec3 down{0.0F};
+        /// Factors of right², right · down and down².
+        std::array<glm::vec3, 3> bends{};
+        bool is_bent = false;      ///< else these are 0
+        glm::vec3 half_beam{0.0F}; ///< half the extent of a beam in the block, at most
     };
     glm::ivec2 base{0};       ///< col, row
     float base_height = 0.0F; ///< metres
     Vectors origin;
     Vectors direction;
+    float speed = 0.0F;   ///< samples along columns or rows for a t of 1, of any ray at most
     float begin = 0.0F;   ///< of t
     float end = 0.0F;     ///< of t
     float lowest = 0.0F;  ///< metres above the base height: no surface is below, despite rounding

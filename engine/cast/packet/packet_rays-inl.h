@@ -197,9 +197,19 @@ struct PixelOffsets {
     Floats down;
 
     [[nodiscard]] HWY_INLINE Floats of(const BlockRays::Vectors& vectors, int component) const {
-        return hn::MulAdd(
+        const Floats linear = hn::MulAdd(
             down, all(vectors.down[component]),
             hn::MulAdd(right, all(vectors.right[component]), all(vectors.middle[component])));
+        return vectors.is_bent ? hn::Add(linear, bend_of(vectors, component)) : linear;
+    }
+
+private:
+    [[nodiscard]] HWY_INLINE Floats bend_of(const BlockRays::Vectors& vectors,
+                                            int component) const {
+        const auto factor = [&](std::size_t i)
+                                HWY_ATTR { return all(vectors.bends[i][component]); };
+        const Floats by_right = hn::MulAdd(right, factor(0), hn::Mul(down, factor(1)));
+        return hn::MulAdd(right, by_right, hn::Mul(hn::Mul(down, down), factor(2)));
     }
 };
 
@@ -301,16 +311,11 @@ struct BeamAxis {
     BeamSide high;
 };
 
-HWY_INLINE float half_of(const BlockRays::Vectors& vectors, int axis) {
-    return 0.5F * (static_cast<float>(beam_cols) * std::abs(vectors.right[axis]) +
-                   static_cast<float>(beam_rows) * std::abs(vectors.down[axis]));
-}
-
 HWY_INLINE BeamAxis beam_axis(const BlockRays& block, const PixelOffsets& middles, int axis) {
     const Floats origin = middles.of(block.origin, axis);
     const Floats direction = middles.of(block.direction, axis);
-    const Floats wider = all(half_of(block.origin, axis));
-    const Floats opening = all(half_of(block.direction, axis));
+    const Floats wider = all(block.origin.half_beam[axis]);
+    const Floats opening = all(block.direction.half_beam[axis]);
     return {{hn::Sub(origin, wider), hn::Sub(direction, opening)},
             {hn::Add(origin, wider), hn::Add(direction, opening)}};
 }
@@ -333,15 +338,9 @@ HWY_INLINE Beams beams_of(const BlockRays& block, int first) {
         middle(hn::And(number, all(beams_a_row - 1)), beam_cols),
         middle(hn::ShiftRight<std::countr_zero(static_cast<unsigned>(beams_a_row))>(number),
                beam_rows)};
-    const float steps = 0.5F * static_cast<float>(block_side);
-    const auto speed = [&](int axis) {
-        return std::abs(block.direction.middle[axis]) +
-               steps *
-                   (std::abs(block.direction.right[axis]) + std::abs(block.direction.down[axis]));
-    };
     constexpr float slowest = 1e-25F;
     return {beam_axis(block, middles, 0), beam_axis(block, middles, 1),
-            beam_axis(block, middles, 2).low, 1.0F / std::max({speed(0), speed(1), slowest})};
+            beam_axis(block, middles, 2).low, 1.0F / std::max(block.speed, slowest)};
 }
 
 // Bounds of the cells that the beams may touch, and of their heights, on a piece of their way.

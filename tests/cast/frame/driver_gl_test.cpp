@@ -434,8 +434,8 @@ TEST(CastDriver, NamesWhatItCannotDrawAndWhatDraws) {
     EXPECT_EQ(reason_against(stage.scene), "");
     stage.use({scene::Texture{}});
     EXPECT_EQ(reason_against(stage.scene),
-              "rays on the CPU: technique texture found, which they do not draw, but exact or an "
-              "error bound over one terrain; --context osmesa draws the others");
+              "rays on the CPU do not draw technique texture (exact or an error bound over one "
+              "terrain was expected); --context osmesa does");
     scene::Technique shadowed{scene::Exact{}};
     shadowed.options.shadow = scene::Shadow{};
     stage.use(shadowed);

@@ -1,0 +1,256 @@
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "engine/cast/frame/driver.h"
+#include "engine/cast/globe_part.h"
+#include "engine/core/bilinear.h"
+#include "engine/truth/draw.h"
+#include "engine/truth/geometric_error.h"
+#include "tests/gl/gl_fixture.h"
+#include "tests/render/made_scene.h"
+#include "tests/render/made_stream.h"
+#include "tests/scene/streaming/streamed_samples.h"
+#include "tests/support/release_only.h"
+#include "tests/terrain/chance.h"
+#include "tests/terrain/made_heightfield.h"
+
+namespace reljef::cast {
+namespace {
+
+constexpr glm::ivec2 globe_size{160, 120};
+
+// An eye above a globe.
+struct GlobeView {
+    double latitude = 0.0;  // degrees
+    double longitude = 0.0; // degrees
+    double above = 1e5;     // metres above the ellipsoid
+    double azimuth = 0.0;   // degrees
+    double down = 30.0;     // degrees below the horizontal
+};
+
+// All longitudes from 60 degrees north to 60 degrees south.
+terrain::Heightfield belt() {
+    constexpr double step = 0.6; // degrees
+    constexpr int cols = 600;
+    constexpr int rows = 201;
+    terrain::Heightfield ground = test::geographic_heightfield(
+        test::random_heights(cols, rows, -9000.0F, 9000.0F, 12), 60.0, -180.0, step);
+    const geo::GlobalWrap wrap{.around = true, .east = true};
+    ground.georeference->geodetic = ground.georeference->geodetic.closed(wrap, cols, rows);
+    const Grid<float> source = std::move(ground.heights);
+    ground.heights = test::made_heights(cols + 1, rows,
+                                        [&](int col, int row) { return source(col % cols, row); });
+    return ground;
+}
+
+class GlobeStage {
+public:
+    glm::ivec2 size = globe_size;
+
+    GlobeStage(double north, double south, bool is_streamed)
+        : GlobeStage(test::closed_globe(300, north, south, 11), is_streamed) {}
+    GlobeStage(terrain::Heightfield heightfield, bool is_streamed, double exaggeration = 1.0) {
+        terrain_ = &test::add_terrain(
+            scene_, std::move(heightfield), {},
+            {.placement = terrain::PlacementKind::ellipsoid, .exaggeration = exaggeration});
+        scene::Polygons bounded;
+        bounded.error = is_streamed ? 1e-6 : 1.0; // all samples
+        auto& node = *terrain_->get<scene::TerrainNode>();
+        node.material.technique = scene::Technique{bounded};
+        if (is_streamed) {
+            test::stream_samples(node, test::SeenLevels::finest);
+        }
+        camera_ = &scene_.add_camera({});
+    }
+
+    void look(const GlobeView& view) {
+        const terrain::Placement& placement = test::surface_of(*terrain_).placement();
+        scene::Camera camera;
+        camera.eye =
+            placement.world_from_geodetic({view.latitude, view.longitude, view.above}).value();
+        const glm::dvec3 up = placement.up(camera.eye);
+        const glm::dvec3 north = placement.north(camera.eye);
+        const glm::dvec3 east = glm::cross(north, up);
+        const double azimuth = glm::radians(view.azimuth);
+        const double down = glm::radians(view.down);
+        camera.target =
+            camera.eye +
+            1e5 * (std::cos(down) * (std::cos(azimuth) * north + std::sin(azimuth) * east) -
+                   std::sin(down) * up);
+        camera.up = up;
+        camera.near = 10.0;
+        *camera_->get<scene::Camera>() = camera;
+        render::bring_tiles(scene_, size);
+    }
+    void look_at_map() {
+        scene::Camera& camera = *camera_->get<scene::Camera>();
+        camera.projection = scene::ProjectionKind::orthographic;
+        camera.view_height = 1e6;
+        render::bring_tiles(scene_, size);
+    }
+    [[nodiscard]] std::string obstacle() const {
+        return obstacle_of(view::select(scene_, size).list);
+    }
+    [[nodiscard]] view::DrawnHits drawn(const RaySkips& skips = {}, unsigned threads = 0) const {
+        Driver driver =
+            test::must(Driver::create({.size = size, .threads = threads, .skips = skips}));
+        return test::must(driver.draw_hits(view::select(scene_, size)));
+    }
+    [[nodiscard]] truth::GeometricErrors errors(const HitBuffer& shown) const {
+        const scene::TerrainSurface& surface = test::surface_of(*terrain_);
+        const truth::SurfaceView view{surface.heightfield().heights.view(), surface.placement(),
+                                      terrain_->world_from_local(), scene_.camera()};
+        return test::must(
+            truth::geometric_errors(view, shown, test::must(truth::draw_hits(scene_, size))));
+    }
+
+private:
+    scene::Scene scene_;
+    scene::Node* terrain_ = nullptr;
+    scene::Node* camera_ = nullptr;
+};
+
+void expect_true(const GlobeStage& stage, const std::string& name) {
+    ASSERT_EQ(stage.obstacle(), "") << name;
+    const view::DrawnHits shown = stage.drawn();
+    const truth::GeometricErrors found = stage.errors(shown.hits);
+    ASSERT_TRUE(found.reprojection.distribution && shown.stats.kept_error) << name;
+    EXPECT_GT(found.reprojection.distribution->count, shown.hits.size() / 20) << name;
+    EXPECT_LE(found.wrong + found.holes + found.reprojection.unbounded, shown.hits.size() / 2000)
+        << name;
+    EXPECT_LT(found.reprojection.distribution->p99, 0.01) << name;
+    EXPECT_LT(found.reprojection.distribution->p99, *shown.stats.kept_error) << name;
+}
+
+// Across its seam, at middle latitudes and the equator, from the ground to space.
+TEST(GlobeRays, HitWhatTheTruthHits) {
+    for (const bool is_streamed : {false, true}) {
+        GlobeStage stage(0.5, 0.5, is_streamed);
+        for (const GlobeView& view :
+             {GlobeView{0.0, 179.9, 2e4, 90.0, 5.0}, GlobeView{47.0, -179.8, 1e5, 270.0, 20.0},
+              GlobeView{-30.0, 179.5, 1e6, 20.0, 60.0}, GlobeView{10.0, 7.0, 2e6, 200.0, 50.0}}) {
+            stage.look(view);
+            expect_true(stage,
+                        fmt::format("{}, {} degrees, {} m above, {}", view.latitude, view.longitude,
+                                    view.above, is_streamed ? "streamed" : "whole"));
+        }
+    }
+}
+
+// Beams and blocks are only skipped where bent rays cannot hit.
+TEST(GlobeRays, HitTheSameWithoutSkips) {
+    GlobeStage stage(0.5, 0.5, true);
+    stage.look({-30.0, 179.5, 1e6, 20.0, 60.0});
+    const view::DrawnHits shown = stage.drawn();
+    const RaySkips none{false, false, false, false, false};
+    const HitBuffer all = stage.drawn(none).hits;
+    const HitBuffer of_one_thread = stage.drawn({}, 1).hits;
+    for (std::size_t i = 0; i < shown.hits.size(); ++i) {
+        const Hit& here = shown.hits.samples()[i];
+        for (const Hit& there : {all.samples()[i], of_one_thread.samples()[i]}) {
+            EXPECT_TRUE((here.is_sky() && there.is_sky()) ||
+                        (here.col == there.col && here.row == there.row))
+                << i;
+        }
+    }
+}
+
+// Ground without poles is seen on both sides of one, where columns are half a turn apart.
+TEST(GlobeRays, HitWhatTheTruthHitsBehindAPoleWithoutGround) {
+    for (const bool is_streamed : {false, true}) {
+        GlobeStage stage(belt(), is_streamed);
+        stage.size *= 4;
+        for (const GlobeView& view :
+             {GlobeView{58.0, 20.0, 2e7, 3.0, 80.0}, GlobeView{50.0, 179.9, 6e6, 350.0, 55.0}}) {
+            stage.look(view);
+            expect_true(stage, fmt::format("{} degrees, {}", view.latitude,
+                                           is_streamed ? "streamed" : "whole"));
+        }
+    }
+}
+
+TEST(GlobeRays, HitWhatTheTruthHitsOnExaggeratedGround) {
+    GlobeStage stage(test::closed_globe(300, 0.5, 0.5, 11), false, 3.0);
+    stage.look({10.0, 179.9, 2e5, 100.0, 10.0});
+    expect_true(stage, "three times as high");
+}
+
+TEST(GlobeRays, AreLeftToOpenGlWhereAPoleIsSeen) {
+    for (const bool is_streamed : {false, true}) {
+        GlobeStage stage(0.5, 1.0, is_streamed);
+        for (const GlobeView& view :
+             {GlobeView{85.0, 20.0, 4e5, 0.0, 80.0}, GlobeView{-85.0, 20.0, 4e5, 180.0, 80.0},
+              GlobeView{45.0, 20.0, 1e7, 0.0, 80.0}}) {
+            stage.look(view);
+            EXPECT_EQ(stage.obstacle(), "a globe with a pole in view") << view.latitude;
+        }
+        GlobeStage fine(test::closed_globe(900, 0.5, 0.5, 14), is_streamed); // has small tiles
+        fine.look({40.0, 20.0, 6e6, 180.0, 40.0});                           // it lies behind
+        expect_true(fine, is_streamed ? "streamed, from a pole" : "from a pole");
+        stage.look_at_map();
+        EXPECT_EQ(stage.obstacle(), "a map of a globe");
+    }
+}
+
+// A place is seen if no lower ground hides it: if the way to the eye does not meet an ellipsoid.
+bool may_see(glm::dvec3 eye, glm::dvec3 place, glm::dvec3 radii) {
+    const glm::dvec3 from = eye / radii;
+    const glm::dvec3 way = place / radii - from;
+    const double nearest = glm::clamp(-glm::dot(from, way) / glm::dot(way, way), 0.0, 1.0);
+    return glm::length(from + nearest * way) >= 1.0;
+}
+
+TEST(GlobePart, HasAllThatAnEyeMaySee) {
+    const terrain::Heightfield globe = test::closed_globe(180, 0.5, 0.5, 12);
+    const terrain::Placement placement = test::placed(globe);
+    const double around = *placement.columns_all_around();
+    Box all;
+    all.add(glm::dvec3(0.0, 0.0, -500.0));
+    all.add(glm::dvec3(globe.heights.cols() - 1.0, globe.heights.rows() - 1.0, 8000.0));
+    const glm::dvec2 earth = geo::radii_of_earth();
+    const glm::dvec3 radii = glm::dvec3(earth.x, earth.x, earth.y) - 500.0;
+    test::Chance chance(13);
+    int parts = 0;
+    int seen = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 eye =
+            placement
+                .world_from_geodetic({chance.between(-80.0, 80.0), chance.between(-180.0, 180.0),
+                                      std::pow(10.0, chance.between(1.0, 6.7))})
+                .value();
+        const auto part = globe_part(placement, eye, all, {1.0, globe.heights.rows() - 2.0});
+        parts += part ? 1 : 0;
+        for (int j = 0; part && j < 30; ++j) {
+            const glm::dvec3 near =
+                glm::mix(eye,
+                         placement.world_from_sample(
+                             {chance.between(0.0, around), chance.between(0.0, all.high.y), 0.0}),
+                         std::pow(10.0, chance.between(-3.0, 0.0)));
+            glm::dvec3 sample = placement.sample_from_world(near).value();
+            sample.z = chance.between(-500.0, 8000.0);
+            const glm::dvec3 place = placement.world_from_sample(sample);
+            const geo::LocalFrame& frame = *placement.frame();
+            if (!may_see(frame.geocentric_from_local(eye), frame.geocentric_from_local(place),
+                         radii)) {
+                continue;
+            }
+            ++seen;
+            sample.x += around * std::round((part->samples.center().x - sample.x) / around);
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(place, part->local.low)) &&
+                        glm::all(glm::lessThanEqual(place, part->local.high)));
+            EXPECT_TRUE(sample.x >= part->samples.low.x && sample.x <= part->samples.high.x &&
+                        sample.y >= part->samples.low.y && sample.y <= part->samples.high.y)
+                << sample.x << ' ' << sample.y;
+        }
+    }
+    EXPECT_GT(parts, 1500);
+    EXPECT_GT(seen, 5000);
+}
+
+} // namespace
+} // namespace reljef::cast
