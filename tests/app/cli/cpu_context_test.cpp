@@ -86,7 +86,7 @@ TEST_F(CpuContext, RefusesInOneSentenceWhatItCannotDraw) {
         return render(options);
     };
     test::expect_refusal(with({urban_, "--technique", "texture"}), 1,
-                         {"technique texture found", "--context osmesa"});
+                         {"do not draw technique texture", "--context osmesa"});
     test::expect_refusal(with({test::small_terrain(folder_, "gallery"), "--textures", "cobble"}), 1,
                          {"a mesh with technique", "--context osmesa"});
     test::expect_refusal(with({urban_, "--samples", "3"}), 2, {"--samples", "3", "16"});

@@ -74,7 +74,7 @@ TEST(SurfaceShaderInPictures, ComesFromOptionsAndSceneFiles) {
     const test::ProgramResult refused = test::reljef(
         {"render", shaded, "--context", "cpu", "-o", (folder.path() / "a.png").string()});
     EXPECT_NE(refused.exit_code, 0);
-    EXPECT_THAT(refused.err, HasSubstr("a surface shader found"));
+    EXPECT_THAT(refused.err, HasSubstr("do not draw a surface shader"));
 }
 
 } // namespace

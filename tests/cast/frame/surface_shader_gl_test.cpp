@@ -179,7 +179,7 @@ TEST_F(SurfaceShaderGlTest, IsNotForRaysAndChangesNoHit) {
     Driver driver = test::must(Driver::create({.size = overlay_picture}));
     const auto drawn = driver.draw(view::select(stage.scene, overlay_picture));
     ASSERT_FALSE(drawn);
-    EXPECT_THAT(drawn.error().message, testing::HasSubstr("a surface shader found"));
+    EXPECT_THAT(drawn.error().message, testing::HasSubstr("do not draw a surface shader"));
     const auto hits_of = [](ShadedStage& shown) {
         shown.node().material.technique = {scene::Relief{}};
         session::SceneRenderer opengl = test::must(test::make_renderer(overlay_picture));
