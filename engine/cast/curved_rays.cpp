@@ -197,7 +197,7 @@ private:
     void make_track(double begin) {
         constexpr int max_tries = 4;
         double length = std::min(rays_.track_length(begin), end_ - begin);
-        last_track_ = std::move(track_);
+        last_track_ = track_;
         track_.reset();
         for (int i = 0; i < max_tries && !track_ && length > 0.0; ++i) {
             track_ = FanTrack::create(
@@ -274,9 +274,8 @@ private:
             length_ *= 2.0;
             return true;
         }
-        if ((was_above_ && box.high.z < surface_.low.z) ||
-            (is_above_inside_ && box.high.z < ground.begin)) {
-            is_done_ = true;
+        is_done_ = has_ended(box, ground);
+        if (is_done_) {
             return true;
         }
         const double off = glm::length(chord * metres_) / rays_.tolerance_at(halfway.t);
@@ -292,6 +291,12 @@ private:
         add(from, to, chord);
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
+    }
+
+    // Whether rays that were above the ground are below it. `ground`: in the box.
+    [[nodiscard]] bool has_ended(const Box& box, Interval ground) const {
+        return (was_above_ && box.high.z < surface_.low.z) ||
+               (is_above_inside_ && box.high.z < ground.begin);
     }
 
     // Between the chords of the rays and the rays halfway.

@@ -27,7 +27,7 @@ public:
         const PictureRays::Vectors to = places_at(rays, rays.range.end);
         const PictureRays::Vectors anchor = places_at(rays, rays.anchor);
         const glm::dvec2 part = glm::dvec2(block.size) / static_cast<double>(side_);
-        const auto count = static_cast<std::size_t>((side_ + 1) * (side_ + 1));
+        const std::size_t count = places_a_row() * places_a_row();
         begin_.reserve(count);
         end_.reserve(count);
         for (int row = 0; row <= side_; ++row) {
@@ -71,10 +71,13 @@ private:
         return farthest;
     }
 
+    [[nodiscard]] std::size_t places_a_row() const { return static_cast<std::size_t>(side_) + 1; }
+
     // In order around the part.
     [[nodiscard]] std::array<std::size_t, 4> corners_of(glm::ivec2 part) const {
-        const auto first = static_cast<std::size_t>(part.y * (side_ + 1) + part.x);
-        const std::size_t below = first + static_cast<std::size_t>(side_) + 1;
+        const std::size_t first =
+            static_cast<std::size_t>(part.y) * places_a_row() + static_cast<std::size_t>(part.x);
+        const std::size_t below = first + places_a_row();
         return {first, first + 1, below + 1, below};
     }
 

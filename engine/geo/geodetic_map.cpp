@@ -213,7 +213,7 @@ Result<glm::dvec2> GeodeticMap::sample(double latitude, double longitude) const 
         const glm::dvec2 step =
             glm::inverse(jacobian) * glm::dvec2(glm::dot(miss, first), glm::dot(miss, second));
         sample += step;
-        if (!std::isfinite(sample.x) || !std::isfinite(sample.y)) {
+        if (!std::isfinite(sample.x + sample.y)) {
             break;
         }
         if (std::abs(step.x) <= converged_samples && std::abs(step.y) <= converged_samples) {

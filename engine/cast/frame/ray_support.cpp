@@ -74,6 +74,32 @@ std::string obstacle_of(const scene::MeshNode& mesh) {
                : "a mesh whose texture ends or is seen from behind";
 }
 
+namespace {
+
+// Of what is seen of a terrain.
+std::string obstacle_in_view(const view::DrawList& list, const SeenTerrain& terrain) {
+    if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique); !found.empty()) {
+        return found;
+    }
+    if (terrain.is_whole_globe) {
+        return list.camera.projection == scene::ProjectionKind::orthographic
+                   ? "a map of a globe"
+                   : "a globe with a pole in view";
+    }
+    if (is_curved(*terrain.node) &&
+        !show_little_bend(list.camera, list.size,
+                          {terrain.node->surface->placement(), terrain.world_from_local,
+                           terrain.local, terrain.samples})) {
+        return "a view in which 8 pixels show the bend of the Earth";
+    }
+    if (is_curved(*terrain.node) && casts_shadows(terrain) && bends_too_much(list, terrain)) {
+        return "a sun whose rays bend too much over so large a terrain, or so near to a pole";
+    }
+    return {};
+}
+
+} // namespace
+
 std::string obstacle_of(const view::DrawList& list) {
     for (const view::MeshDraw& mesh : list.meshes) {
         if (auto found = obstacle_of(*mesh.mesh); !found.empty()) {
@@ -82,23 +108,8 @@ std::string obstacle_of(const view::DrawList& list) {
     }
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     for (const SeenTerrain& terrain : terrains) {
-        if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique);
-            !found.empty()) {
+        if (auto found = obstacle_in_view(list, terrain); !found.empty()) {
             return found;
-        }
-        if (terrain.is_whole_globe) {
-            return list.camera.projection == scene::ProjectionKind::orthographic
-                       ? "a map of a globe"
-                       : "a globe with a pole in view";
-        }
-        if (is_curved(*terrain.node) &&
-            !show_little_bend(list.camera, list.size,
-                              {terrain.node->surface->placement(), terrain.world_from_local,
-                               terrain.local, terrain.samples})) {
-            return "a view in which 8 pixels show the bend of the Earth";
-        }
-        if (is_curved(*terrain.node) && casts_shadows(terrain) && bends_too_much(list, terrain)) {
-            return "a sun whose rays bend too much over so large a terrain, or so near to a pole";
         }
     }
     return terrains.size() > 1 ? "more than one terrain" : "";
