@@ -99,6 +99,18 @@ bool is_out_of_order(const PictureRays& rays, const std::vector<TileAlong>& tile
     return false;
 }
 
+glm::dvec2 pixel_in_block(test::Chance& chance) {
+    return glm::dvec2(block.first) +
+           glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
+}
+
+void expect_in_order(const PictureRays& rays, const TilesAlong& along, test::Chance& chance,
+                     double around = 0.0) {
+    for (int i = 0; i < 20; ++i) {
+        EXPECT_FALSE(is_out_of_order(rays, along.tiles, pixel_in_block(chance), around));
+    }
+}
+
 struct Counts {
     int turned = 0;  // blocks
     int wrong = 0;   // rays
@@ -122,9 +134,7 @@ void check_order(const TileNodes& nodes, const PictureRays& rays, test::Chance& 
         counts.turning += found.turns.x || found.turns.y ? 1 : 0;
         const int count = counts.turned > turned ? 400 : 20; // few rays of a block turn
         for (int i = 0; i < count; ++i) {
-            const glm::dvec2 pixel =
-                glm::dvec2(block.first) +
-                glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
+            const glm::dvec2 pixel = pixel_in_block(chance);
             counts.wrong += is_out_of_order(part, found.tiles, pixel) ? 1 : 0;
             for (const double t : {part.range.begin, part.range.end}) {
                 counts.moved = std::max(counts.moved, glm::distance(place_of(part, pixel, t),
@@ -166,12 +176,7 @@ TEST(TileNodes, OfAGlobeAreInTheOrderOfRaysAcrossItsSeam) {
             continue;
         }
         across += along.tiles.front().by != along.tiles.back().by ? 1 : 0;
-        for (int i = 0; i < 20; ++i) {
-            const glm::dvec2 pixel =
-                glm::dvec2(block.first) +
-                glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
-            EXPECT_FALSE(is_out_of_order(rays, along.tiles, pixel, around));
-        }
+        expect_in_order(rays, along, chance, around);
     }
     EXPECT_GT(across, test::rounds(300, 30));
 }
@@ -196,12 +201,7 @@ TEST(TileNodes, AreInTheOrderOfBentRays) {
             continue;
         }
         ++in_order;
-        for (int i = 0; i < 20; ++i) {
-            const glm::dvec2 pixel =
-                glm::dvec2(block.first) +
-                glm::dvec2(chance.between(0.0, 32.0), chance.between(0.0, 32.0));
-            EXPECT_FALSE(is_out_of_order(rays, along.tiles, pixel));
-        }
+        expect_in_order(rays, along, chance);
     }
     EXPECT_GT(in_order, test::rounds(1000, 100));
 }
