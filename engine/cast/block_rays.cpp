@@ -140,11 +140,25 @@ std::optional<double> start_of(const RayTile& tile, const PictureRays& rays,
     return start < rays.range.end ? std::optional(start) : std::nullopt;
 }
 
-// Those of a part of the block; the others hit nothing.
+// The pixels of a beam in a part of it: bits of BlockJob::lanes.
+std::uint16_t lanes_of(const PixelBlock& part) {
+    unsigned lanes = 0;
+    for (int row = part.first.y; row < part.first.y + part.size.y; ++row) {
+        for (int col = part.first.x; col < part.first.x + part.size.x; ++col) {
+            lanes |= 1U << static_cast<unsigned>(row % beam_rows * beam_cols + col % beam_cols);
+        }
+    }
+    return static_cast<std::uint16_t>(lanes);
+}
+
+// Those of a part of the block, of whole beams or in one; the others hit nothing.
 void start_beams(const PixelBlock& part, BlockJob& job) {
     job.has_starts = true;
     job.starts.fill(std::numeric_limits<float>::infinity());
     const glm::ivec2 end = part.first + part.size;
+    if (part.size.x < beam_cols || part.size.y < beam_rows) {
+        job.lanes = lanes_of(part);
+    }
     for (int row = part.first.y; row < end.y; row += beam_rows) {
         for (int col = part.first.x; col < end.x; col += beam_cols) {
             const int beam = row / beam_rows * beams_a_row + col / beam_cols;
@@ -244,10 +258,10 @@ private:
             return;
         }
         if (piece.rays.origin.is_bent() || piece.rays.direction.is_bent()) {
-            add_quarters(piece, walls);
+            add_parts(piece, walls);
             return;
         }
-        const auto tolerance = [&](double t) { return placed_.curve->unseen_samples(t); };
+        const auto tolerance = [&](double t) { return placed_.curve->unseen_samples(piece, t); };
         for (const PictureRays& rays :
              without_turns(piece.rays, piece.block, all.turns, tolerance)) {
             add_all(along(rays).tiles, rays, walls, piece.block);
@@ -255,15 +269,18 @@ private:
         }
     }
 
-    // Fewer rays have one order more often. Those of a beam without one become linear.
-    void add_quarters(const RayPiece& piece, unsigned walls) {
+    // Fewer rays have one order more often. Those of a pixel without one become linear.
+    void add_parts(const RayPiece& piece, unsigned walls) {
         constexpr glm::ivec2 beam(beam_cols, beam_rows);
-        const glm::ivec2 size = glm::max(piece.block.size / 2, beam);
-        for (int row = 0; row < piece.block.size.y; row += size.y) {
-            for (int col = 0; col < piece.block.size.x; col += size.x) {
+        const glm::ivec2 whole = piece.block.size;
+        const bool is_last = whole == glm::ivec2(1) || (whole.x <= beam.x && whole.y <= beam.y &&
+                                                        placed_.curve->is_linear(piece));
+        const glm::ivec2 size = is_last ? whole : part_size(whole);
+        for (int row = 0; row < whole.y; row += size.y) {
+            for (int col = 0; col < whole.x; col += size.x) {
                 RayPiece part = piece;
                 part.block = {piece.block.first + glm::ivec2(col, row), size};
-                if (piece.block.size == beam) {
+                if (is_last) {
                     part.rays = made_linear(part.rays, part.block.first, size);
                 }
                 add_piece(part, walls);

@@ -18,6 +18,7 @@
 #include "engine/cast/sun_course.h"
 #include "engine/cast/tile_nodes.h"
 #include "engine/core/parallel_for.h"
+#include "engine/geo/georeference.h"
 
 namespace reljef::cast {
 
@@ -34,7 +35,8 @@ struct PlacedTile {
     std::span<const std::int32_t> certain_sun = {}; ///< BlockJob::certain_sun; may be empty
     int certain_stride = 0;
     unsigned walls = 0; ///< BlockJob::walls
-    /// Sample of the terrain = first + step · sample of the tile.
+    /// Sample of the terrain with even rows (PlacedTiles::rows) = first + step · sample of the
+    /// tile.
     glm::dvec2 first{0.0};
     glm::dvec2 step{1.0};
     PixelBlock seen; ///< no other pixel shows it
@@ -60,8 +62,9 @@ struct PlacedTiles {
     double wall_floor = -std::numeric_limits<double>::infinity();
     /// Not null: the tiles are on the ellipsoid.
     std::shared_ptr<const CurvedRays> curve;
-    TileNodes nodes; ///< on the ellipsoid, of several tiles or a globe
-    Interval turn;   ///< of a globe: columns of the curved rays after which it begins anew
+    TileNodes nodes;       ///< on the ellipsoid, of several tiles or a globe
+    Interval turn;         ///< of a globe: columns of the curved rays after which it begins anew
+    geo::WrappedRows rows; ///< of the terrain
     /// Of rays to the sun on the ellipsoid; null: these are straight, or there are none.
     std::shared_ptr<const SunCourse> sun_course;
 };

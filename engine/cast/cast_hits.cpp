@@ -14,11 +14,12 @@ namespace reljef::cast {
 namespace {
 
 // A hit, or sky.
-Hit hit_in(const BlockHits& hits, const PlacedTile& tile, const BlockRays& rays,
-           std::size_t pixel) {
+Hit hit_in(const BlockHits& hits, const PlacedTile& tile, const geo::WrappedRows& rows,
+           const BlockRays& rays, std::size_t pixel) {
     const glm::dvec2 place(hits.col[pixel] + static_cast<double>(hits.col_part[pixel]),
                            hits.row[pixel] + static_cast<double>(hits.row_part[pixel]));
-    return hit_at(tile.first + tile.step * place,
+    const glm::dvec2 sample = tile.first + tile.step * place;
+    return hit_at({sample.x, rows.from_even_row(sample.y)},
                   static_cast<double>(rays.base_height) + hits.height[pixel],
                   tile.rays.anchor + hits.t[pixel]);
 }
@@ -43,8 +44,8 @@ public:
                     static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
                 if (found.t[pixel] < std::numeric_limits<float>::infinity()) {
                     const auto job = static_cast<std::size_t>(found.job[pixel]);
-                    hits_(block.first.x + col, block.first.y + row) =
-                        hit_in(found, placed_.tiles[tiles[job]], jobs[job].rays, pixel);
+                    hits_(block.first.x + col, block.first.y + row) = hit_in(
+                        found, placed_.tiles[tiles[job]], placed_.rows, jobs[job].rays, pixel);
                 }
             }
         }

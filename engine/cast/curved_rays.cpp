@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -22,9 +21,8 @@
 namespace reljef::cast {
 namespace {
 
-constexpr double chord_error = 0.005;  // pixels
-constexpr double order_error = 0.002;  // where borders of tiles are passed in one direction
-constexpr double largest_error = 0.25; // of beams
+constexpr double chord_error = 0.005; // pixels
+constexpr double order_error = 0.002; // where borders of tiles are passed in one direction
 // Shares of the error that polynomials of the map and along rays may have; the chords have the
 // rest.
 constexpr double share_of_map = 0.2;
@@ -32,73 +30,36 @@ constexpr double share_of_track = 0.1;
 constexpr double track_terms = 7.0;    // of a FanTrack's polynomials
 constexpr double earth_radius = 6.4e6; // metres
 
-constexpr double far_away = std::numeric_limits<double>::infinity();
-
-// Blocks in which rays are not linear in the pixel are quartered, down to the pixels of beams.
-constexpr glm::ivec2 smallest_block(beam_cols, beam_rows);
-constexpr double fan_error = 0.005; // pixels, of larger blocks
+constexpr double fan_error = 0.005; // pixels, of blocks of several pixels
 
 bool has_eye(const scene::Camera& camera) {
     return camera.projection == scene::ProjectionKind::perspective;
 }
 
-// The largest tangent of a latitude: parallels bend by it. Of a globe's part, or of the box around
-// a terrain: its own corners may be at a pole, far from what is seen.
-double parallel_bend(const CurvedRays::Terrain& terrain) {
-    const terrain::Placement& placement = terrain.placement;
-    const bool is_globe = placement.columns_all_around().has_value();
-    const Box& box = is_globe ? terrain.samples : terrain.local;
-    double largest = 0.0;
-    for (const double x : {box.low.x, box.high.x}) {
-        for (const double y : {box.low.y, box.high.y}) {
-            const glm::dvec3 corner(x, y, box.center().z);
-            const auto place = placement.geodetic_from_world(
-                is_globe ? placement.world_from_sample(corner) : corner);
-            largest = std::max(largest, place ? std::abs(std::tan(glm::radians(place->latitude)))
-                                              : far_away);
-        }
-    }
-    return largest;
-}
-
-// Of a column, a row and a metre of height, at most.
-glm::dvec3 metres_of(const terrain::Placement& placement, const Box& samples) {
-    constexpr int steps = 16;
-    constexpr double part = 0.5; // of a sample
-    glm::dvec3 metres(0.0, 0.0, placement.exaggeration());
-    for (int i = 0; i <= steps; ++i) {
-        for (int j = 0; j <= steps; ++j) {
-            const glm::dvec3 at(glm::dvec2(samples.low) + glm::dvec2(samples.size()) *
-                                                              glm::dvec2(i, j) /
-                                                              static_cast<double>(steps),
-                                samples.high.z);
-            const glm::dvec3 here = placement.world_from_sample(at);
-            for (int axis = 0; axis < 2; ++axis) {
-                glm::dvec3 beside = at;
-                beside[axis] += part;
-                const double way = glm::distance(placement.world_from_sample(beside), here);
-                metres[axis] = std::max(metres[axis], way / part);
-            }
-        }
-    }
-    return metres;
-}
-
 } // namespace
 
+// Quarters, down to the pixels of a beam; then halves and rows, down to a pixel.
+glm::ivec2 part_size(glm::ivec2 size) {
+    constexpr glm::ivec2 beam(beam_cols, beam_rows);
+    const bool is_beam = size.x <= beam.x && size.y <= beam.y;
+    return is_beam ? glm::max(size / 2, glm::ivec2(1)) : glm::max(size / 2, beam);
+}
+
 CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
-                       unsigned threads)
+                       const Options& options)
     : local_(local_rays(camera, size, terrain.world_from_local, terrain.local)), terrain_(terrain),
+      middles_only_(options.middles_only),
       depths_(depths_of(terrain.local, local_, has_eye(camera))),
-      metres_(metres_of(terrain.placement, terrain.samples)),
-      columns_around_(terrain.placement.columns_all_around().value_or(0.0)),
+      earth_(terrain.placement, terrain.rows, terrain.samples),
+      is_globe_(terrain.placement.columns_all_around().has_value()),
+      columns_around_(terrain.placement.columns_all_around().value_or(earth_.columns_around())),
       pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
     width_ = block_side * pixel_at(depths_.end);
     constexpr double share = share_of_map * chord_error;
-    map_.emplace(terrain.placement,
+    map_.emplace(earth_,
                  SampleMap::Ground{terrain.local, terrain.samples, width_,
                                    has_eye(camera) ? local_.origin.first : terrain.local.center()},
-                 SampleMap::Tolerance{share * pixel_.x, share * pixel_.y}, threads);
+                 SampleMap::Tolerance{share * pixel_.x, share * pixel_.y}, options.threads);
     const int rows = (size.y + block_side - 1) / block_side;
     const int count = cols_ * rows;
     blocks_.resize(static_cast<std::size_t>(count));
@@ -107,7 +68,7 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
                      const glm::ivec2 first = block_side * glm::ivec2(index % cols_, index / cols_);
                      cut({first, glm::ivec2(block_side)}, blocks_[static_cast<std::size_t>(index)]);
                  },
-                 {.threads = threads, .stop = {}, .progress = {}});
+                 {.threads = options.threads, .stop = {}, .progress = {}});
     for (const std::vector<RayPiece>& pieces : blocks_) {
         for (const RayPiece& piece : pieces) {
             error_ = std::max(error_, piece.error);
@@ -116,13 +77,34 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
     error_ += (share_of_map + share_of_track) * chord_error + order_error;
 }
 
-glm::dvec2 CurvedRays::unseen_samples(double t) const {
-    return order_error * pixel_at(t) / (std::numbers::sqrt2 * glm::dvec2(metres_));
+glm::dvec2 CurvedRays::unseen_samples(const RayPiece& piece, double t) const {
+    return order_error * pixel_at(t) / (std::numbers::sqrt2 * glm::dvec2(piece.metres));
+}
+
+bool CurvedRays::is_linear(const RayPiece& piece) const {
+    const auto off = [&](double t) {
+        const glm::dvec3 bulge = places_at(piece.rays, t).bulge(glm::dvec2(piece.block.size));
+        return 0.5 * glm::length(bulge * piece.metres) / pixel_at(t);
+    };
+    const Interval depths = piece.rays.range;
+    return std::max(off(depths.begin), off(depths.end)) <= order_error;
 }
 
 std::optional<glm::dvec3> CurvedRays::sample_at(glm::dvec2 pixel, double t) const {
     const glm::dvec3 place = local_.origin.at(pixel) + t * local_.direction.at(pixel);
     return map_->at(place, share_of_map * chord_error * pixel_at(t));
+}
+
+// Columns around the Earth between a box and the terrain: one turn, or two, one after the other.
+// Tiles of a globe follow its turns by themselves.
+Interval CurvedRays::turns_of(const Box& box) const {
+    if (is_globe_ || !(columns_around_ > 0.0)) {
+        return {0.0, 0.0};
+    }
+    const auto turn_at = [&](double col) {
+        return columns_around_ * std::round((col - terrain_.samples.center().x) / columns_around_);
+    };
+    return {turn_at(box.low.x), turn_at(box.high.x)};
 }
 
 double CurvedRays::tolerance_at(double t) const {
@@ -134,8 +116,10 @@ double CurvedRays::pixel_at(double t) const {
 }
 
 // Of polynomials along rays.
-bool CurvedRays::is_unseen(glm::dvec3 difference, double t) const {
-    return glm::length(difference * metres_) <= share_of_track * chord_error * pixel_at(t);
+bool CurvedRays::is_unseen(glm::dvec3 found, glm::dvec3 sample, double t) const {
+    const Interval rows{std::min(found.y, sample.y), std::max(found.y, sample.y)};
+    return glm::length((found - sample) * earth_.metres(rows)) <=
+           share_of_track * chord_error * pixel_at(t);
 }
 
 // Of polynomials of this degree, on an Earth whose map is as smooth as it is itself.
@@ -148,23 +132,36 @@ double CurvedRays::track_length(double t) const {
 class CurvedRays::Pieces {
 public:
     Pieces(const CurvedRays& rays, const PixelBlock& block)
-        : rays_(rays), block_(block), surface_(rays.terrain_.samples) {}
+        : rays_(rays), block_(block),
+          middle_(glm::dvec2(block.first) + 0.5 * glm::dvec2(block.size)),
+          surface_(rays.terrain_.samples) {
+        if (block.size != glm::ivec2(block_side)) { // a part, as two degrees were not enough
+            degree_ = degree_after(FanDegree::linear);
+        }
+    }
 
     // Empty: smaller blocks are needed.
     std::optional<std::vector<RayPiece>> run(Interval range) {
         end_ = range.end;
         untracked_until_ = range.begin;
-        from_ = fan_at(range.begin);
+        col_ = surface_.center().x;
+        if (const auto middle = sample_of_(middle_, range.begin)) {
+            col_ = middle->x;
+        }
+        begin_at(fan_at(range.begin));
         length_ = first_length(range.begin);
-        was_above_ = from_ && rays_.terrain_.begins_above && is_inside(from_->box);
-        is_above_inside_ = was_above_ && is_over_ground(from_->box);
+        if (from_ && rays_.terrain_.begins_above) {
+            const Interval turns = rays_.turns_of(from_->box);
+            was_above_ = is_inside(from_->box, turns);
+            is_above_inside_ = was_above_ && is_over_ground(from_->box, turns);
+        }
         while (range.begin < range.end && !is_done_) {
             range.begin = advance(range);
-            if (is_too_large_ && degree_ == FanDegree::second) {
+            if (is_too_large_ && degree_ == FanDegree::second && !is_pixel()) {
                 return std::nullopt;
             }
             if (is_too_large_) {
-                bend_from(range.begin);
+                change_degree(range.begin);
             }
         }
         return std::move(pieces_);
@@ -176,12 +173,15 @@ private:
             make_track(t);
         }
         const FanTrack* const track = track_at(t);
-        std::optional<RayFan> fan =
-            track != nullptr ? track->fan(t) : ray_fan(block_, degree_, t, sample_of_);
-        if (fan) {
-            col_ = fan->samples.front().x;
+        return track != nullptr ? track->fan(t) : ray_fan(block_, degree_, t, sample_of_);
+    }
+
+    // That of the ray in the middle: those at the borders of a block may pass a pole exactly.
+    void begin_at(std::optional<RayFan> fan) {
+        from_ = std::move(fan);
+        if (from_) {
+            col_ = from_->samples[from_->middle()].x;
         }
-        return fan;
     }
 
     [[nodiscard]] const FanTrack* track_at(double t) const {
@@ -200,22 +200,30 @@ private:
         last_track_ = track_;
         track_.reset();
         for (int i = 0; i < max_tries && !track_ && length > 0.0; ++i) {
-            track_ = FanTrack::create(
-                block_, degree_, {begin, begin + length}, sample_of_,
-                [&](glm::dvec3 difference, double t) { return rays_.is_unseen(difference, t); });
+            track_ = FanTrack::create(block_, degree_, {begin, begin + length}, sample_of_,
+                                      [&](glm::dvec3 found, glm::dvec3 sample, double t) {
+                                          return rays_.is_unseen(found, sample, t);
+                                      });
             length *= 0.5;
         }
         untracked_until_ = track_ ? begin : begin + length;
     }
 
-    // Rays are of second degree from here on.
-    void bend_from(double t) {
-        degree_ = FanDegree::second;
+    [[nodiscard]] bool is_pixel() const { return block_.size == glm::ivec2(1); }
+
+    [[nodiscard]] FanDegree degree_after(FanDegree degree) const {
+        const bool is_bent = degree == FanDegree::second || (is_pixel() && rays_.middles_only_);
+        return is_bent ? FanDegree::constant : FanDegree::second;
+    }
+
+    // From here on.
+    void change_degree(double t) {
+        degree_ = degree_after(degree_);
         is_too_large_ = false;
         track_.reset();
         last_track_.reset();
         untracked_until_ = t;
-        from_ = fan_at(t);
+        begin_at(fan_at(t));
     }
 
     // Returns where what is done ends.
@@ -228,7 +236,7 @@ private:
         if (is_too_large_) {
             return range.begin;
         }
-        const double min_length = shortest(end);
+        const double min_length = (is_known ? 1e-5 : 1e-3) * (1.0 + std::abs(end));
         const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
         const bool is_done_there =
             is_known ? advance(*from_, *halfway, *to, is_shortest) : is_shortest;
@@ -237,36 +245,28 @@ private:
         if (!is_done_there) {
             return range.begin;
         }
-        from_ = to;
+        begin_at(to);
         return end;
     }
 
-    // No block is smaller, no degree higher.
-    [[nodiscard]] bool is_last() const {
-        return block_.size == smallest_block && degree_ == FanDegree::second;
-    }
+    // No rays follow the Earth better.
+    [[nodiscard]] bool is_last() const { return degree_ == FanDegree::constant; }
 
     [[nodiscard]] double first_length(double t) const {
         return std::sqrt(8.0 * earth_radius * rays_.tolerance_at(std::max(t, 1.0)));
     }
-    [[nodiscard]] static double shortest(double t) { return 1e-3 * (1.0 + std::abs(t)); }
 
     // Whether all until `to` is done; else the length is shorter.
     bool advance(const RayFan& from, const RayFan& halfway, const RayFan& to, bool is_shortest) {
         const glm::dvec3 chord = chord_of(from, halfway, to);
-        const glm::dvec3 off_samples =
-            chord + glm::max(glm::max(from.misfit, halfway.misfit), to.misfit);
-        Box box = from.box;
-        box.add(halfway.box);
-        box.add(to.box);
-        const glm::dvec3 room = 2.0 * off_samples;
-        box = {box.low - room, box.high + room};
-        const Interval ground = rays_.terrain_.heights.within(box);
+        const Box box = box_around(from, halfway, to, chord);
+        const Interval turns = rays_.turns_of(box);
+        const Interval ground = ground_in(box, turns);
         const bool has_ground = ground.begin <= ground.end;
         const bool is_over_all = box.low.z > surface_.high.z;
         const bool is_above = is_over_all || box.low.z > ground.end;
-        is_above_inside_ = has_ground && is_inside(box) && (is_above || is_above_inside_);
-        if (is_above || is_beside(box)) {
+        is_above_inside_ = has_ground && is_inside(box, turns) && (is_above || is_above_inside_);
+        if (is_above || is_beside(box, turns)) {
             was_above_ = was_above_ || is_over_all;
             const bool rises =
                 halfway.box.low.z > from.box.low.z && to.box.low.z > halfway.box.low.z;
@@ -275,20 +275,45 @@ private:
             return true;
         }
         is_done_ = has_ended(box, ground);
-        if (is_done_) {
-            return true;
-        }
-        const double off = glm::length(chord * metres_) / rays_.tolerance_at(halfway.t);
+        return is_done_ || add(from, to, {chord, rays_.earth_.metres({box.low.y, box.high.y})},
+                               turns, is_shortest);
+    }
+
+    // Around all rays of a piece.
+    [[nodiscard]] static Box box_around(const RayFan& from, const RayFan& halfway, const RayFan& to,
+                                        glm::dvec3 chord) {
+        const glm::dvec3 off = chord + glm::max(glm::max(from.misfit, halfway.misfit), to.misfit);
+        Box box = from.box;
+        box.add(halfway.box);
+        box.add(to.box);
+        const glm::dvec3 room = 2.0 * off;
+        return {box.low - room, box.high + room};
+    }
+
+    struct Chord {
+        glm::dvec3 off{0.0};    // in its middle, samples
+        glm::dvec3 metres{1.0}; // of these
+    };
+
+    // Adds a piece, unless it is too long, or the rays bend too much.
+    bool add(const RayFan& from, const RayFan& to, const Chord& chord, Interval turns,
+             bool is_shortest) {
+        const double middle = 0.5 * (from.t + to.t);
+        const double off = glm::length(chord.off * chord.metres) / rays_.tolerance_at(middle);
         if (off > 1.0 && !is_shortest) {
             length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.2, 0.8);
             return false;
         }
-        is_too_large_ =
-            !is_last() && std::max(degree_error_of(from), degree_error_of(to)) > fan_error;
+        is_too_large_ = !is_last() && std::max(degree_error_of(from, chord.metres),
+                                               degree_error_of(to, chord.metres)) > fan_error;
         if (is_too_large_) {
             return false;
         }
-        add(from, to, chord);
+        const bool is_east = to.samples[to.middle()].x > from.samples[from.middle()].x;
+        add_piece(from, to, chord, is_east ? turns.begin : turns.end);
+        if (turns.begin < turns.end) {
+            add_piece(from, to, chord, is_east ? turns.end : turns.begin);
+        }
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
     }
@@ -311,72 +336,102 @@ private:
     }
 
     // Pixels. A chord is off by 4 s (1 - s) times its middle at the part s of its length.
-    [[nodiscard]] double error_of(const RayFan& from, const RayFan& to, glm::dvec3 chord) const {
+    [[nodiscard]] double error_of(const RayFan& from, const RayFan& to, const Chord& chord) const {
         const double near = rays_.pixel_at(from.t);
         const double far = rays_.pixel_at(to.t);
-        const double off = glm::length(chord * metres_);
-        return std::min(off / near, 4.0 * off / (far - near)) +
-               std::max(misfit_of(from), misfit_of(to)) +
-               std::max(unordered_of(from), unordered_of(to));
+        const double off = glm::length(chord.off * chord.metres);
+        const double of_chord = std::min(off / near, 4.0 * off / (far - near));
+        if (degree_ == FanDegree::constant) {
+            const double in_pixel = 0.5 * std::numbers::sqrt2; // from its middle to its corner
+            return of_chord + (rays_.middles_only_ ? 0.0 : in_pixel);
+        }
+        return of_chord +
+               std::max(in_pixels(from, from.misfit, chord.metres),
+                        in_pixels(to, to.misfit, chord.metres)) +
+               std::max(unordered_of(from, chord.metres), unordered_of(to, chord.metres));
     }
-    // Of bent rays: what their order by tiles misses, or by how much those of a beam that has none
-    // are moved when they become linear.
-    [[nodiscard]] double unordered_of(const RayFan& fan) const { // pixels
+    [[nodiscard]] double in_pixels(const RayFan& fan, glm::dvec3 samples, glm::dvec3 metres) const {
+        return glm::length(samples * metres) / rays_.pixel_at(fan.t);
+    }
+    // Pixels, of bent rays: what their order by tiles misses, or by how much those of a pixel are
+    // moved when they become linear.
+    [[nodiscard]] double unordered_of(const RayFan& fan, glm::dvec3 metres) const {
         const glm::dvec2 part = glm::dvec2(block_.size) / static_cast<double>(course_parts);
-        const glm::dvec3 bulge =
-            glm::max(fan.vectors.bulge(part), 0.5 * fan.vectors.bulge(glm::dvec2(smallest_block)));
-        return glm::length(bulge * metres_) / rays_.pixel_at(fan.t);
+        return in_pixels(
+            fan, glm::max(fan.vectors.bulge(part), 0.5 * fan.vectors.bulge(glm::dvec2(1.0))),
+            metres);
     }
-    [[nodiscard]] double misfit_of(const RayFan& fan) const { // pixels
-        return glm::length(fan.misfit * metres_) / rays_.pixel_at(fan.t);
-    }
-    // Where the second degree is large, a fourth may not show at the places of a fan.
-    [[nodiscard]] double degree_error_of(const RayFan& fan) const { // pixels
+    // Pixels. Where the second degree is large, a fourth may not show at the places of a fan.
+    [[nodiscard]] double degree_error_of(const RayFan& fan, glm::dvec3 metres) const {
         constexpr double share = 1.0 / 128.0;
         const glm::dvec3 bulge = fan.vectors.bulge(glm::dvec2(block_.size));
-        return std::max(misfit_of(fan),
-                        share * glm::length(bulge * metres_) / rays_.pixel_at(fan.t));
+        return std::max(in_pixels(fan, fan.misfit, metres), share * in_pixels(fan, bulge, metres));
+    }
+
+    // A box among the terrain's own columns.
+    [[nodiscard]] static Box without_turn(const Box& box, double turn) {
+        const glm::dvec3 by(turn, 0.0, 0.0);
+        return {box.low - by, box.high - by};
+    }
+
+    // Bounds of the ground that a box may meet.
+    [[nodiscard]] Interval ground_in(const Box& box, Interval turns) const {
+        const HeightBounds& heights = rays_.terrain_.heights;
+        const Interval first = heights.within(without_turn(box, turns.begin));
+        if (turns.begin == turns.end) {
+            return first;
+        }
+        const Interval last = heights.within(without_turn(box, turns.end));
+        return {std::min(first.begin, last.begin), std::max(first.end, last.end)};
     }
 
     // Over or under the surface.
-    [[nodiscard]] bool is_inside(const Box& box) const {
-        return glm::all(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.low))) &&
-               glm::all(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.high)));
+    [[nodiscard]] bool is_inside(const Box& box, Interval turns) const {
+        const Box own = without_turn(box, turns.begin);
+        return turns.begin == turns.end &&
+               glm::all(glm::greaterThan(glm::dvec2(own.low), glm::dvec2(surface_.low))) &&
+               glm::all(glm::lessThan(glm::dvec2(own.high), glm::dvec2(surface_.high)));
     }
 
-    [[nodiscard]] bool is_over_ground(const Box& box) const {
-        const Interval ground = rays_.terrain_.heights.within(box);
+    [[nodiscard]] bool is_over_ground(const Box& box, Interval turns) const {
+        const Interval ground = ground_in(box, turns);
         return ground.begin <= ground.end && box.low.z > ground.end;
     }
 
-    [[nodiscard]] bool is_beside(const Box& box) const {
-        return glm::any(glm::lessThan(glm::dvec2(box.high), glm::dvec2(surface_.low))) ||
-               glm::any(glm::greaterThan(glm::dvec2(box.low), glm::dvec2(surface_.high)));
+    [[nodiscard]] bool is_beside(const Box& box, Interval turns) const {
+        const auto is_beside_in = [&](double turn) {
+            const Box own = without_turn(box, turn);
+            return glm::any(glm::lessThan(glm::dvec2(own.high), glm::dvec2(surface_.low))) ||
+                   glm::any(glm::greaterThan(glm::dvec2(own.low), glm::dvec2(surface_.high)));
+        };
+        return is_beside_in(turns.begin) && is_beside_in(turns.end);
     }
 
-    void add(const RayFan& from, const RayFan& to, glm::dvec3 chord) {
+    void add_piece(const RayFan& from, const RayFan& to, const Chord& chord, double turn) {
         RayPiece& piece = pieces_.emplace_back();
-        piece.rays = straight_between(from.vectors, to.vectors, {from.t, to.t}, rays_.local_);
+        piece.rays =
+            in_samples(straight_between(from.vectors, to.vectors, {from.t, to.t}, rays_.local_),
+                       glm::dvec2(1.0), {-turn, 0.0});
         piece.error = error_of(from, to, chord);
+        piece.metres = chord.metres;
         piece.block = block_;
     }
 
     const CurvedRays& rays_;
     const PixelBlock& block_;
-    // Columns of a globe are those next to the last ones.
+    glm::dvec2 middle_; // pixel
+    // Columns around the Earth are those next to where a piece begins.
     SampleOfRay sample_of_ = [this](glm::dvec2 pixel, double t) {
         auto sample = rays_.sample_at(pixel, t);
         if (sample && rays_.columns_around_ > 0.0) {
-            col_ = col_.value_or(sample->x);
             sample->x -=
-                rays_.columns_around_ * std::round((sample->x - *col_) / rays_.columns_around_);
+                rays_.columns_around_ * std::round((sample->x - col_) / rays_.columns_around_);
         }
         return sample;
     };
-    std::optional<double> col_;
+    double col_ = 0.0; // where a piece begins
     FanDegree degree_ = FanDegree::linear;
     const Box& surface_;
-    glm::dvec3 metres_ = rays_.metres_;
     double length_ = 0.0;
     bool was_above_ = false;
     bool is_above_inside_ = false; // was above the ground, and beside none since
@@ -405,25 +460,12 @@ void CurvedRays::cut(const PixelBlock& block, std::vector<RayPiece>& pieces) con
         pieces.insert(pieces.end(), found->begin(), found->end());
         return;
     }
-    const glm::ivec2 size = glm::max(block.size / 2, smallest_block);
+    const glm::ivec2 size = part_size(block.size);
     for (int row = 0; row < block.size.y; row += size.y) {
         for (int col = 0; col < block.size.x; col += size.x) {
             cut({block.first + glm::ivec2(col, row), size}, pieces);
         }
     }
-}
-
-bool show_little_bend(const scene::Camera& camera, glm::ivec2 size,
-                      const CurvedRays::Terrain& terrain) {
-    const PictureRays rays = local_rays(camera, size, terrain.world_from_local, terrain.local);
-    const glm::dvec2 pixel(view::metres_a_pixel(camera, size));
-    const double depth = depths_of(terrain.local, rays, has_eye(camera)).end;
-    const double width = smallest_block.x * (pixel.x + pixel.y * std::max(depth, 0.0));
-    // The middle of a block above the chord between its sides, and beside that of a parallel. Rays
-    // of second degree follow it, but for about a third of the angle by which it bends.
-    const double angle = (1.0 + parallel_bend(terrain)) * width / earth_radius;
-    const double off = angle * smallest_block.x / 8.0;
-    return off * std::min(angle / 3.0, 1.0) <= largest_error;
 }
 
 } // namespace reljef::cast

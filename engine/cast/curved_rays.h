@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/cast/beam.h"
+#include "engine/cast/earth_map.h"
 #include "engine/cast/height_bounds.h"
 #include "engine/cast/packet/block_kernel.h"
 #include "engine/cast/picture_rays.h"
@@ -22,30 +23,38 @@ namespace reljef::cast {
 
 /// The rays of a block of pixels between two depths, straight in samples.
 struct RayPiece {
-    PixelBlock block;   ///< of whole beams
-    PictureRays rays;   ///< over the range
-    double error = 0.0; ///< how far these are off at checked places, pixels
+    PixelBlock block;       ///< of whole beams, or in one
+    PictureRays rays;       ///< over the range
+    double error = 0.0;     ///< how far these are off at checked places, pixels
+    glm::dvec3 metres{1.0}; ///< of a column, a row and a metre of height there, at most
 };
+
+/// The size of the parts of a block of rays that bend too much together, pixels.
+glm::ivec2 part_size(glm::ivec2 size);
 
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
 /// of a block of pixels are cut into pieces, each so short that its chords have no visible error.
 /// Where the rays of a block are not linear in the pixel, they are of second degree, and where that
-/// is not enough, the block is divided.
+/// is not enough, the block is divided, down to one ray for all of a pixel.
 class CurvedRays {
 public:
     struct Terrain {
         terrain::Placement placement;
         glm::dmat4 world_from_local{1.0};
         Box local;   ///< around the surface, metres
-        Box samples; ///< the same in samples and metres of height
+        Box samples; ///< the same in samples with even rows (EarthMap), and metres of height
         HeightBounds heights = {};
-        bool begins_above = true; ///< rays that begin over or under the ground begin over it
+        bool begins_above = true;   ///< rays that begin over or under the ground begin over it
+        geo::WrappedRows rows = {}; ///< of the placement's georeference
     };
 
-    /// `threads`: 0: one per hardware thread. Preconditions: an invertible transform, a placement
-    /// on the ellipsoid.
+    struct Options {
+        unsigned threads = 0;      ///< 0: one per hardware thread
+        bool middles_only = false; ///< no other rays of the pixels are cast
+    };
+    /// Preconditions: an invertible transform, a placement on the ellipsoid.
     CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
-               unsigned threads);
+               const Options& options);
 
     /// Of all parts of the block, one after the other; of each, front to back. They cover all of
     /// the surface that the block may show.
@@ -58,8 +67,10 @@ public:
     /// rays that are linear in the pixel, and the map.
     [[nodiscard]] double error() const { return error_; }
 
-    /// By which rays may be moved at a depth, along both axes: error() counts it.
-    [[nodiscard]] glm::dvec2 unseen_samples(double t) const;
+    /// By which rays of a piece may be moved at a depth, along both axes: error() counts it.
+    [[nodiscard]] glm::dvec2 unseen_samples(const RayPiece& piece, double t) const;
+    /// Whether linear rays (made_linear) are as good as those of a piece.
+    [[nodiscard]] bool is_linear(const RayPiece& piece) const;
 
     [[nodiscard]] const PictureRays& local() const { return local_; }
 
@@ -68,27 +79,25 @@ private:
 
     void cut(const PixelBlock& block, std::vector<RayPiece>& pieces) const;
     [[nodiscard]] std::optional<glm::dvec3> sample_at(glm::dvec2 pixel, double t) const;
-    [[nodiscard]] bool is_unseen(glm::dvec3 difference, double t) const; // samples
+    [[nodiscard]] bool is_unseen(glm::dvec3 found, glm::dvec3 sample, double t) const;
+    [[nodiscard]] Interval turns_of(const Box& box) const;
     [[nodiscard]] double track_length(double t) const;
     [[nodiscard]] double tolerance_at(double t) const; // of chords, metres
     [[nodiscard]] double pixel_at(double t) const;     // metres
 
     PictureRays local_;
     Terrain terrain_;
-    Interval depths_;        // of the surface
-    glm::dvec3 metres_{1.0}; // of a column, a row and a metre of height, at most
+    bool middles_only_;
+    Interval depths_; // of the surface
+    EarthMap earth_;
     std::optional<SampleMap> map_;
-    double columns_around_; // of a globe; else 0
+    bool is_globe_;
+    double columns_around_; // the Earth; 0 where columns are no meridians
     glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
     double width_ = 0.0;    // of a whole block at the farthest surface, metres
     int cols_;              // of blocks
     std::vector<std::vector<RayPiece>> blocks_;
     double error_ = 0.0;
 };
-
-/// Whether the pixels of a beam show so little of the curved Earth that rays of second degree in
-/// the pixel follow it.
-bool show_little_bend(const scene::Camera& camera, glm::ivec2 size,
-                      const CurvedRays::Terrain& terrain);
 
 } // namespace reljef::cast

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "engine/cast/earth_map.h"
 #include "engine/geo/georeference.h"
 
 namespace reljef::cast {
@@ -17,7 +17,7 @@ namespace {
 // All places in directions up to an angle from an eye's, between two distances from the centre of
 // the Earth. Along its axis the Earth is stretched to a sphere of radius 1: lines stay straight.
 struct Cap {
-    glm::dvec3 to_eye{0.0}; // unit
+    glm::dvec3 middle{0.0}; // unit: below the eye
     double angle = 0.0;     // radians
     Interval radii;
 };
@@ -33,28 +33,34 @@ double turn_of_vertical() {
     return 2.0 * (1.0 - radii.y / radii.x);
 }
 
-// As far as a ray that touches the lowest ground meets the highest. `heights`: metres above the
-// ellipsoid.
-std::optional<Cap> seen_cap(glm::dvec3 eye, Interval heights) {
-    const glm::dvec3 scaled = eye / radii_of_axes();
+// From the centre of the stretched Earth. `heights`: metres above the ellipsoid.
+Interval stretched(Interval heights) {
     const double polar = geo::radii_of_earth().y;
-    const Interval radii{1.0 + std::min(heights.begin, 0.0) / polar,
-                         1.0 + std::max(heights.end, 0.0) / polar};
-    const double distance = glm::length(scaled);
-    if (!(radii.begin > 0.0 && distance > radii.begin)) {
-        return std::nullopt;
-    }
+    return {1.0 + std::min(heights.begin, 0.0) / polar, 1.0 + std::max(heights.end, 0.0) / polar};
+}
+
+// As far as a ray that touches the lowest ground meets the highest. `to_lowest`: the angle from the
+// middle to where it touches. `heights`: metres above the ellipsoid.
+Cap cap_around(glm::dvec3 middle, double to_lowest, Interval heights) {
+    const double polar = geo::radii_of_earth().y;
+    const Interval radii = stretched(heights);
     const double off_ground = std::max(-heights.begin, heights.end) / polar;
-    return Cap{scaled / distance,
-               std::acos(radii.begin / distance) + std::acos(radii.begin / radii.end) +
-                   off_ground * turn_of_vertical(),
-               radii};
+    return {middle,
+            to_lowest + std::acos(radii.begin / radii.end) + off_ground * turn_of_vertical(),
+            radii};
+}
+
+// Metres above the ellipsoid.
+Interval heights_of(const terrain::Placement& placement, const Box& samples) {
+    const terrain::HeightRange zeros = placement.zero_range();
+    const double exaggeration = placement.exaggeration();
+    return {exaggeration * samples.low.z + zeros.low, exaggeration * samples.high.z + zeros.high};
 }
 
 // How far a cap reaches along a vector, in both directions.
 Interval extent_of(const Cap& cap, glm::dvec3 along) {
     const double length = glm::length(along);
-    const double angle = std::acos(std::clamp(glm::dot(along, cap.to_eye) / length, -1.0, 1.0));
+    const double angle = std::acos(std::clamp(glm::dot(along, cap.middle) / length, -1.0, 1.0));
     const double nearest = std::cos(std::max(angle - cap.angle, 0.0));
     const double farthest = std::cos(std::min(angle + cap.angle, std::numbers::pi));
     return {length * farthest * (farthest < 0.0 ? cap.radii.end : cap.radii.begin),
@@ -83,15 +89,17 @@ double latitude_of(double reduced) {
 }
 
 struct Extent {
-    double south = -90.0; // degrees
+    double middle = 0.0; // latitude, degrees
+    double south = -90.0;
     double north = 90.0;
-    double half_width = 360.0; // longitudes beside the eye's; twice around
+    double half_width = 360.0; // longitudes beside the middle's; twice around
 };
 
 Extent seen_extent(const Cap& cap) {
-    const double eye = std::asin(std::clamp(cap.to_eye.z, -1.0, 1.0));
+    const double eye = std::asin(std::clamp(cap.middle.z, -1.0, 1.0));
     constexpr double pole = 0.5 * std::numbers::pi;
     Extent found;
+    found.middle = latitude_of(eye);
     if (eye + cap.angle < pole) {
         found.north = latitude_of(eye + cap.angle);
     }
@@ -104,39 +112,51 @@ Extent seen_extent(const Cap& cap) {
     return found;
 }
 
+GlobePart part_of(const Cap& cap, const EarthMap& earth, const Box& samples) {
+    const terrain::Placement& placement = earth.placement();
+    const Extent seen = seen_extent(cap);
+    const glm::dvec2 ground = *placement.latitudes_all_around();
+    const double longitude = glm::degrees(std::atan2(cap.middle.y, cap.middle.x));
+    const auto sample_at = [&](double latitude) {
+        const double inside = std::clamp(latitude, ground.x, ground.y);
+        return *earth.sample(*placement.world_from_geodetic({inside, longitude, 0.0}));
+    };
+    const double col = sample_at(seen.middle).x;
+    const double half_width = *placement.columns_all_around() * seen.half_width / 360.0;
+    const double first = seen.north < ground.y ? sample_at(seen.north).y : samples.low.y;
+    const double last = seen.south > ground.x ? sample_at(seen.south).y : samples.high.y;
+    GlobePart part;
+    part.local = local_box(cap, *placement.frame());
+    part.has_pole = seen.half_width > 180.0;
+    part.samples.add(glm::dvec3(col - half_width, first, samples.low.z));
+    part.samples.add(glm::dvec3(col + half_width, std::max(last, first + 1.0), samples.high.z));
+    return part;
+}
+
 } // namespace
 
-std::optional<GlobePart> globe_part(const terrain::Placement& placement, glm::dvec3 eye,
-                                    const Box& samples, Interval rows) {
+std::optional<GlobePart> globe_part_from(glm::dvec3 eye, const terrain::Placement& placement,
+                                         const geo::WrappedRows& rows, const Box& samples) {
+    const Interval heights = heights_of(placement, samples);
+    const glm::dvec3 scaled = placement.frame()->geocentric_from_local(eye) / radii_of_axes();
+    const double lowest = stretched(heights).begin;
+    const double distance = glm::length(scaled);
+    if (!(lowest > 0.0 && distance > lowest)) {
+        return std::nullopt;
+    }
+    const Cap cap = cap_around(scaled / distance, std::acos(lowest / distance), heights);
+    return part_of(cap, EarthMap(placement, rows, samples), samples);
+}
+
+GlobePart globe_part_along(glm::dvec3 direction, const terrain::Placement& placement,
+                           const geo::WrappedRows& rows, const Box& samples) {
     const geo::LocalFrame& frame = *placement.frame();
-    const terrain::HeightRange zeros = placement.zero_range();
-    const double exaggeration = placement.exaggeration();
-    const auto cap =
-        seen_cap(frame.geocentric_from_local(eye), {exaggeration * samples.low.z + zeros.low,
-                                                    exaggeration * samples.high.z + zeros.high});
-    const auto below_eye = placement.sample_from_world(eye);
-    if (!cap || !below_eye) {
-        return std::nullopt;
-    }
-    const Extent seen = seen_extent(*cap);
-    const glm::dvec2 ground = *placement.latitudes_all_around();
-    const double longitude = placement.geodetic_from_world(eye)->longitude;
-    const auto row_at = [&](double latitude) {
-        const auto world = placement.world_from_geodetic({latitude, longitude, 0.0});
-        const auto sample = world ? placement.sample_from_world(*world) : std::nullopt;
-        return sample ? sample->y : std::numeric_limits<double>::quiet_NaN();
-    };
-    const double first = seen.north < ground.y ? row_at(seen.north) : samples.low.y;
-    const double last = seen.south > ground.x ? row_at(seen.south) : samples.high.y;
-    if (!(first >= rows.begin && last <= rows.end && first < last)) {
-        return std::nullopt;
-    }
-    const double half_width = *placement.columns_all_around() * seen.half_width / 360.0;
-    GlobePart part;
-    part.local = local_box(*cap, frame);
-    part.samples.add(glm::dvec3(below_eye->x - half_width, first, samples.low.z));
-    part.samples.add(glm::dvec3(below_eye->x + half_width, last, samples.high.z));
-    return part;
+    const glm::dvec3 way =
+        (frame.geocentric_from_local(direction) - frame.geocentric_from_local(glm::dvec3(0.0))) /
+        radii_of_axes();
+    const Cap cap =
+        cap_around(-glm::normalize(way), 0.5 * std::numbers::pi, heights_of(placement, samples));
+    return part_of(cap, EarthMap(placement, rows, samples), samples);
 }
 
 } // namespace reljef::cast

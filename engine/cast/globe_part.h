@@ -5,23 +5,28 @@
 #include <glm/vec3.hpp>
 
 #include "engine/core/geometry.h"
+#include "engine/geo/georeference.h"
 #include "engine/terrain/field/placement.h"
 
 namespace reljef::cast {
 
-/// What an eye may see of a terrain that covers all longitudes, up to its horizon. No pole is seen:
-/// all columns meet there.
+/// What may be seen of a terrain that covers all longitudes, up to the horizon.
 struct GlobePart {
     Box local; ///< around the ground, metres
-    /// Columns continue beyond the terrain's; where ground behind a pole may be seen, they go twice
-    /// around.
+    /// Columns continue beyond the terrain's; where a pole or ground behind one may be seen, they
+    /// go twice around.
     Box samples;
+    bool has_pole = false; ///< may be seen
 };
 
-/// `eye`: local metres. `samples`: of all ground, and metres of height. `rows`: those between which
-/// rows are equally far apart. Empty: the eye is below the ground, or sees beyond these rows.
-/// Preconditions: a placement on the ellipsoid, whose columns go all around.
-std::optional<GlobePart> globe_part(const terrain::Placement& placement, glm::dvec3 eye,
-                                    const Box& samples, Interval rows);
+/// `samples`: of all ground, with even rows (EarthMap), and metres of height. `eye`: local metres.
+/// Empty: the eye is below all ground. Preconditions: a placement on the ellipsoid, whose columns
+/// go all around.
+std::optional<GlobePart> globe_part_from(glm::dvec3 eye, const terrain::Placement& placement,
+                                         const geo::WrappedRows& rows, const Box& samples);
+
+/// The same for parallel rays. `direction`: local.
+GlobePart globe_part_along(glm::dvec3 direction, const terrain::Placement& placement,
+                           const geo::WrappedRows& rows, const Box& samples);
 
 } // namespace reljef::cast

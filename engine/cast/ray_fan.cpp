@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -21,9 +22,20 @@ constexpr std::array<glm::dvec2, max_fan_places> places{
     glm::dvec2(0.0, -1.0),  glm::dvec2(-0.5, -0.5), glm::dvec2(0.5, -0.5), glm::dvec2(-0.5, 0.5),
     glm::dvec2(0.5, 0.5)};
 
-std::size_t place_count(FanDegree degree) {
-    constexpr std::size_t linear_places = 7;
-    return degree == FanDegree::linear ? linear_places : places.size();
+constexpr std::size_t linear_places = 7;
+
+// The places at which rays are known.
+std::span<const glm::dvec2> places_of(FanDegree degree) {
+    const std::span<const glm::dvec2> all = places;
+    switch (degree) {
+    case FanDegree::constant:
+        return all.subspan(4, 1); // the middle
+    case FanDegree::linear:
+        return all.first(linear_places);
+    case FanDegree::second:
+        break;
+    }
+    return all;
 }
 
 glm::dvec2 pixel_at(const PixelBlock& block, glm::dvec2 place) {
@@ -72,12 +84,24 @@ PictureRays::Vectors bent_through(const Samples& at, const PixelBlock& block) {
     return found;
 }
 
+PictureRays::Vectors vectors_through(const Samples& at, const PixelBlock& block, FanDegree degree) {
+    switch (degree) {
+    case FanDegree::constant:
+        return {.first = at[0]};
+    case FanDegree::linear:
+        return linear_through(at, block);
+    case FanDegree::second:
+        break;
+    }
+    return bent_through(at, block);
+}
+
 // Finds what follows from the samples.
 void fit(const PixelBlock& block, FanDegree degree, RayFan& fan) {
-    fan.vectors = degree == FanDegree::linear ? linear_through(fan.samples, block)
-                                              : bent_through(fan.samples, block);
+    fan.vectors = vectors_through(fan.samples, block, degree);
+    const auto known = places_of(degree);
     for (std::size_t i = 0; i < fan.count; ++i) {
-        const glm::dvec3 found = fan.vectors.at(pixel_at(block, places[i]));
+        const glm::dvec3 found = fan.vectors.at(pixel_at(block, known[i]));
         fan.misfit = glm::max(fan.misfit, glm::abs(found - fan.samples[i]));
         fan.box.add(fan.samples[i]);
     }
@@ -91,9 +115,10 @@ std::optional<RayFan> ray_fan(const PixelBlock& block, FanDegree degree, double 
                               const SampleOfRay& sample_of) {
     RayFan fan;
     fan.t = t;
-    fan.count = place_count(degree);
+    const auto known = places_of(degree);
+    fan.count = known.size();
     for (std::size_t i = 0; i < fan.count; ++i) {
-        const auto sample = sample_of(pixel_at(block, places[i]), t);
+        const auto sample = sample_of(pixel_at(block, known[i]), t);
         if (!sample || !is_finite(*sample)) {
             return std::nullopt;
         }
@@ -119,11 +144,12 @@ const std::array<double, FanTrack::nodes>& FanTrack::chebyshev_nodes() {
 std::optional<FanTrack> FanTrack::create(const PixelBlock& block, FanDegree degree, Interval depths,
                                          const SampleOfRay& sample_of, const IsUnseen& is_unseen) {
     FanTrack track(block, degree, depths);
-    for (std::size_t i = 0; i < place_count(degree); ++i) {
+    const auto known = places_of(degree);
+    for (std::size_t i = 0; i < known.size(); ++i) {
         Powers samples{};
         for (std::size_t node = 0; node < nodes; ++node) {
             const auto sample =
-                sample_of(pixel_at(block, places[i]), track.depth_of(chebyshev_nodes()[node]));
+                sample_of(pixel_at(block, known[i]), track.depth_of(chebyshev_nodes()[node]));
             if (!sample || !is_finite(*sample)) {
                 return std::nullopt;
             }
@@ -143,8 +169,8 @@ bool FanTrack::is_precise(std::size_t place, const SampleOfRay& sample_of,
     constexpr std::array between_nodes{-1.0, -0.3, 0.6, 1.0};
     return std::all_of(between_nodes.begin(), between_nodes.end(), [&](double part) {
         const double t = depth_of(part);
-        const auto sample = sample_of(pixel_at(block_, places[place]), t);
-        return sample && is_unseen(at(place, t) - *sample, t);
+        const auto sample = sample_of(pixel_at(block_, places_of(degree_)[place]), t);
+        return sample && is_unseen(at(place, t), *sample, t);
     });
 }
 
@@ -165,7 +191,7 @@ glm::dvec3 FanTrack::at(std::size_t place, double t) const {
 RayFan FanTrack::fan(double t) const {
     RayFan fan;
     fan.t = t;
-    fan.count = place_count(degree_);
+    fan.count = places_of(degree_).size();
     for (std::size_t i = 0; i < fan.count; ++i) {
         fan.samples[i] = at(i, t);
     }

@@ -14,8 +14,8 @@
 
 namespace reljef::cast {
 
-/// How the rays of a block of pixels depend on the pixel.
-enum class FanDegree { linear, second };
+/// How the rays of a block of pixels depend on the pixel. Constant: all are that of the middle.
+enum class FanDegree { constant, linear, second };
 
 inline constexpr std::size_t max_fan_places = 13;
 
@@ -27,6 +27,9 @@ struct RayFan {
     PictureRays::Vectors vectors; ///< through the samples
     glm::dvec3 misfit{0.0};       ///< between the vectors and the samples, at most
     Box box;                      ///< around the vectors in the block and the samples
+
+    /// The index of the block's middle.
+    [[nodiscard]] std::size_t middle() const { return count > 1 ? 4 : 0; }
 };
 
 /// The sample of a pixel's ray at a depth; empty where there is none.
@@ -40,8 +43,8 @@ std::optional<RayFan> ray_fan(const PixelBlock& block, FanDegree degree, double 
 /// Earth they are good for hundreds of kilometres.
 class FanTrack {
 public:
-    /// Whether a difference between two samples at a depth is too small to be seen.
-    using IsUnseen = std::function<bool(glm::dvec3 difference, double t)>;
+    /// Whether one cannot see at a depth that a sample is not the right one.
+    using IsUnseen = std::function<bool(glm::dvec3 found, glm::dvec3 sample, double t)>;
 
     /// Empty if a ray has no finite sample, or if at depths between its nodes a polynomial is off
     /// by what can be seen. Precondition: depths.begin < depths.end.

@@ -27,6 +27,19 @@ bool is_within(const terrain::SamplePolynomial& polynomial, const SampleMap::Tol
     });
 }
 
+// Polynomials do not follow the closer rows at a pole. `rows`: without those.
+bool keeps_to(const terrain::SamplePolynomial& polynomial, Interval rows) {
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            const double row = polynomial.at_local({x, y, 0.0}).y;
+            if (!(row >= rows.begin && row <= rows.end)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 // The sample of a place in the box of a polynomial.
 std::optional<glm::dvec3> found(const std::optional<terrain::SamplePolynomial>& polynomial,
                                 glm::dvec3 place) {
@@ -41,12 +54,13 @@ std::optional<glm::dvec3> found(const std::optional<terrain::SamplePolynomial>& 
 
 } // namespace
 
-SampleMap::SampleMap(const terrain::Placement& placement, const Ground& ground,
-                     const Tolerance& tolerance, unsigned threads)
-    : placement_(placement), around_(placement.columns_all_around().value_or(0.0)),
+SampleMap::SampleMap(const EarthMap& map, const Ground& ground, const Tolerance& tolerance,
+                     unsigned threads)
+    : map_(map), around_(map.placement().columns_all_around().value_or(0.0)),
       middle_(ground.samples.center().x) {
     constexpr int few_halvings = 3;
     constexpr int many_halvings = 7;
+    const terrain::Placement& placement = map.placement();
     const bool has_geoid = placement.has_geoid();
     near_ = fitted(placement, ground, tolerance, has_geoid ? many_halvings : few_halvings);
     if (has_geoid) {
@@ -80,7 +94,8 @@ std::optional<terrain::SamplePolynomial> SampleMap::fitted(const terrain::Placem
         const double fall = reach * reach / radius_of_earth;
         auto made =
             terrain::SamplePolynomial::create(placement, middle, {reach, reach, heights + fall});
-        if (made && is_within(*made, tolerance, ground.eye)) {
+        if (made && is_within(*made, tolerance, ground.eye) &&
+            keeps_to(*made, map_.rows_between_poles())) {
             return made;
         }
         reach *= 0.5;
@@ -99,7 +114,7 @@ void SampleMap::make_zeros(const Ground& ground, unsigned threads) {
         zero_count,
         [&](int row) {
             for (int col = 0; col < zero_count; ++col) {
-                zeros_(col, row) = placement_.zero_at_sample(first_ + step_ * glm::dvec2(col, row));
+                zeros_(col, row) = map_.zero_at(first_ + step_ * glm::dvec2(col, row));
             }
         },
         parallel);
@@ -107,8 +122,7 @@ void SampleMap::make_zeros(const Ground& ground, unsigned threads) {
     for (int i = 0; i < checks * checks; ++i) {
         const glm::dvec2 part = (glm::dvec2(i % checks, i / checks) + 0.5) / double{checks};
         const glm::dvec2 sample = first_ + step_ * (zero_count - 1.0) * part;
-        zero_error_ =
-            std::max(zero_error_, std::abs(zero_at(sample) - placement_.zero_at_sample(sample)));
+        zero_error_ = std::max(zero_error_, std::abs(zero_at(sample) - map_.zero_at(sample)));
     }
 }
 
@@ -137,20 +151,19 @@ glm::dvec3 SampleMap::in_turn(glm::dvec3 sample) const {
 
 std::optional<glm::dvec3> SampleMap::at(glm::dvec3 place, double tolerance) const {
     if (const auto sample = found(near_, place)) {
-        return in_turn(*sample);
+        return sample;
     }
     if (zero_error_ <= tolerance) {
         if (auto sample = found(far_, place)) {
             sample = in_turn(*sample);
             const glm::dvec2 at = (glm::dvec2(*sample) - first_) / step_;
             if (std::min({at.x, at.y, zero_count - 1.0 - at.x, zero_count - 1.0 - at.y}) >= 0.0) {
-                sample->z -= zero_at(glm::dvec2(*sample)) / placement_.exaggeration();
+                sample->z -= zero_at(glm::dvec2(*sample)) / map_.placement().exaggeration();
                 return sample;
             }
         }
     }
-    const auto sample = placement_.sample_from_world(place);
-    return sample ? std::optional(in_turn(*sample)) : std::nullopt;
+    return map_.sample(place);
 }
 
 } // namespace reljef::cast

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "engine/cast/earth_map.h"
 #include "engine/core/geometry.h"
 #include "engine/core/grid.h"
 #include "engine/terrain/field/placement.h"
@@ -12,7 +13,7 @@
 
 namespace reljef::cast {
 
-/// Placement::sample_from_world on the ellipsoid, by polynomials if these are precise enough.
+/// EarthMap::sample, by polynomials if these are precise enough.
 /// No polynomial follows a geoid, except over a few kilometres around the eye. Farther away, the
 /// geoid is interpolated between samples, beside a polynomial without it.
 class SampleMap {
@@ -31,11 +32,11 @@ public:
     };
 
     /// `threads`: 0: one per hardware thread.
-    SampleMap(const terrain::Placement& placement, const Ground& ground, const Tolerance& tolerance,
+    SampleMap(const EarthMap& map, const Ground& ground, const Tolerance& tolerance,
               unsigned threads);
 
     /// (col, row, height) of a place within a tolerance, metres; empty outside of the map. Columns
-    /// of a globe are those next to the middle of its ground.
+    /// of a globe may be those of another turn.
     [[nodiscard]] std::optional<glm::dvec3> at(glm::dvec3 place, double tolerance) const;
 
 private:
@@ -46,7 +47,7 @@ private:
     [[nodiscard]] double zero_at(glm::dvec2 sample) const;
     [[nodiscard]] glm::dvec3 in_turn(glm::dvec3 sample) const;
 
-    terrain::Placement placement_;
+    EarthMap map_;
     std::optional<terrain::SamplePolynomial> near_; // with the geoid
     std::optional<terrain::SamplePolynomial> far_;  // without it
     Grid<double> zeros_;                            // of the geoid above the ellipsoid, metres

@@ -52,6 +52,9 @@ public:
 
     // Whether rays pass lines of an axis from high to low; `turns`: some, others not.
     [[nodiscard]] bool comes_from_high(int axis, double line, bool& turns) const {
+        if (line <= box_.low[axis] || line >= box_.high[axis]) {
+            return false; // they pass none
+        }
         const double on = past(axis, line, 1.0);
         const double back = past(axis, line, -1.0);
         turns = turns || std::min(on, back) > place_rounding * reach_[axis];

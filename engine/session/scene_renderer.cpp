@@ -42,7 +42,7 @@ view::SelectOptions with_chooser(view::SelectOptions options,
 // All parts of a picture are drawn by the same means.
 std::string obstacle_in(const view::DrawList& list, const std::string& of_whole) {
     const bool is_part = list.camera.whole != glm::ivec2(0);
-    return is_part && !of_whole.empty() ? of_whole : cast::obstacle_of(list);
+    return is_part && !of_whole.empty() ? of_whole : cast::obstacle_beside_triangles(list);
 }
 
 bool overlap(const scene::PicturePart& a, const scene::PicturePart& b) {
@@ -224,7 +224,7 @@ void SceneRenderer::set_costs(const Costs& costs) {
 
 void SceneRenderer::choose_for_parts(const scene::Scene& scene, glm::ivec2 picture) {
     const view::FrameView whole = view::select(scene, picture, select_options_);
-    *obstacle_of_whole_ = cast::obstacle_of(whole.list);
+    *obstacle_of_whole_ = cast::obstacle_beside_triangles(whole.list);
     chooser_->choose_for_parts(whole.list);
     labels_of_whole_ = labels_of(whole.list);
     selector_.forget();

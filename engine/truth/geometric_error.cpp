@@ -149,13 +149,31 @@ double hit_error(const Hit& shown, const Hit& true_hit) {
     return bounded(glm::distance(shown.place(), true_hit.place()));
 }
 
+namespace {
+
+// hit_error() of a globe, whose columns begin anew and meet at the poles: metres along the ground,
+// in texels of the middle.
+double ground_error(const SurfaceView& view, const Hit& shown, const Hit& true_hit) {
+    const auto world = [&](const Hit& hit) {
+        return view.placement.world_from_sample({hit.place(), true_hit.height});
+    };
+    const glm::dvec2 spacing = view.placement.spacing();
+    return bounded(glm::distance(world(shown), world(true_hit)) / std::min(spacing.x, spacing.y));
+}
+
+} // namespace
+
 Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffer& shown,
                                          const HitBuffer& truth, unsigned threads) {
     const glm::ivec2 size(shown.cols(), shown.rows());
     const auto reprojection = [&](glm::ivec2 pixel, const Hit& hit) {
         return reprojection_error(view, size, pixel, hit);
     };
-    return geometric_errors({reprojection, hit_error}, shown, truth, threads);
+    const auto hit = [&](const Hit& here, const Hit& true_hit) {
+        return view.placement.columns_all_around() ? ground_error(view, here, true_hit)
+                                                   : hit_error(here, true_hit);
+    };
+    return geometric_errors({reprojection, hit}, shown, truth, threads);
 }
 
 Result<GeometricErrors> geometric_errors(const PixelMeasure& measure, const HitBuffer& shown,

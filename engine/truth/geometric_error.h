@@ -51,7 +51,7 @@ enum class Verdict : unsigned char {
 
 struct GeometricErrors {
     PixelErrors reprojection; ///< pixels
-    PixelErrors hit;          ///< texels
+    PixelErrors hit;          ///< texels; of a globe, those in the terrain's middle
     Grid<Verdict> verdicts;
     std::size_t wrong = 0; ///< pixels, including holes
     std::size_t holes = 0;

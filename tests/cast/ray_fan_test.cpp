@@ -77,8 +77,8 @@ TEST(RayFan, OfSecondDegreeIsThatOfRaysOfSecondDegree) {
 TEST(RayFan, OfATrackIsThatOfItsRays) {
     test::Chance chance(72);
     constexpr double unseen = 1e-7;
-    const auto is_unseen = [](glm::dvec3 difference, double /*t*/) {
-        return glm::length(difference) < unseen;
+    const auto is_unseen = [](glm::dvec3 found, glm::dvec3 sample, double /*t*/) {
+        return glm::length(found - sample) < unseen;
     };
     for (int round = 0; round < 300; ++round) {
         const MadeRays rays(chance);
@@ -102,7 +102,9 @@ TEST(RayFan, IsNoneWhereARayHasNoSample) {
         return pixel.x > 660.0 ? std::nullopt : std::optional(glm::dvec3(pixel, 0.0));
     };
     EXPECT_FALSE(ray_fan(fan_block, FanDegree::linear, 1.0, sample_of));
-    const auto all_unseen = [](glm::dvec3 /*difference*/, double /*t*/) { return true; };
+    const auto all_unseen = [](glm::dvec3 /*found*/, glm::dvec3 /*sample*/, double /*t*/) {
+        return true;
+    };
     EXPECT_FALSE(FanTrack::create(fan_block, FanDegree::linear, {1.0, 2.0}, sample_of, all_unseen));
 }
 
@@ -110,8 +112,8 @@ TEST(RayFan, HasNoTrackWhereRaysBendTooMuch) {
     const auto sample_of = [](glm::dvec2 pixel, double t) {
         return std::optional(glm::dvec3(pixel.x, std::sin(t), 0.0));
     };
-    const auto is_unseen = [](glm::dvec3 difference, double /*t*/) {
-        return glm::length(difference) < 1e-4;
+    const auto is_unseen = [](glm::dvec3 found, glm::dvec3 sample, double /*t*/) {
+        return glm::length(found - sample) < 1e-4;
     };
     EXPECT_TRUE(FanTrack::create(fan_block, FanDegree::linear, {0.0, 1.0}, sample_of, is_unseen));
     EXPECT_FALSE(FanTrack::create(fan_block, FanDegree::linear, {0.0, 30.0}, sample_of, is_unseen));

@@ -48,7 +48,7 @@ double largest_error(bool has_geoid, glm::dvec3 eye_sample) {
     ground.eye = placement.world_from_sample(eye_sample);
     constexpr double pixel = 1e-3; // radians
     constexpr double share = 1e-3; // of a pixel
-    const SampleMap map(placement, ground, {0.0, share * pixel}, 0);
+    const SampleMap map(EarthMap(placement, {}, ground.samples), ground, {0.0, share * pixel}, 0);
     double largest = 0.0;
     for (int i = 0; i < 2000; ++i) {
         const glm::dvec3 far = on_ground();

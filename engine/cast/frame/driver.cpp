@@ -26,21 +26,6 @@ namespace reljef::cast {
 
 namespace {
 
-// No pixel of a proven tile is farther off than the tile itself, and the rays (`of_rays`). Empty:
-// none is proven.
-std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
-    std::optional<double> largest;
-    if (list.tiles.empty()) {
-        largest = 0.0; // the samples
-    }
-    for (const view::TileDraw& draw : list.tiles) {
-        if (draw.is_proven()) {
-            largest = std::max(largest.value_or(0.0), draw.tile->borrows ? 0.0 : draw.error);
-        }
-    }
-    return largest ? std::optional(*largest + of_rays) : largest;
-}
-
 // The finest tiles that are searched as tiles, and the others, above them.
 StreamedList with_searched_tiles(view::DrawList list) {
     StreamedList made;
@@ -120,17 +105,31 @@ Driver::Surface& Driver::surface_of(const std::shared_ptr<const scene::TerrainSu
     return found;
 }
 
-const RayTile& Driver::tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats) {
+// Of a terrain in memory.
+void Driver::place_surface(const scene::TerrainNode& terrain, const PictureRays& rays,
+                           PlacedTiles& placed, view::FrameStats& stats) {
     Surface& surface = surface_of(terrain.surface);
-    if (surface.tile == nullptr) {
-        surface.tile =
-            std::make_shared<const RayTile>(terrain.surface->heightfield().heights.view());
-        ++stats.uploads;
-        stats.upload_bytes += surface.tile->bytes();
-    } else {
+    const Grid<float>& heights = terrain.surface->heightfield().heights;
+    const std::vector<RowPart> parts = row_parts(terrain);
+    if (surface.tiles.size() == parts.size()) {
         ++stats.skipped.uploads_unchanged;
+    } else {
+        surface.tiles.clear();
+        for (const RowPart& part : parts) {
+            surface.tiles.push_back(std::make_shared<const RayTile>(
+                heights.view().window(0, part.first, heights.cols(), part.cells + 1)));
+            stats.upload_bytes += surface.tiles.back()->bytes();
+        }
+        ++stats.uploads;
     }
-    return *surface.tile;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        PlacedTile& tile = placed.tiles.emplace_back();
+        tile.tile = surface.tiles[i].get();
+        tile.rays = rays;
+        tile.seen = {{0, 0}, rays.size};
+        place_part(parts[i], tile);
+    }
+    placed.rows = rows_of(terrain);
 }
 
 namespace {
@@ -199,14 +198,15 @@ struct RaysOver {
     std::shared_ptr<const CurvedRays> curve;
 };
 
-RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen, unsigned threads) {
+RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen,
+                   const CurvedRays::Options& options) {
     const terrain::Placement& placement = seen.node->surface->placement();
     if (!is_curved(*seen.node)) {
         return {
             picture_rays(list.camera, list.size, seen.world_from_local, placement, seen.samples),
             nullptr};
     }
-    auto curve = earth_rays(list, seen, threads);
+    auto curve = earth_rays(list, seen, options);
     PictureRays straight;
     straight.size = list.size;
     straight.range = curve->local().range;
@@ -233,7 +233,8 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     }
     const SeenTerrain& seen = terrains.front();
     const scene::TerrainNode& node = *seen.node;
-    const auto [rays, curve] = rays_over(list, seen, options_.threads);
+    const auto [rays, curve] =
+        rays_over(list, seen, {options_.threads, !paints || options_.samples == 1});
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
     if (!stands_in && (seen.has_tiles || node.surface->has_all_samples())) {
         const view::PictureRounding::Found rounding = rounding_of(list, seen);
@@ -258,13 +259,10 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     PlacedTiles placed;
     placed.curve = curve;
     placed.has_walls = curve != nullptr;
-    PlacedTile& tile = placed.tiles.emplace_back();
-    tile.tile = &tile_of(node, stats);
-    tile.rays = rays;
-    tile.seen = {{0, 0}, list.size};
+    place_surface(node, rays, placed, stats);
     join_ends(seen, placed);
     if (paints) {
-        paint_surface(list, seen, tile, stats);
+        paint_surface(list, seen, placed, stats);
         if (node.material.technique.options.shadow) {
             add_sun(list, seen, {}, placed);
             add_certain_sun(list, seen, placed.tiles.front());
@@ -298,21 +296,28 @@ void Driver::add_certain_sun(const view::DrawList& list, const SeenTerrain& seen
 }
 
 // A terrain in memory.
-void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
+void Driver::paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTiles& placed,
                            view::FrameStats& stats) {
     const auto on = view::light_on(list, seen.world_from_local);
     const terrain::Placement& placement = seen.node->surface->placement();
     const Light& light = light_of(*seen.node, on, stats);
-    tile.paint = light.levels->paint();
-    tile.paint.longest_texels = longest_texels(list, tile.paint, placement.spacing());
-    if (light.sun != nullptr) {
-        tile.sun = light.sun->paint();
-    }
     const bool has_detail = shows_detail(list, *seen.node);
+    const LitGround* ground = nullptr;
     if (has_detail || (!list.point_lights.empty() &&
                        view::is_reached(list, transformed(seen.world_from_local, seen.local)))) {
         const bool needs_share = has_detail && light.sun == nullptr;
-        ground_of(*seen.node, needs_share ? on : std::nullopt, stats).paint(tile);
+        ground = &ground_of(*seen.node, needs_share ? on : std::nullopt, stats);
+    }
+    for (PlacedTile& tile : placed.tiles) {
+        const glm::vec2 first(0.0F, placed.rows.from_even_row(tile.first.y));
+        tile.paint = light.levels->paint(first);
+        tile.paint.longest_texels = longest_texels(list, tile.paint, placement.spacing());
+        if (light.sun != nullptr) {
+            tile.sun = light.sun->paint(first);
+        }
+        if (ground != nullptr) {
+            ground->paint(tile, first);
+        }
     }
 }
 

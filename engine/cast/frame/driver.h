@@ -104,20 +104,21 @@ private:
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
-        std::shared_ptr<const RayTile> tile;
-        Light light;                             // of the last frame
+        std::vector<std::shared_ptr<const RayTile>> tiles; // of row_parts()
+        Light light;                                       // of the last frame
         std::shared_ptr<const LitGround> ground; // for point lights and detail; null: not made yet
         std::optional<scene::TerrainLight> ground_light; // absent: without its share of the sun
     };
 
     explicit Driver(const DriverOptions& options);
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
-    const RayTile& tile_of(const scene::TerrainNode& terrain, view::FrameStats& stats);
+    void place_surface(const scene::TerrainNode& terrain, const PictureRays& rays,
+                       PlacedTiles& placed, view::FrameStats& stats);
     const Light& light_of(const scene::TerrainNode& terrain,
                           const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
     view::PictureRounding::Found rounding_of(const view::DrawList& list, const SeenTerrain& seen);
     void add_certain_sun(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile);
-    void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTile& tile,
+    void paint_surface(const view::DrawList& list, const SeenTerrain& seen, PlacedTiles& placed,
                        view::FrameStats& stats);
     const LitGround& ground_of(const scene::TerrainNode& terrain,
                                const std::optional<scene::TerrainLight>& light,

@@ -7,7 +7,7 @@ namespace reljef::cast {
 static_assert(sizeof(view::FacadeTexels) == FacadePaint::wall_values * sizeof(float));
 
 const FacadePaint* GroundFacades::prepare(const view::DrawList& list, const SeenTerrain& seen) {
-    if (seen.has_tiles || !view::shows_facades(*seen.node)) {
+    if (seen.has_tiles || seen.columns_around > 0.0 || !view::shows_facades(*seen.node)) {
         return nullptr;
     }
     const auto light = view::light_on(list, seen.world_from_local);

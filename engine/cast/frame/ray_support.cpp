@@ -1,12 +1,12 @@
 #include "engine/cast/frame/ray_support.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "engine/cast/curved_rays.h"
 #include "engine/cast/frame/ground_detail.h"
 #include "engine/cast/frame/seen_terrain.h"
 #include "engine/cast/frame/sun_light.h"
@@ -81,16 +81,8 @@ std::string obstacle_in_view(const view::DrawList& list, const SeenTerrain& terr
     if (auto found = obstacle_of(*terrain.node, terrain.node->material.technique); !found.empty()) {
         return found;
     }
-    if (terrain.is_whole_globe) {
-        return list.camera.projection == scene::ProjectionKind::orthographic
-                   ? "a map of a globe"
-                   : "a globe with a pole in view";
-    }
-    if (is_curved(*terrain.node) &&
-        !show_little_bend(list.camera, list.size,
-                          {terrain.node->surface->placement(), terrain.world_from_local,
-                           terrain.local, terrain.samples})) {
-        return "a view in which 8 pixels show the bend of the Earth";
+    if (terrain.is_from_below) {
+        return "a globe from below its ground";
     }
     if (is_curved(*terrain.node) && casts_shadows(terrain) && bends_too_much(list, terrain)) {
         return "a sun whose rays bend too much over so large a terrain, or so near to a pole";
@@ -113,6 +105,19 @@ std::string obstacle_of(const view::DrawList& list) {
         }
     }
     return terrains.size() > 1 ? "more than one terrain" : "";
+}
+
+std::string obstacle_beside_triangles(const view::DrawList& list) {
+    if (auto found = obstacle_of(list); !found.empty()) {
+        return found;
+    }
+    const std::vector<SeenTerrain> terrains = seen_terrains(list);
+    const bool has_pole =
+        std::any_of(terrains.begin(), terrains.end(), [](const SeenTerrain& terrain) {
+            return terrain.has_pole &&
+                   terrain.node->material.technique.id() != scene::TechniqueId::exact;
+        });
+    return has_pole ? "a globe with a pole in view" : "";
 }
 
 Result<void> check_support(const view::DrawList& list) {

@@ -19,6 +19,9 @@ std::string obstacle_of(const scene::MeshNode& mesh);
 
 /// The same of a list, which has at most one terrain.
 std::string obstacle_of(const view::DrawList& list);
+/// The same where OpenGL may draw instead: also what its triangles draw faster within the
+/// technique's error bound.
+std::string obstacle_beside_triangles(const view::DrawList& list);
 /// Fails if there is an obstacle.
 Result<void> check_support(const view::DrawList& list);
 

@@ -13,12 +13,14 @@
 namespace reljef::cast {
 namespace {
 
-Box samples_and_heights(const scene::TerrainSurface& surface) {
+Box samples_and_heights(const scene::TerrainNode& node) {
+    const scene::TerrainSurface& surface = *node.surface;
     const Grid<float>& heights = surface.heightfield().heights;
     const terrain::MinMax total = surface.pyramid().total();
+    const geo::WrappedRows rows = rows_of(node);
     Box bounds;
-    bounds.add(glm::dvec3(0.0, 0.0, total.low));
-    bounds.add(glm::dvec3(heights.cols() - 1.0, heights.rows() - 1.0, total.high));
+    bounds.add(glm::dvec3(0.0, rows.even_row(0.0), total.low));
+    bounds.add(glm::dvec3(heights.cols() - 1.0, rows.even_row(heights.rows() - 1.0), total.high));
     return bounds;
 }
 
@@ -41,8 +43,13 @@ void add_tile(SeenTerrain& seen, const scene::TerrainTile& tile) {
     seen.local.add(tile.bounds);
     const scene::TileBuilder& builder = seen.node->stream->maker();
     const terrain::TileLattice lattice = builder.lattice(tile.id);
-    seen.samples.add(glm::dvec3(builder.on_overview(lattice.first), tile.range.low));
-    seen.samples.add(glm::dvec3(builder.on_overview(lattice.last), tile.range.high));
+    const geo::WrappedRows rows = rows_of(*seen.node);
+    const auto add = [&](glm::dvec2 sample, double height) {
+        const glm::dvec2 at = builder.on_overview(sample);
+        seen.samples.add(glm::dvec3(at.x, rows.even_row(at.y), height));
+    };
+    add(lattice.first, tile.range.low);
+    add(lattice.last, tile.range.high);
 }
 
 // Where nothing is streamed; a plane has the same rays for all selections.
@@ -50,49 +57,26 @@ void add_surface(SeenTerrain& seen) {
     const scene::TerrainSurface& surface = *seen.node->surface;
     if (!seen.has_tiles || !is_curved(*seen.node)) {
         seen.local.add(surface.bounds());
-        seen.samples.add(samples_and_heights(surface));
+        seen.samples.add(samples_and_heights(*seen.node));
     }
 }
 
-// Rows that are equally far apart, without those at poles; where there is none, all.
-Interval rows_between_poles(const scene::TerrainSurface& surface) {
-    constexpr double pole = 90.0 - 1e-9; // degrees: 0.1 mm
-    constexpr double all = std::numeric_limits<double>::infinity();
-    const glm::dvec2 latitudes = *surface.placement().latitudes_all_around();
-    return {latitudes.y > pole ? 1.0 : -all,
-            latitudes.x < -pole ? surface.heightfield().heights.rows() - 2.0 : all};
-}
-
-// Cells of tiles at a pole may be shorter than others.
-void leave_out_ends(const scene::TileBuilder& builder, const scene::TerrainTile& tile,
-                    Interval& rows) {
-    const terrain::TileLattice lattice = builder.lattice(tile.id);
-    const geo::GlobalWrap& wrap = lattice.rows.wrap();
-    const auto row_at = [&](int vertex) {
-        return builder.on_overview(lattice.first + lattice.step * glm::dvec2(vertex)).y;
-    };
-    if (wrap.north_rows() > 0 && lattice.first.y <= 0.0) {
-        rows.begin = std::max(rows.begin, row_at(1));
-    }
-    if (wrap.south_rows() > 0 && lattice.last.y >= builder.tree().rows() - 1.0) {
-        rows.end = std::min(rows.end, row_at(lattice.cells.y - 1));
-    }
-}
-
-// `rows`: those that are equally far apart.
-void leave_out_far_side(const scene::Camera& camera, Interval rows, SeenTerrain& seen) {
+void leave_out_far_side(const scene::Camera& camera, SeenTerrain& seen) {
     const terrain::Placement& placement = seen.node->surface->placement();
     seen.columns_around = *placement.columns_all_around();
-    const auto part = camera.projection == scene::ProjectionKind::perspective
-                          ? globe_part(placement,
-                                       glm::dvec3(glm::inverse(seen.world_from_local) *
-                                                  glm::dvec4(camera.eye, 1.0)),
-                                       seen.samples, rows)
-                          : std::nullopt;
-    seen.is_whole_globe = !part;
+    const glm::dmat4 local_from_world = glm::inverse(seen.world_from_local);
+    const geo::WrappedRows rows = rows_of(*seen.node);
+    const auto part =
+        camera.projection == scene::ProjectionKind::perspective
+            ? globe_part_from(glm::dvec3(local_from_world * glm::dvec4(camera.eye, 1.0)), placement,
+                              rows, seen.samples)
+            : globe_part_along(glm::dmat3(local_from_world) * scene::view_axes(camera).forward,
+                               placement, rows, seen.samples);
+    seen.is_from_below = !part;
     if (part) {
         seen.local = part->local;
         seen.samples = part->samples;
+        seen.has_pole = part->has_pole;
     }
 }
 
@@ -107,24 +91,20 @@ void leave_out_unseen_rows(const view::DrawList& list, SeenTerrain& seen) {
         }
     }
     if (low < high) {
-        seen.samples.low.y = std::max(seen.samples.low.y, low);
-        seen.samples.high.y = std::min(seen.samples.high.y, high);
+        const geo::WrappedRows rows = rows_of(*seen.node);
+        seen.samples.low.y = std::max(seen.samples.low.y, rows.even_row(low));
+        seen.samples.high.y = std::min(seen.samples.high.y, rows.even_row(high));
     }
 }
 
 void find_part_of_globe(const view::DrawList& list, SeenTerrain& seen) {
-    const scene::TerrainSurface& surface = *seen.node->surface;
-    if (!is_curved(*seen.node) || !surface.placement().columns_all_around()) {
+    if (!is_curved(*seen.node) || !seen.node->surface->placement().columns_all_around()) {
         return;
-    }
-    Interval rows = rows_between_poles(surface);
-    for (const scene::TerrainTile* const tile : tiles_in(list, *seen.node)) {
-        leave_out_ends(seen.node->stream->maker(), *tile, rows);
     }
     if (!seen.has_tiles) {
         leave_out_unseen_rows(list, seen);
     }
-    leave_out_far_side(list.camera, rows, seen);
+    leave_out_far_side(list.camera, seen);
 }
 
 } // namespace
@@ -167,6 +147,24 @@ std::vector<SeenTerrain> seen_terrains(const view::DrawList& list) {
         find_part_of_globe(list, terrain);
     }
     return seen;
+}
+
+std::optional<double> kept_error(const view::DrawList& list, double of_rays) {
+    std::optional<double> largest;
+    if (list.tiles.empty()) {
+        largest = 0.0; // the samples
+    }
+    for (const view::TileDraw& draw : list.tiles) {
+        if (draw.is_proven()) {
+            largest = std::max(largest.value_or(0.0), draw.tile->borrows ? 0.0 : draw.error);
+        }
+    }
+    return largest ? std::optional(*largest + of_rays) : largest;
+}
+
+geo::WrappedRows rows_of(const scene::TerrainNode& node) {
+    return is_curved(node) ? node.surface->heightfield().georeference->geodetic.rows()
+                           : geo::WrappedRows();
 }
 
 bool is_curved(const scene::TerrainNode& node) {

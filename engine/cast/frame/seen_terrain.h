@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -9,6 +10,7 @@
 
 #include "engine/cast/beam.h"
 #include "engine/core/geometry.h"
+#include "engine/geo/georeference.h"
 #include "engine/view/draw_list.h"
 
 namespace reljef::cast {
@@ -23,9 +25,14 @@ struct SeenTerrain {
     /// On the ellipsoid, of a terrain that covers all longitudes: its columns; else 0. The boxes
     /// are then those of what the eye may see.
     double columns_around = 0.0;
-    /// Of such a terrain: the boxes are those of all ground. It is a map, or a pole may be seen.
-    bool is_whole_globe = false;
+    /// Of such a terrain: the eye is below all ground, and the boxes are those of all of it.
+    bool is_from_below = false;
+    bool has_pole = false; ///< of such a terrain: a pole may be seen
 };
+
+/// On the ellipsoid, the rows of a terrain's surface: SeenTerrain::samples are even. On a plane
+/// they are not.
+geo::WrappedRows rows_of(const scene::TerrainNode& node);
 
 /// Its streamed tiles in a list, drawn or searched.
 std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
@@ -33,6 +40,10 @@ std::vector<const scene::TerrainTile*> tiles_in(const view::DrawList& list,
 
 /// The terrains of a list, each once.
 std::vector<SeenTerrain> seen_terrains(const view::DrawList& list);
+
+/// The error that a frame keeps, pixels: that of the proven tile that is farthest off, and of the
+/// rays (`of_rays`). Empty: none is proven.
+std::optional<double> kept_error(const view::DrawList& list, double of_rays);
 
 bool is_curved(const scene::TerrainNode& node);
 

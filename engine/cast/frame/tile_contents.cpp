@@ -28,7 +28,7 @@ bool has_near_detail(const view::TileDraw& draw) {
 }
 
 std::size_t number_of(const TilePiece& piece) {
-    return (piece.vertex.x > 0 ? 1U : 0U) + (piece.vertex.y > 0 ? 2U : 0U);
+    return static_cast<std::size_t>(piece.part.y * max_tile_parts.x + piece.part.x);
 }
 
 // A rectangle of pixels around all that is seen of a box in samples of the overview.
@@ -207,7 +207,7 @@ public:
                                 builder_.tree().cells(builder_.tree().root()))),
           metres_(draw_.terrain->surface->placement().spacing() / scale_),
           seen_(list, draw_.terrain->surface->placement(), list.world_from_local(draw_)),
-          lowest_(lowest), is_outside_(is_outside()),
+          rows_(rows_of(*draw_.terrain)), lowest_(lowest), is_outside_(is_outside()),
           seam_(options.is_curved && builder_.tree().wraps_longitude() ? west_wall | east_wall
                                                                        : 0U) {}
 
@@ -252,13 +252,14 @@ public:
     [[nodiscard]] Box box(const TilePiece& piece, terrain::MinMax total) const {
         const glm::dvec2 end = piece.first + piece.step * glm::dvec2(piece.cells);
         Box box;
-        box.add(glm::dvec3(builder_.on_overview(piece.first),
+        box.add(glm::dvec3((piece.first - zero_) / scale_,
                            lets_in(piece) ? std::min(lowest_, total.low) : total.low));
-        box.add(glm::dvec3(builder_.on_overview(end), total.high));
+        box.add(glm::dvec3((end - zero_) / scale_, total.high));
         return box;
     }
+    // In samples of the overview, which lies inside of the terrain.
     [[nodiscard]] glm::dvec2 first_of(terrain::TreeTile tile) const {
-        return builder_.on_overview(builder_.first(tile));
+        return (builder_.first(tile) - zero_) / scale_;
     }
 
 private:
@@ -284,7 +285,8 @@ private:
         Box local = draw.tile->bounds;
         if (lets_in(piece)) {
             for (const glm::dvec3& corner : corners_of(box(piece, total))) {
-                local.add(draw_.terrain->surface->placement().world_from_sample(corner));
+                local.add(draw_.terrain->surface->placement().world_from_sample(
+                    {corner.x, rows_.from_even_row(corner.y), corner.z}));
             }
         }
         return local;
@@ -295,39 +297,28 @@ private:
     const TileContents::Options& options_;
     const view::TileDraw& draw_;
     const scene::TileBuilder& builder_;
-    glm::dvec2 scale_; // samples of the terrain in one of the overview
-    glm::dvec2 zero_;  // sample of the terrain at the overview's first; a pole's row lies elsewhere
-    glm::dvec2 last_;  // sample of the terrain
+    glm::dvec2 scale_;  // samples of the terrain in one of the overview
+    glm::dvec2 zero_;   // sample of the terrain at the overview's first, both with even rows
+    glm::dvec2 last_;   // sample of the terrain
     glm::dvec2 metres_; // of a sample of the terrain
     SeenPixels seen_;
+    geo::WrappedRows rows_; // of the overview, if it is on the ellipsoid
     float lowest_;
     bool is_outside_;
     unsigned seam_; // walls of a globe, at the other end of which rays go on
 };
 
-// Where the pieces of a drawn tile meet, and their nodes.
 int add_pieces(std::span<const TilePiece> pieces, const Placer& placer,
                const std::vector<PlacedTile>& tiles, std::size_t first, TileNodes& nodes) {
-    const std::size_t over = nodes.size();
-    if (pieces.size() > 1) {
-        nodes.emplace_back();
-    }
-    std::array<int, 4> parts{-1, -1, -1, -1};
-    glm::dvec3 lines(0.0);
+    std::vector<TileNode> boxes;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const PlacedTile& tile = tiles[first + i];
-        TileNode node;
+        TileNode& node = boxes.emplace_back();
         node.box = placer.box(pieces[i], tile.tile->total());
         node.seen = tile.seen;
         node.tile = static_cast<int>(first + i);
-        lines = i == 0 ? node.box.low : glm::max(lines, node.box.low);
-        parts[number_of(pieces[i])] = static_cast<int>(nodes.size());
-        nodes.push_back(node);
     }
-    if (pieces.size() > 1) {
-        nodes[over] = node_over(nodes, parts, glm::dvec2(lines));
-    }
-    return static_cast<int>(over);
+    return add_piece_nodes(pieces, boxes, nodes);
 }
 
 } // namespace
@@ -367,6 +358,7 @@ PlacedTiles TileContents::place(const view::DrawList& list, const PictureRays& r
     PlacedTiles placed;
     placed.has_walls = true;
     placed.wall_floor = lowest;
+    placed.rows = builder.rows();
     const auto add = [&](std::size_t index) {
         const view::TileDraw& draw = list.tiles[index];
         const Content& content = contents_.at(draw.tile.get());

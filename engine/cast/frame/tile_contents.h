@@ -12,6 +12,7 @@
 #include "engine/cast/block_rays.h"
 #include "engine/cast/frame/ground_points.h"
 #include "engine/cast/frame/sun_tiles.h"
+#include "engine/cast/frame/tile_pieces.h"
 #include "engine/cast/lit_levels.h"
 #include "engine/cast/ray_tile.h"
 #include "engine/view/draw_list.h"
@@ -48,7 +49,7 @@ public:
 private:
     struct Content {
         std::weak_ptr<const scene::TerrainTile> owner;
-        std::array<std::optional<RayTile>, 4> pieces; // by the sides that their vertex is at
+        std::array<std::optional<RayTile>, max_tile_parts.x * max_tile_parts.y> pieces;
         std::optional<LitLevels> levels;
         std::optional<LitLevels> sun;                   // if these are only the sky's
         std::optional<LitGround> ground;                // for point lights and detail

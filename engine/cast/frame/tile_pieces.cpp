@@ -146,31 +146,59 @@ TilePiece piece_of(const terrain::TileLattice& tile, glm::ivec2 first, glm::ivec
         return glm::dvec2(vertex.x == tile.cells.x ? tile.last.x : regular.x,
                           vertex.y == tile.cells.y ? tile.last.y : regular.y);
     };
-    piece.first = sample(first);
-    piece.step = (sample(end) - piece.first) / glm::dvec2(piece.cells);
+    const auto even = [&](glm::ivec2 vertex) {
+        return glm::dvec2(sample(vertex).x, tile.even_row(vertex.y));
+    };
+    piece.first = even(first);
+    piece.step = (even(end) - piece.first) / glm::dvec2(piece.cells);
     const auto wall = [&](bool is_inside, unsigned side) { piece.walls |= is_inside ? side : 0U; };
-    wall(piece.first.x > 0.0, west_wall);
-    wall(piece.first.y > 0.0, north_wall);
+    wall(sample(first).x > 0.0, west_wall);
+    wall(sample(first).y > 0.0, north_wall);
     wall(sample(end).x < last.x, east_wall);
     wall(sample(end).y < last.y, south_wall);
     return piece;
+}
+
+// The vertices between which cells have one size.
+std::vector<int> column_cuts(const terrain::TileLattice& tile) {
+    std::vector<int> cuts{0};
+    const int shorter = tile.shorter_from().x;
+    if (shorter > 0 && shorter < tile.cells.x) {
+        cuts.push_back(shorter);
+    }
+    cuts.push_back(tile.cells.x);
+    return cuts;
+}
+
+std::vector<int> row_cuts(const terrain::TileLattice& tile) {
+    std::vector<int> cuts{0};
+    const auto size = [&](int row) { return tile.even_row(row + 1) - tile.even_row(row); };
+    for (int row = 1; row < tile.cells.y; ++row) {
+        if (size(row) != size(row - 1)) {
+            cuts.push_back(row);
+        }
+    }
+    cuts.push_back(tile.cells.y);
+    return cuts;
 }
 
 } // namespace
 
 std::vector<TilePiece> pieces_of(const terrain::TileLattice& tile, glm::dvec2 last,
                                  glm::dvec2 from) {
-    const glm::ivec2 shorter = tile.shorter_from();
-    const glm::bvec2 side = side_of(from, tile.first + tile.step * glm::dvec2(shorter));
+    const std::vector<int> cols = column_cuts(tile);
+    const std::vector<int> rows = row_cuts(tile);
+    const glm::ivec2 count(static_cast<int>(cols.size()) - 1, static_cast<int>(rows.size()) - 1);
+    const glm::bvec2 side = side_of(from, tile.first + tile.step * glm::dvec2(cols[1], rows[1]));
     std::vector<TilePiece> pieces;
-    for (int order = 0; order < 4; ++order) {
-        const bool is_east = ((order & 1) != 0) != side.x;
-        const bool is_south = ((order & 2) != 0) != side.y;
-        const glm::ivec2 first(is_east ? shorter.x : 0, is_south ? shorter.y : 0);
-        const glm::ivec2 end(is_east ? tile.cells.x : shorter.x,
-                             is_south ? tile.cells.y : shorter.y);
-        if (first.x < end.x && first.y < end.y) {
-            pieces.push_back(piece_of(tile, first, end, last));
+    for (int j = 0; j < count.y; ++j) {
+        for (int i = 0; i < count.x; ++i) {
+            const glm::ivec2 part(side.x ? count.x - 1 - i : i, side.y ? count.y - 1 - j : j);
+            const auto col = static_cast<std::size_t>(part.x);
+            const auto row = static_cast<std::size_t>(part.y);
+            TilePiece& piece = pieces.emplace_back(
+                piece_of(tile, {cols[col], rows[row]}, {cols[col + 1], rows[row + 1]}, last));
+            piece.part = part;
         }
     }
     return pieces;
@@ -193,6 +221,36 @@ TileNode node_over(const TileNodes& nodes, const std::array<int, 4>& parts, glm:
         }
     }
     return node;
+}
+
+// The pieces of the first row are in the north of the others.
+int add_piece_nodes(std::span<const TilePiece> pieces, std::span<const TileNode> boxes,
+                    TileNodes& nodes) {
+    if (pieces.size() == 1) {
+        nodes.push_back(boxes.front());
+        return static_cast<int>(nodes.size()) - 1;
+    }
+    const auto in_row = static_cast<std::size_t>(
+        std::count_if(pieces.begin(), pieces.end(),
+                      [&](const TilePiece& piece) { return piece.part.y == pieces[0].part.y; }));
+    const std::size_t over = nodes.size();
+    nodes.emplace_back();
+    std::array<int, 4> parts{-1, -1, -1, -1};
+    glm::dvec2 lines(boxes.front().box.low);
+    for (std::size_t i = 0; i < in_row; ++i) {
+        parts[i] = static_cast<int>(nodes.size());
+        nodes.push_back(boxes[i]);
+        lines.x = boxes[i].box.low.x;
+    }
+    if (in_row < pieces.size()) {
+        const int beside = static_cast<int>(nodes.size());
+        nodes.push_back(node_over(nodes, parts, lines));
+        lines.y = boxes[in_row].box.low.y;
+        parts = {beside, -1, -1, -1};
+        parts[2] = add_piece_nodes(pieces.subspan(in_row), boxes.subspan(in_row), nodes);
+    }
+    nodes[over] = node_over(nodes, parts, lines);
+    return static_cast<int>(over);
 }
 
 TileNodes nodes_of(const terrain::TileTree& tree, std::span<const terrain::TreeTile> drawn,

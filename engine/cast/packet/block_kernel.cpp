@@ -80,10 +80,9 @@ template <class Mode> HWY_INLINE MergedHits merged_hits(const BlockJobs& jobs, i
     Met met = Met::nothing();
     for (std::size_t i = 0; i < jobs.tiles.size(); ++i) {
         const BlockJob& job = jobs.tiles[i];
-        const float start = job.starts[beam_at(col, row)];
-        if (start < nowhere) {
-            merge(hits_of<Mode>(rays_of(job, pixels), job, all(start), met), static_cast<int>(i),
-                  merged);
+        if (job.starts[beam_at(col, row)] < nowhere) {
+            merge(hits_of<Mode>(rays_of(job, pixels), job, starts_of(job, col, row), met),
+                  static_cast<int>(i), merged);
         }
     }
     return merged;
@@ -137,7 +136,7 @@ template <class Mode>
 HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
     for_each_packet([&](int col, int row) HWY_ATTR {
         const auto start_of = [&](const BlockJob& job)
-                                  HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
+                                  HWY_ATTR { return starts_of(job, col, row); };
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
         const TrueLook shown =
             look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
@@ -165,7 +164,7 @@ void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) 
     work.beam_taps = find_all_starts(jobs);
     for_each_packet([&](int col, int row) HWY_ATTR {
         const auto start_of = [&](const BlockJob& job)
-                                  HWY_ATTR { return all(job.starts[beam_at(col, row)]); };
+                                  HWY_ATTR { return starts_of(job, col, row); };
         const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
         const Work found =
             look_of<Counted>(jobs, paint, offsets_of(col, row), start_of, mesh_values).look.work;
@@ -203,6 +202,7 @@ struct SamplePacket {
     alignas(64) LaneFloats right;
     alignas(64) LaneFloats down;
     std::array<std::size_t, static_cast<std::size_t>(lane_count)> beam;
+    std::array<unsigned, static_cast<std::size_t>(lane_count)> pixel_of_beam;
 
     SamplePacket(const SampledPixels& sampled, SampleIndex index) {
         constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
@@ -215,6 +215,7 @@ struct SamplePacket {
             right[lane] = static_cast<float>(col) + middle + place.x;
             down[lane] = static_cast<float>(row) + middle + place.y;
             beam[lane] = beam_at(col, row);
+            pixel_of_beam[lane] = lane_at(col, row);
             index.next(sampled);
         }
     }
@@ -262,7 +263,8 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         const auto start_of = [&](const BlockJob& job) HWY_ATTR {
             alignas(64) LaneFloats starts;
             for (std::size_t lane = 0; lane < starts.size(); ++lane) {
-                starts[lane] = job.starts[packet.beam[lane]];
+                const bool is_ray = (job.lanes >> packet.pixel_of_beam[lane] & 1U) != 0;
+                starts[lane] = is_ray ? job.starts[packet.beam[lane]] : nowhere;
             }
             return hn::Load(floats, starts.data());
         };

@@ -270,6 +270,8 @@ struct BlockJob {
     bool skips_blocks = true; ///< rays pass over whole blocks of the maximum mipmap
     bool skips_cells = true;  ///< and over cells whose maximum is below them
     bool has_starts = false;  ///< they are found
+    /// The pixels of the beams whose rays these are: bits, row after row. Others hit nothing.
+    std::uint16_t lanes = 0xFFFF;
     alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
 };
 
