@@ -30,7 +30,10 @@ constexpr double share_of_track = 0.1;
 constexpr double track_terms = 7.0;    // of a FanTrack's polynomials
 constexpr double earth_radius = 6.4e6; // metres
 
-constexpr double fan_error = 0.005; // pixels, of blocks of several pixels
+// Pixels by which rays that depend on the pixel may be off in blocks of several, and in one: there,
+// one ray for all of the pixel is off by 0.7.
+constexpr double fan_error = 0.005;
+constexpr double fan_error_in_pixel = 0.1;
 
 bool has_eye(const scene::Camera& camera) {
     return camera.projection == scene::ProjectionKind::perspective;
@@ -305,7 +308,8 @@ private:
             return false;
         }
         is_too_large_ = !is_last() && std::max(degree_error_of(from, chord.metres),
-                                               degree_error_of(to, chord.metres)) > fan_error;
+                                               degree_error_of(to, chord.metres)) >
+                                          (is_pixel() ? fan_error_in_pixel : fan_error);
         if (is_too_large_) {
             return false;
         }

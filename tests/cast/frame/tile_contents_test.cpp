@@ -361,6 +361,29 @@ TEST(TilePieces, CoverATileWithCellsOfOneSize) {
               glm::dvec2(96.0, 48.0));
 }
 
+// The rows that close a globe are nearer to the others: pieces of their own.
+TEST(TilePieces, AtThePolesHaveCellsOfOneSize) {
+    constexpr geo::GlobalWrap wrap{.around = true, .east = true, .north = 0.5, .south = 0.25};
+    const terrain::TileLattice lattice{
+        {0.0, 0.0}, {64.0, 34.0}, 4.0, {16, 9}, geo::WrappedRows(wrap, 33)};
+    const auto pieces = pieces_of(lattice, {64.0, 34.0}, {0.0, 0.0});
+    ASSERT_EQ(pieces.size(), 3U);
+    EXPECT_EQ(pieces[0].first, glm::dvec2(0.0, 0.5));
+    EXPECT_EQ(pieces[0].step, glm::dvec2(4.0, 3.5));
+    EXPECT_EQ(pieces[1].first, glm::dvec2(0.0, 4.0));
+    EXPECT_EQ(pieces[1].step, glm::dvec2(4.0, 4.0));
+    EXPECT_EQ(pieces[2].first, glm::dvec2(0.0, 32.0));
+    EXPECT_EQ(pieces[2].step, glm::dvec2(4.0, 1.25));
+    EXPECT_EQ(pieces[0].walls, south_wall);
+    EXPECT_EQ(pieces[1].walls, north_wall | south_wall);
+    EXPECT_EQ(pieces[2].walls, north_wall);
+    int cells = 0;
+    for (const TilePiece& piece : pieces) {
+        cells += piece.cells.y;
+    }
+    EXPECT_EQ(cells, lattice.cells.y);
+}
+
 // Along rays from any place, each tile lies before the next.
 TEST(TilePieces, AreInTheOrderOfTheRays) {
     test::Chance chance(37);
