@@ -226,6 +226,7 @@ Result<session::SceneRenderer> make_renderer(const ViewerChoice& choice, platfor
                         .samples = samples,
                         .target = *target};
         options.expects_rays = rays == session::RayUse::only;
+        options.prefers_triangles = rays == session::RayUse::preferred;
     }
     return session::SceneRenderer::create(options);
 }

@@ -8,6 +8,8 @@
 
 #include <glm/common.hpp>
 
+#include "engine/cast/packet/block_kernel.h"
+
 namespace reljef::cast {
 namespace {
 
@@ -160,6 +162,12 @@ private:
 };
 
 } // namespace
+
+glm::ivec2 part_size(glm::ivec2 size) {
+    constexpr glm::ivec2 beam(beam_cols, beam_rows);
+    const bool is_beam = size.x <= beam.x && size.y <= beam.y;
+    return is_beam ? glm::max(size / 2, glm::ivec2(1)) : glm::max(size / 2, beam);
+}
 
 double clear_until(const RayTile& tile, const PictureRays& rays, const PixelBlock& block,
                    double begin) {

@@ -140,8 +140,8 @@ std::optional<double> start_of(const RayTile& tile, const PictureRays& rays,
     return start < rays.range.end ? std::optional(start) : std::nullopt;
 }
 
-// The pixels of a beam in a part of it: bits of BlockJob::lanes.
-std::uint16_t lanes_of(const PixelBlock& part) {
+// The pixels of a beam in a part of it: bits of BlockJob::beam_pixels.
+std::uint16_t pixels_of(const PixelBlock& part) {
     unsigned lanes = 0;
     for (int row = part.first.y; row < part.first.y + part.size.y; ++row) {
         for (int col = part.first.x; col < part.first.x + part.size.x; ++col) {
@@ -157,7 +157,7 @@ void start_beams(const PixelBlock& part, BlockJob& job) {
     job.starts.fill(std::numeric_limits<float>::infinity());
     const glm::ivec2 end = part.first + part.size;
     if (part.size.x < beam_cols || part.size.y < beam_rows) {
-        job.lanes = lanes_of(part);
+        job.beam_pixels = pixels_of(part);
     }
     for (int row = part.first.y; row < end.y; row += beam_rows) {
         for (int col = part.first.x; col < end.x; col += beam_cols) {

@@ -35,18 +35,16 @@ constexpr double earth_radius = 6.4e6; // metres
 constexpr double fan_error = 0.005;
 constexpr double fan_error_in_pixel = 0.1;
 
+// Of pieces, parts of the depth and a metre: a hundredth of a pixel, and where rays have no sample,
+// a pixel.
+constexpr double shortest = 1e-5;
+constexpr double shortest_unknown = 1e-3;
+
 bool has_eye(const scene::Camera& camera) {
     return camera.projection == scene::ProjectionKind::perspective;
 }
 
 } // namespace
-
-// Quarters, down to the pixels of a beam; then halves and rows, down to a pixel.
-glm::ivec2 part_size(glm::ivec2 size) {
-    constexpr glm::ivec2 beam(beam_cols, beam_rows);
-    const bool is_beam = size.x <= beam.x && size.y <= beam.y;
-    return is_beam ? glm::max(size / 2, glm::ivec2(1)) : glm::max(size / 2, beam);
-}
 
 CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terrain& terrain,
                        const Options& options)
@@ -77,7 +75,8 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
             error_ = std::max(error_, piece.error);
         }
     }
-    error_ += (share_of_map + share_of_track) * chord_error + order_error;
+    // Rays may be moved twice: to be linear, and to have an order.
+    error_ += (share_of_map + share_of_track) * chord_error + 2.0 * order_error;
 }
 
 glm::dvec2 CurvedRays::unseen_samples(const RayPiece& piece, double t) const {
@@ -87,7 +86,7 @@ glm::dvec2 CurvedRays::unseen_samples(const RayPiece& piece, double t) const {
 bool CurvedRays::is_linear(const RayPiece& piece) const {
     const auto off = [&](double t) {
         const glm::dvec3 bulge = places_at(piece.rays, t).bulge(glm::dvec2(piece.block.size));
-        return 0.5 * glm::length(bulge * piece.metres) / pixel_at(t);
+        return glm::length(bulge * piece.metres) / pixel_at(t);
     };
     const Interval depths = piece.rays.range;
     return std::max(off(depths.begin), off(depths.end)) <= order_error;
@@ -98,8 +97,9 @@ std::optional<glm::dvec3> CurvedRays::sample_at(glm::dvec2 pixel, double t) cons
     return map_->at(place, share_of_map * chord_error * pixel_at(t));
 }
 
-// Columns around the Earth between a box and the terrain: one turn, or two, one after the other.
-// Tiles of a globe follow its turns by themselves.
+// Columns around the Earth between a box and the terrain: the first and the last turn. No ray
+// passes more than half of one, but bounds may be wider. Tiles of a globe follow its turns by
+// themselves.
 Interval CurvedRays::turns_of(const Box& box) const {
     if (is_globe_ || !(columns_around_ > 0.0)) {
         return {0.0, 0.0};
@@ -107,7 +107,9 @@ Interval CurvedRays::turns_of(const Box& box) const {
     const auto turn_at = [&](double col) {
         return columns_around_ * std::round((col - terrain_.samples.center().x) / columns_around_);
     };
-    return {turn_at(box.low.x), turn_at(box.high.x)};
+    const double middle = turn_at(box.center().x);
+    return {std::max(turn_at(box.low.x), middle - columns_around_),
+            std::min(turn_at(box.high.x), middle + columns_around_)};
 }
 
 double CurvedRays::tolerance_at(double t) const {
@@ -121,7 +123,7 @@ double CurvedRays::pixel_at(double t) const {
 // Of polynomials along rays.
 bool CurvedRays::is_unseen(glm::dvec3 found, glm::dvec3 sample, double t) const {
     const Interval rows{std::min(found.y, sample.y), std::max(found.y, sample.y)};
-    return glm::length((found - sample) * earth_.metres(rows)) <=
+    return glm::length((found - sample) * earth_.metres_a_sample(rows)) <=
            share_of_track * chord_error * pixel_at(t);
 }
 
@@ -179,7 +181,8 @@ private:
         return track != nullptr ? track->fan(t) : ray_fan(block_, degree_, t, sample_of_);
     }
 
-    // That of the ray in the middle: those at the borders of a block may pass a pole exactly.
+    // Columns continue those of the ray in the middle: rays at the border of a block may pass a
+    // pole exactly.
     void begin_at(std::optional<RayFan> fan) {
         from_ = std::move(fan);
         if (from_) {
@@ -219,7 +222,7 @@ private:
         return is_bent ? FanDegree::constant : FanDegree::second;
     }
 
-    // From here on.
+    // Rays have another degree from a depth on.
     void change_degree(double t) {
         degree_ = degree_after(degree_);
         is_too_large_ = false;
@@ -239,8 +242,9 @@ private:
         if (is_too_large_) {
             return range.begin;
         }
-        const double min_length = (is_known ? 1e-5 : 1e-3) * (1.0 + std::abs(end));
-        const bool is_shortest = end - range.begin <= 1.01 * min_length; // despite rounding
+        const double min_length = (is_known ? shortest : shortest_unknown) * (1.0 + std::abs(end));
+        constexpr double despite_rounding = 1.01;
+        const bool is_shortest = end - range.begin <= despite_rounding * min_length;
         const bool is_done_there =
             is_known ? advance(*from_, *halfway, *to, is_shortest) : is_shortest;
         is_above_inside_ = is_known && is_above_inside_;
@@ -278,8 +282,9 @@ private:
             return true;
         }
         is_done_ = has_ended(box, ground);
-        return is_done_ || add(from, to, {chord, rays_.earth_.metres({box.low.y, box.high.y})},
-                               turns, is_shortest);
+        return is_done_ ||
+               add(from, to, {chord, rays_.earth_.metres_a_sample({box.low.y, box.high.y})}, turns,
+                   is_shortest);
     }
 
     // Around all rays of a piece.
@@ -314,9 +319,8 @@ private:
             return false;
         }
         const bool is_east = to.samples[to.middle()].x > from.samples[from.middle()].x;
-        add_piece(from, to, chord, is_east ? turns.begin : turns.end);
-        if (turns.begin < turns.end) {
-            add_piece(from, to, chord, is_east ? turns.end : turns.begin);
+        for (const double turn : turns_between(turns, is_east)) {
+            add_piece(from, to, chord, turn);
         }
         length_ = (to.t - from.t) * std::clamp(0.9 / std::sqrt(off), 0.5, 4.0);
         return true;
@@ -361,9 +365,8 @@ private:
     // moved when they become linear.
     [[nodiscard]] double unordered_of(const RayFan& fan, glm::dvec3 metres) const {
         const glm::dvec2 part = glm::dvec2(block_.size) / static_cast<double>(course_parts);
-        return in_pixels(
-            fan, glm::max(fan.vectors.bulge(part), 0.5 * fan.vectors.bulge(glm::dvec2(1.0))),
-            metres);
+        return in_pixels(fan, glm::max(fan.vectors.bulge(part), fan.vectors.bulge(glm::dvec2(1.0))),
+                         metres);
     }
     // Pixels. Where the second degree is large, a fourth may not show at the places of a fan.
     [[nodiscard]] double degree_error_of(const RayFan& fan, glm::dvec3 metres) const {
@@ -378,15 +381,28 @@ private:
         return {box.low - by, box.high - by};
     }
 
+    // In the order of rays that lead east, or west.
+    [[nodiscard]] std::vector<double> turns_between(Interval turns, bool is_east) const {
+        std::vector<double> between{turns.begin};
+        while (between.back() < turns.end) {
+            between.push_back(std::min(between.back() + rays_.columns_around_, turns.end));
+        }
+        if (!is_east) {
+            std::reverse(between.begin(), between.end());
+        }
+        return between;
+    }
+
     // Bounds of the ground that a box may meet.
     [[nodiscard]] Interval ground_in(const Box& box, Interval turns) const {
         const HeightBounds& heights = rays_.terrain_.heights;
-        const Interval first = heights.within(without_turn(box, turns.begin));
-        if (turns.begin == turns.end) {
-            return first;
+        Interval ground = heights.within(without_turn(box, turns.begin));
+        for (double turn = turns.begin; turn < turns.end;) {
+            turn = std::min(turn + rays_.columns_around_, turns.end);
+            const Interval found = heights.within(without_turn(box, turn));
+            ground = {std::min(ground.begin, found.begin), std::max(ground.end, found.end)};
         }
-        const Interval last = heights.within(without_turn(box, turns.end));
-        return {std::min(first.begin, last.begin), std::max(first.end, last.end)};
+        return ground;
     }
 
     // Over or under the surface.
@@ -408,7 +424,12 @@ private:
             return glm::any(glm::lessThan(glm::dvec2(own.high), glm::dvec2(surface_.low))) ||
                    glm::any(glm::greaterThan(glm::dvec2(own.low), glm::dvec2(surface_.high)));
         };
-        return is_beside_in(turns.begin) && is_beside_in(turns.end);
+        bool is_beside = is_beside_in(turns.begin);
+        for (double turn = turns.begin; is_beside && turn < turns.end;) {
+            turn = std::min(turn + rays_.columns_around_, turns.end);
+            is_beside = is_beside_in(turn);
+        }
+        return is_beside;
     }
 
     void add_piece(const RayFan& from, const RayFan& to, const Chord& chord, double turn) {

@@ -29,8 +29,6 @@ struct RayPiece {
     glm::dvec3 metres{1.0}; ///< of a column, a row and a metre of height there, at most
 };
 
-/// The size of the parts of a block of rays that bend too much together, pixels.
-glm::ivec2 part_size(glm::ivec2 size);
 
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
 /// of a block of pixels are cut into pieces, each so short that its chords have no visible error.

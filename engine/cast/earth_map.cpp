@@ -33,8 +33,8 @@ EarthMap::EarthMap(const terrain::Placement& placement, const geo::WrappedRows& 
         const glm::dvec2 radii = geo::radii_of_earth();
         const double above = std::max(placement.exaggeration() * samples.high.z, 0.0) +
                              std::max(placement.zero_range().high, 0.0);
-        equator_ =
-            (radii.x * radii.x / radii.y + above) * std::abs(glm::radians(parallels_->column));
+        equator_ = (1.0 + off_sample) * (radii.x * radii.x / radii.y + above) *
+                   std::abs(glm::radians(parallels_->column_step));
     }
 }
 
@@ -54,12 +54,12 @@ double EarthMap::zero_at(glm::dvec2 sample) const {
     return placement_.zero_at_sample({sample.x, rows_.from_even_row(sample.y)});
 }
 
-glm::dvec3 EarthMap::metres(Interval rows) const {
+glm::dvec3 EarthMap::metres_a_sample(Interval rows) const {
     if (!parallels_) {
         return largest_;
     }
-    const double first = parallels_->latitude + parallels_->a_row * rows.begin;
-    const double last = parallels_->latitude + parallels_->a_row * rows.end;
+    const double first = parallels_->latitude + parallels_->row_step * rows.begin;
+    const double last = parallels_->latitude + parallels_->row_step * rows.end;
     const double nearest =
         (first < 0.0) != (last < 0.0) ? 0.0 : std::min(std::abs(first), std::abs(last));
     const double latitude = std::clamp(nearest - off_parallel, 0.0, 90.0);
@@ -67,7 +67,7 @@ glm::dvec3 EarthMap::metres(Interval rows) const {
 }
 
 double EarthMap::columns_around() const {
-    return parallels_ ? 360.0 / std::abs(parallels_->column) : 0.0;
+    return parallels_ ? 360.0 / std::abs(parallels_->column_step) : 0.0;
 }
 
 Interval EarthMap::rows_between_poles() const {
@@ -75,9 +75,9 @@ Interval EarthMap::rows_between_poles() const {
         constexpr double all = std::numeric_limits<double>::infinity();
         return {-all, all};
     }
-    const double last = 90.0 - std::abs(parallels_->a_row);
-    const double a = (last - parallels_->latitude) / parallels_->a_row;
-    const double b = (-last - parallels_->latitude) / parallels_->a_row;
+    const double last = 90.0 - std::abs(parallels_->row_step);
+    const double a = (last - parallels_->latitude) / parallels_->row_step;
+    const double b = (-last - parallels_->latitude) / parallels_->row_step;
     return {std::min(a, b), std::max(a, b)};
 }
 
@@ -119,19 +119,19 @@ std::optional<EarthMap::Parallels> EarthMap::parallels(const Box& samples) const
         return std::nullopt;
     }
     Parallels found;
-    found.a_row = (last->latitude - first->latitude) / (place(1, parts - 1).y - place(1, 1).y);
-    found.latitude = first->latitude - found.a_row * place(1, 1).y;
-    found.column = turn_between(first->longitude, beside->longitude);
+    found.row_step = (last->latitude - first->latitude) / (place(1, parts - 1).y - place(1, 1).y);
+    found.latitude = first->latitude - found.row_step * place(1, 1).y;
+    found.column_step = turn_between(first->longitude, beside->longitude);
     const double tolerance = std::min(
-        off_parallel, off_sample * std::min(std::abs(found.a_row), std::abs(found.column)));
+        off_parallel, off_sample * std::min(std::abs(found.row_step), std::abs(found.column_step)));
     for (int i = 1; i < parts; ++i) {
         for (int j = 1; j < parts; ++j) {
             const glm::dvec3 at = place(i, j);
             const auto here = geodetic(at);
             const auto next = geodetic(at + glm::dvec3(1.0, 0.0, 0.0));
-            const double latitude = found.latitude + found.a_row * at.y;
+            const double latitude = found.latitude + found.row_step * at.y;
             if (!here || !next || !(std::abs(here->latitude - latitude) <= tolerance) ||
-                !(std::abs(turn_between(here->longitude, next->longitude) - found.column) <=
+                !(std::abs(turn_between(here->longitude, next->longitude) - found.column_step) <=
                   tolerance)) {
                 return std::nullopt;
             }

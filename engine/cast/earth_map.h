@@ -28,18 +28,18 @@ public:
 
     /// Of a column, a row and a metre of height, at most. Between two rows, if the columns are
     /// meridians; else anywhere.
-    [[nodiscard]] glm::dvec3 metres(Interval rows) const;
+    [[nodiscard]] glm::dvec3 metres_a_sample(Interval rows) const;
     /// Columns around the Earth, if they are meridians; else 0.
     [[nodiscard]] double columns_around() const;
     /// Rows at least one from both poles, if the columns are meridians; else all.
     [[nodiscard]] Interval rows_between_poles() const;
 
 private:
-    // Of rows that are parallels, equally far apart.
+    // Where rows are parallels, equally far apart, and columns are meridians.
     struct Parallels {
         double latitude = 0.0; // of row 0, degrees
-        double a_row = 0.0;    // degrees
-        double column = 0.0;   // degrees
+        double row_step = 0.0; // degrees
+        double column_step = 0.0;
     };
     [[nodiscard]] glm::dvec3 largest_metres(const Box& samples) const;
     [[nodiscard]] std::optional<Parallels> parallels(const Box& samples) const;

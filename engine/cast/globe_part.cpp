@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "engine/cast/earth_map.h"
+#include "engine/core/check.h"
 #include "engine/geo/georeference.h"
 
 namespace reljef::cast {
@@ -97,29 +97,35 @@ struct Extent {
 
 Extent seen_extent(const Cap& cap) {
     const double eye = std::asin(std::clamp(cap.middle.z, -1.0, 1.0));
-    constexpr double pole = 0.5 * std::numbers::pi;
+    constexpr double quarter = 0.5 * std::numbers::pi;
     Extent found;
     found.middle = latitude_of(eye);
-    if (eye + cap.angle < pole) {
+    if (eye + cap.angle < quarter) {
         found.north = latitude_of(eye + cap.angle);
     }
-    if (eye - cap.angle > -pole) {
+    if (eye - cap.angle > -quarter) {
         found.south = latitude_of(eye - cap.angle);
     }
-    if (std::abs(eye) + cap.angle < pole) {
+    if (std::abs(eye) + cap.angle < quarter) {
         found.half_width = glm::degrees(std::asin(std::sin(cap.angle) / std::cos(eye)));
     }
     return found;
 }
 
-GlobePart part_of(const Cap& cap, const EarthMap& earth, const Box& samples) {
-    const terrain::Placement& placement = earth.placement();
+// Ground that is so near to a pole reaches it: 0.1 mm.
+constexpr double pole = 90.0 - 1e-9; // degrees
+
+GlobePart part_of(const Cap& cap, const terrain::Placement& placement, const geo::WrappedRows& rows,
+                  const Box& samples) {
     const Extent seen = seen_extent(cap);
     const glm::dvec2 ground = *placement.latitudes_all_around();
     const double longitude = glm::degrees(std::atan2(cap.middle.y, cap.middle.x));
     const auto sample_at = [&](double latitude) {
         const double inside = std::clamp(latitude, ground.x, ground.y);
-        return *earth.sample(*placement.world_from_geodetic({inside, longitude, 0.0}));
+        const auto world = placement.world_from_geodetic({inside, longitude, 0.0});
+        const auto sample = world ? placement.sample_from_world(*world) : std::nullopt;
+        check(sample.has_value(), "a globe in degrees has a sample at each place");
+        return glm::dvec2(sample->x, rows.even_row(sample->y));
     };
     const double col = sample_at(seen.middle).x;
     const double half_width = *placement.columns_all_around() * seen.half_width / 360.0;
@@ -127,10 +133,25 @@ GlobePart part_of(const Cap& cap, const EarthMap& earth, const Box& samples) {
     const double last = seen.south > ground.x ? sample_at(seen.south).y : samples.high.y;
     GlobePart part;
     part.local = local_box(cap, *placement.frame());
-    part.has_pole = seen.half_width > 180.0;
+    part.has_north_pole = seen.north > pole && ground.y > pole;
+    part.has_south_pole = seen.south < -pole && ground.x < -pole;
     part.samples.add(glm::dvec3(col - half_width, first, samples.low.z));
     part.samples.add(glm::dvec3(col + half_width, std::max(last, first + 1.0), samples.high.z));
     return part;
+}
+
+// `way`: unit vector. Half of the Earth, where the rays do not all meet the lowest ground.
+Cap cap_along(glm::dvec3 place, glm::dvec3 way, double radius, Interval heights) {
+    const glm::dvec3 beside = place - glm::dot(place, way) * way;
+    const double off = glm::length(beside);
+    const double lowest = stretched(heights).begin;
+    if (!(off + radius < lowest)) {
+        return cap_around(-way, 0.5 * std::numbers::pi, heights);
+    }
+    // Along any line on the picture, ground is stretched as along the one to its border, at most.
+    const glm::dvec3 met = beside - std::sqrt(lowest * lowest - off * off) * way;
+    return cap_around(glm::normalize(met),
+                      std::asin((off + radius) / lowest) - std::asin(off / lowest), heights);
 }
 
 } // namespace
@@ -145,18 +166,20 @@ std::optional<GlobePart> globe_part_from(glm::dvec3 eye, const terrain::Placemen
         return std::nullopt;
     }
     const Cap cap = cap_around(scaled / distance, std::acos(lowest / distance), heights);
-    return part_of(cap, EarthMap(placement, rows, samples), samples);
+    return part_of(cap, placement, rows, samples);
 }
 
-GlobePart globe_part_along(glm::dvec3 direction, const terrain::Placement& placement,
-                           const geo::WrappedRows& rows, const Box& samples) {
+GlobePart globe_part_along(const ParallelRays& rays, const terrain::Placement& placement,
+                           const geo::WrappedRows& even_rows, const Box& samples) {
     const geo::LocalFrame& frame = *placement.frame();
-    const glm::dvec3 way =
-        (frame.geocentric_from_local(direction) - frame.geocentric_from_local(glm::dvec3(0.0))) /
-        radii_of_axes();
+    const auto scaled = [&](glm::dvec3 local) {
+        return frame.geocentric_from_local(local) / radii_of_axes();
+    };
+    const glm::dvec3 way = glm::normalize(scaled(rays.middle.direction) - scaled(glm::dvec3(0.0)));
     const Cap cap =
-        cap_around(-glm::normalize(way), 0.5 * std::numbers::pi, heights_of(placement, samples));
-    return part_of(cap, EarthMap(placement, rows, samples), samples);
+        cap_along(scaled(rays.middle.origin), way, rays.radius / geo::radii_of_earth().y,
+                  heights_of(placement, samples));
+    return part_of(cap, placement, even_rows, samples);
 }
 
 } // namespace reljef::cast

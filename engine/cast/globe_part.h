@@ -16,7 +16,8 @@ struct GlobePart {
     /// Columns continue beyond the terrain's; where a pole or ground behind one may be seen, they
     /// go twice around.
     Box samples;
-    bool has_pole = false; ///< may be seen
+    bool has_north_pole = false; ///< ground there may be seen
+    bool has_south_pole = false;
 };
 
 /// `samples`: of all ground, with even rows (EarthMap), and metres of height. `eye`: local metres.
@@ -25,8 +26,14 @@ struct GlobePart {
 std::optional<GlobePart> globe_part_from(glm::dvec3 eye, const terrain::Placement& placement,
                                          const geo::WrappedRows& rows, const Box& samples);
 
-/// The same for parallel rays. `direction`: local.
-GlobePart globe_part_along(glm::dvec3 direction, const terrain::Placement& placement,
-                           const geo::WrappedRows& rows, const Box& samples);
+/// Parallel rays up to a distance from the one in their middle, local metres.
+struct ParallelRays {
+    Ray middle;
+    double radius = 0.0;
+};
+
+/// What parallel rays may show.
+GlobePart globe_part_along(const ParallelRays& rays, const terrain::Placement& placement,
+                           const geo::WrappedRows& even_rows, const Box& samples);
 
 } // namespace reljef::cast

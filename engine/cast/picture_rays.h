@@ -29,10 +29,11 @@ struct PictureRays {
             return first + pixel.x * right + pixel.y * down + pixel.x * pixel.x * bends[0] +
                    pixel.x * pixel.y * bends[1] + pixel.y * pixel.y * bends[2];
         }
-        /// What linear vectors miss at most over a rectangle of a size in pixels, if they are right
-        /// at its corners.
+        /// What linear vectors miss at most over a rectangle of a size in pixels, if they are as
+        /// right at its corners as a plane can be.
         [[nodiscard]] glm::dvec3 bulge(glm::dvec2 extent) const {
             return 0.25 * (extent.x * extent.x * glm::abs(bends[0]) +
+                           extent.x * extent.y * glm::abs(bends[1]) +
                            extent.y * extent.y * glm::abs(bends[2]));
         }
         [[nodiscard]] bool is_bent() const { return bends != std::array<glm::dvec3, 3>{}; }

@@ -39,10 +39,15 @@ view::SelectOptions with_chooser(view::SelectOptions options,
     return options;
 }
 
+std::string obstacle_of(const view::DrawList& list, bool prefers_triangles) {
+    return prefers_triangles ? cast::obstacle_beside_triangles(list) : cast::obstacle_of(list);
+}
+
 // All parts of a picture are drawn by the same means.
-std::string obstacle_in(const view::DrawList& list, const std::string& of_whole) {
+std::string obstacle_in(const view::DrawList& list, const std::string& of_whole,
+                        bool prefers_triangles) {
     const bool is_part = list.camera.whole != glm::ivec2(0);
-    return is_part && !of_whole.empty() ? of_whole : cast::obstacle_beside_triangles(list);
+    return is_part && !of_whole.empty() ? of_whole : obstacle_of(list, prefers_triangles);
 }
 
 bool overlap(const scene::PicturePart& a, const scene::PicturePart& b) {
@@ -55,8 +60,9 @@ view::ChoiceOptions choice_options(const SceneRendererOptions& options,
     view::ChoiceOptions choice{.costs = options.costs};
     if (options.rays) {
         choice.rays_draw = [is_alone = !options.opengl,
+                            prefers_triangles = options.prefers_triangles,
                             of_whole = std::move(obstacle_of_whole)](const view::DrawList& list) {
-            return is_alone || obstacle_in(list, *of_whole).empty();
+            return is_alone || obstacle_in(list, *of_whole, prefers_triangles).empty();
         };
     }
     return choice;
@@ -68,6 +74,7 @@ SceneRenderer::SceneRenderer(const SceneRendererOptions& options)
     : opengl_options_(options.opengl), make_context_(options.make_context),
       size_(options.rays ? options.rays->size : options.opengl->size), threads_(options.threads),
       shows_rays_(options.rays.has_value()), expects_rays_(options.expects_rays),
+      prefers_triangles_(options.prefers_triangles),
       obstacle_of_whole_(std::make_shared<std::string>()),
       chooser_(
           std::make_shared<view::TechniqueChooser>(choice_options(options, obstacle_of_whole_))),
@@ -112,7 +119,8 @@ Result<void> SceneRenderer::prepare_opengl() {
 
 Result<bool> SceneRenderer::choose_rays() {
     const view::DrawList& list = selector_.selected().list;
-    const std::string obstacle = rays_ ? obstacle_in(list, *obstacle_of_whole_) : "no rays";
+    const std::string obstacle =
+        rays_ ? obstacle_in(list, *obstacle_of_whole_, prefers_triangles_) : "no rays";
     const bool by_rays = obstacle.empty() || !opengl_options_;
     if (!by_rays) {
         if (auto prepared = prepare_opengl(); !prepared) {
@@ -224,7 +232,7 @@ void SceneRenderer::set_costs(const Costs& costs) {
 
 void SceneRenderer::choose_for_parts(const scene::Scene& scene, glm::ivec2 picture) {
     const view::FrameView whole = view::select(scene, picture, select_options_);
-    *obstacle_of_whole_ = cast::obstacle_beside_triangles(whole.list);
+    *obstacle_of_whole_ = obstacle_of(whole.list, prefers_triangles_);
     chooser_->choose_for_parts(whole.list);
     labels_of_whole_ = labels_of(whole.list);
     selector_.forget();

@@ -41,6 +41,8 @@ struct SceneRendererOptions {
     /// Absent: OpenGL only. With both, rays draw the frames that they can draw.
     std::optional<cast::DriverOptions> rays = {};
     bool expects_rays = false; ///< take_note() also says why OpenGL draws the first frame
+    /// With both: triangles draw what they keep drawing faster (cast::obstacle_beside_triangles).
+    bool prefers_triangles = false;
     /// With both: makes the context before OpenGL's first frame; empty: there is one.
     std::function<Result<void>()> make_context = {};
     view::SelectOptions select = {};
@@ -139,6 +141,7 @@ private:
     bool expects_rays_;
     std::string note_;
     // What keeps rays on the CPU from drawing the picture of later parts.
+    bool prefers_triangles_;
     std::shared_ptr<std::string> obstacle_of_whole_;
     std::shared_ptr<view::TechniqueChooser> chooser_; // of the selector
     view::SelectOptions select_options_;              // without the choice

@@ -169,9 +169,10 @@ Result<GeometricErrors> geometric_errors(const SurfaceView& view, const HitBuffe
     const auto reprojection = [&](glm::ivec2 pixel, const Hit& hit) {
         return reprojection_error(view, size, pixel, hit);
     };
+    const bool is_globe = view.placement.kind() == terrain::PlacementKind::ellipsoid &&
+                          view.placement.columns_all_around();
     const auto hit = [&](const Hit& here, const Hit& true_hit) {
-        return view.placement.columns_all_around() ? ground_error(view, here, true_hit)
-                                                   : hit_error(here, true_hit);
+        return is_globe ? ground_error(view, here, true_hit) : hit_error(here, true_hit);
     };
     return geometric_errors({reprojection, hit}, shown, truth, threads);
 }

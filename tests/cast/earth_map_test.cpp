@@ -60,7 +60,8 @@ TEST(EarthMap, NoSampleIsLargerThanItsMetres) {
         glm::dvec3 to =
             from + glm::dvec3(chance.between(-0.2, 0.2), chance.between(-0.2, 0.2), 0.0);
         to.y = std::clamp(to.y, globe.samples.low.y, globe.samples.high.y);
-        const glm::dvec3 metres = map.metres({std::min(from.y, to.y), std::max(from.y, to.y)});
+        const glm::dvec3 metres =
+            map.metres_a_sample({std::min(from.y, to.y), std::max(from.y, to.y)});
         EXPECT_LE(glm::distance(map.world(from), map.world(to)),
                   1.0001 * glm::length((to - from) * metres))
             << from.y;
@@ -71,8 +72,8 @@ TEST(EarthMap, ColumnsAreNarrowAtThePoles) {
     const MadeGlobe globe(0.5, 0.5);
     const EarthMap map = globe.map();
     const double at_pole = globe.samples.low.y;
-    EXPECT_LT(map.metres({at_pole, at_pole}).x, 1.0);
-    EXPECT_GT(map.metres({at_pole, globe.samples.high.y}).x, 1e5);
+    EXPECT_LT(map.metres_a_sample({at_pole, at_pole}).x, 1.0);
+    EXPECT_GT(map.metres_a_sample({at_pole, globe.samples.high.y}).x, 1e5);
     EXPECT_NEAR(map.columns_around(), *globe.placement.columns_all_around(), 1e-6);
     EXPECT_NEAR(map.rows_between_poles().begin, at_pole + 1.0, 1e-6);
     EXPECT_NEAR(map.rows_between_poles().end, globe.samples.high.y - 1.0, 1e-6);
@@ -94,7 +95,7 @@ TEST(EarthMap, ElsewhereAllSamplesCountAsTheLargest) {
     samples.add(glm::dvec3(39.0, 39.0, 10.0));
     const EarthMap map(test::placed(turned), {}, samples);
     EXPECT_EQ(map.columns_around(), 0.0);
-    EXPECT_EQ(map.metres({1.0, 2.0}), map.metres({30.0, 31.0}));
+    EXPECT_EQ(map.metres_a_sample({1.0, 2.0}), map.metres_a_sample({30.0, 31.0}));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "engine/cast/frame/driver.h"
 #include "engine/cast/globe_part.h"
+#include "engine/cast/simd_target.h"
 #include "engine/core/bilinear.h"
 #include "engine/truth/draw.h"
 #include "engine/truth/geometric_error.h"
@@ -87,10 +89,10 @@ public:
         *camera_->get<scene::Camera>() = camera;
         render::bring_tiles(scene_, size);
     }
-    void look_at_map() {
+    void look_at_map(double height = 1e6) { // metres
         scene::Camera& camera = *camera_->get<scene::Camera>();
         camera.projection = scene::ProjectionKind::orthographic;
-        camera.view_height = 1e6;
+        camera.view_height = height;
         render::bring_tiles(scene_, size);
     }
     [[nodiscard]] std::string obstacle() const {
@@ -102,9 +104,10 @@ public:
     void draw_exactly() {
         terrain_->get<scene::TerrainNode>()->material.technique = scene::Technique{scene::Exact{}};
     }
-    [[nodiscard]] view::DrawnHits drawn(const RaySkips& skips = {}, unsigned threads = 0) const {
-        Driver driver =
-            test::must(Driver::create({.size = size, .threads = threads, .skips = skips}));
+    [[nodiscard]] view::DrawnHits drawn(const RaySkips& skips = {}, unsigned threads = 0,
+                                        std::optional<SimdTarget> target = {}) const {
+        Driver driver = test::must(
+            Driver::create({.size = size, .threads = threads, .target = target, .skips = skips}));
         return test::must(driver.draw_hits(view::select(scene_, size)));
     }
     [[nodiscard]] truth::GeometricErrors errors(const HitBuffer& shown) const {
@@ -148,21 +151,37 @@ TEST(GlobeRays, HitWhatTheTruthHits) {
     }
 }
 
-// Beams and blocks are only skipped where bent rays cannot hit.
+// Beams and blocks are only skipped where bent rays cannot hit, also where they are parts of a
+// beam.
 TEST(GlobeRays, HitTheSameWithoutSkips) {
     GlobeStage stage(0.5, 0.5, true);
-    stage.look({-30.0, 179.5, 1e6, 20.0, 60.0});
-    const view::DrawnHits shown = stage.drawn();
-    const RaySkips none{false, false, false, false, false};
-    const HitBuffer all = stage.drawn(none).hits;
-    const HitBuffer of_one_thread = stage.drawn({}, 1).hits;
-    for (std::size_t i = 0; i < shown.hits.size(); ++i) {
-        const Hit& here = shown.hits.samples()[i];
-        for (const Hit& there : {all.samples()[i], of_one_thread.samples()[i]}) {
-            EXPECT_TRUE((here.is_sky() && there.is_sky()) ||
-                        (here.col == there.col && here.row == there.row))
-                << i;
+    for (const GlobeView& view :
+         {GlobeView{-30.0, 179.5, 1e6, 20.0, 60.0}, GlobeView{89.0, 30.0, 1e5, 0.0, 50.0}}) {
+        stage.look(view);
+        const view::DrawnHits shown = stage.drawn();
+        const RaySkips none{false, false, false, false, false};
+        const HitBuffer all = stage.drawn(none).hits;
+        const HitBuffer of_one_thread = stage.drawn({}, 1).hits;
+        for (std::size_t i = 0; i < shown.hits.size(); ++i) {
+            const Hit& here = shown.hits.samples()[i];
+            for (const Hit& there : {all.samples()[i], of_one_thread.samples()[i]}) {
+                EXPECT_TRUE((here.is_sky() && there.is_sky()) ||
+                            (here.col == there.col && here.row == there.row))
+                    << i;
+            }
         }
+    }
+}
+
+// Parts of a beam are lanes, of which sets have 1 to 16.
+TEST(GlobeRays, HitWhatTheTruthHitsAtAPoleWithEachInstructionSet) {
+    GlobeStage stage(0.5, 0.5, false);
+    stage.look({89.0, 30.0, 1e5, 0.0, 50.0});
+    for (const SimdTarget& target : simd_targets()) {
+        const view::DrawnHits shown = stage.drawn({}, 0, target);
+        const truth::GeometricErrors found = stage.errors(shown.hits);
+        EXPECT_LE(found.wrong + found.reprojection.unbounded, shown.hits.size() / 2000)
+            << target.name;
     }
 }
 
@@ -213,12 +232,15 @@ TEST(GlobeRays, StateSmallErrorsAtThePoles) {
     }
 }
 
-TEST(GlobeRays, HitWhatTheTruthHitsOnAMap) {
+TEST(GlobeRays, HitWhatTheTruthHitsOnMaps) {
     for (const bool is_streamed : {false, true}) {
         GlobeStage stage(0.5, 0.5, is_streamed);
-        stage.look({60.0, 20.0, 2e6, 0.0, 80.0});
-        stage.look_at_map();
-        expect_true(stage, is_streamed ? "streamed" : "whole");
+        for (const double height : {3e3, 1e6, 2e7}) {
+            stage.look({60.0, 20.0, 2e6, 0.0, 80.0});
+            stage.look_at_map(height);
+            expect_true(stage,
+                        fmt::format("{} m high, {}", height, is_streamed ? "streamed" : "whole"));
+        }
     }
 }
 
@@ -228,8 +250,19 @@ TEST(GlobeRays, AreLeftToTrianglesAtThePolesUnlessTheyAreExact) {
     EXPECT_EQ(stage.obstacle_beside_triangles(), "a globe with a pole in view");
     stage.draw_exactly();
     EXPECT_EQ(stage.obstacle_beside_triangles(), "");
+}
+
+TEST(GlobeRays, AreNotLeftToTrianglesWhereNoPoleIsShown) {
+    GlobeStage stage(0.5, 0.5, false);
     stage.look({20.0, 20.0, 4e5, 0.0, 80.0});
     EXPECT_EQ(stage.obstacle_beside_triangles(), "");
+    stage.look_at_map();
+    EXPECT_EQ(stage.obstacle_beside_triangles(), "");
+    stage.look({80.0, 20.0, 1e6, 180.0, 40.0}); // away from it
+    EXPECT_EQ(stage.obstacle_beside_triangles(), "");
+    GlobeStage without(belt(), false);
+    without.look({58.0, 20.0, 4e6, 0.0, 80.0});
+    EXPECT_EQ(without.obstacle_beside_triangles(), "");
 }
 
 // A place is seen if no lower ground hides it: if the way to the eye does not meet an ellipsoid.
@@ -282,6 +315,56 @@ TEST(GlobePart, HasAllThatAnEyeMaySee) {
                         glm::all(glm::lessThanEqual(place, part->local.high)));
             EXPECT_TRUE(sample.x >= part->samples.low.x && sample.x <= part->samples.high.x &&
                         sample.y >= part->samples.low.y && sample.y <= part->samples.high.y)
+                << sample.x << ' ' << sample.y;
+        }
+    }
+    EXPECT_GT(seen, 5000);
+}
+
+// Parallel rays to all places of a picture, up to the horizon.
+TEST(GlobePart, HasAllThatAMapMayShow) {
+    const terrain::Heightfield globe = test::closed_globe(180, 0.5, 0.5, 12);
+    const terrain::Placement placement = test::placed(globe);
+    const geo::WrappedRows rows = globe.georeference->geodetic.rows();
+    const double around = *placement.columns_all_around();
+    Box all;
+    all.add(glm::dvec3(0.0, rows.even_row(0.0), -500.0));
+    all.add(
+        glm::dvec3(globe.heights.cols() - 1.0, rows.even_row(globe.heights.rows() - 1.0), 8000.0));
+    test::Chance chance(14);
+    int seen = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::dvec3 target = placement
+                                      .world_from_geodetic({chance.between(-90.0, 90.0),
+                                                            chance.between(-180.0, 180.0), 0.0})
+                                      .value();
+        const glm::dvec3 tilt(chance.between(-1.0, 1.0), chance.between(-1.0, 1.0),
+                              chance.between(-1.0, 1.0));
+        const glm::dvec3 way = -glm::normalize(placement.up(target) + 0.7 * tilt);
+        const ParallelRays rays{{target - 1e7 * way, way},
+                                std::pow(10.0, chance.between(2.0, 7.0))};
+        const GlobePart part = globe_part_along(rays, placement, rows, all);
+        for (int j = 0; j < 30; ++j) {
+            const glm::dvec3 near = target + rays.radius * glm::dvec3(chance.between(-1.0, 1.0),
+                                                                      chance.between(-1.0, 1.0),
+                                                                      chance.between(-1.0, 1.0));
+            const auto below = placement.sample_from_world(near);
+            if (!below) {
+                continue;
+            }
+            glm::dvec3 sample = *below;
+            sample.z = chance.between(-500.0, 8000.0);
+            const glm::dvec3 place = placement.world_from_sample(sample);
+            const glm::dvec3 to_place = place - rays.middle.origin;
+            const double beside = glm::length(to_place - glm::dot(to_place, way) * way);
+            if (beside > rays.radius || glm::dot(placement.up(place), way) > -1e-3) {
+                continue;
+            }
+            ++seen;
+            sample.x += around * std::round((part.samples.center().x - sample.x) / around);
+            sample.y = rows.even_row(sample.y);
+            EXPECT_TRUE(sample.x >= part.samples.low.x && sample.x <= part.samples.high.x &&
+                        sample.y >= part.samples.low.y && sample.y <= part.samples.high.y)
                 << sample.x << ' ' << sample.y;
         }
     }

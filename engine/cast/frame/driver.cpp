@@ -23,7 +23,6 @@
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
-
 namespace {
 
 // The finest tiles that are searched as tiles, and the others, above them.
@@ -63,16 +62,16 @@ StreamedList with_searched_tiles(view::DrawList list) {
     return made;
 }
 
-// Tiles of a stream are drawn in up to four pieces.
+// Tiles are drawn in pieces, also the one of a terrain in memory.
 int tile_count(const view::DrawList& list, const PlacedTiles& placed) {
-    return static_cast<int>(list.tiles.empty() ? placed.tiles.size() : list.tiles.size());
+    return list.tiles.empty() && !placed.tiles.empty() ? 1 : static_cast<int>(list.tiles.size());
 }
 
 // Those of the picture's middles, unless they can only meet the sky.
 std::size_t ray_count(const view::DrawList& list, const PlacedTiles& placed) {
-    const bool is_empty = placed.tiles.empty() && list.meshes.empty();
-    return is_empty ? 0
-                    : static_cast<std::size_t>(list.size.x) * static_cast<std::size_t>(list.size.y);
+    return placed.tiles.empty() && list.meshes.empty()
+               ? 0
+               : static_cast<std::size_t>(list.size.x) * static_cast<std::size_t>(list.size.y);
 }
 
 } // namespace
@@ -106,30 +105,36 @@ Driver::Surface& Driver::surface_of(const std::shared_ptr<const scene::TerrainSu
 }
 
 // Of a terrain in memory.
-void Driver::place_surface(const scene::TerrainNode& terrain, const PictureRays& rays,
-                           PlacedTiles& placed, view::FrameStats& stats) {
+void Driver::place_surface(const SeenTerrain& seen, const PictureRays& rays, PlacedTiles& placed,
+                           view::FrameStats& stats) {
+    const scene::TerrainNode& terrain = *seen.node;
     Surface& surface = surface_of(terrain.surface);
-    const Grid<float>& heights = terrain.surface->heightfield().heights;
-    const std::vector<RowPart> parts = row_parts(terrain);
-    if (surface.tiles.size() == parts.size()) {
+    const auto heights = terrain.surface->heightfield().heights.view();
+    const std::vector<TilePiece> pieces = surface_pieces(terrain);
+    if (surface.tiles.size() == pieces.size()) {
         ++stats.skipped.uploads_unchanged;
     } else {
         surface.tiles.clear();
-        for (const RowPart& part : parts) {
-            surface.tiles.push_back(std::make_shared<const RayTile>(
-                heights.view().window(0, part.first, heights.cols(), part.cells + 1)));
+        for (const TilePiece& piece : pieces) {
+            surface.tiles.push_back(std::make_shared<const RayTile>(heights.window(
+                piece.vertex.x, piece.vertex.y, piece.cells.x + 1, piece.cells.y + 1)));
             stats.upload_bytes += surface.tiles.back()->bytes();
         }
         ++stats.uploads;
     }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
         PlacedTile& tile = placed.tiles.emplace_back();
         tile.tile = surface.tiles[i].get();
         tile.rays = rays;
         tile.seen = {{0, 0}, rays.size};
-        place_part(parts[i], tile);
+        tile.walls = pieces[i].walls;
+        tile.first = pieces[i].first;
+        tile.step = pieces[i].step;
+        tile.scale = 1.0 / tile.step;
+        tile.by = -tile.first / tile.step;
     }
     placed.rows = rows_of(terrain);
+    join_ends(seen, pieces, placed);
 }
 
 namespace {
@@ -249,7 +254,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
         PlacedTiles placed = streamed_.place(
             list, rays, {options_.threads, paints, curve != nullptr, in_parts}, stats);
         placed.curve = curve;
-        join_ends(seen, placed);
+        join_ends(seen, {}, placed);
         if (paints && in_parts) {
             add_sun(list, seen, streamed_.beside(node.stream->maker(), tiles_of(list), frame.above),
                     placed);
@@ -259,8 +264,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     PlacedTiles placed;
     placed.curve = curve;
     placed.has_walls = curve != nullptr;
-    place_surface(node, rays, placed, stats);
-    join_ends(seen, placed);
+    place_surface(seen, rays, placed, stats);
     if (paints) {
         paint_surface(list, seen, placed, stats);
         if (node.material.technique.options.shadow) {

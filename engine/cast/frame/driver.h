@@ -104,7 +104,7 @@ private:
     };
     struct Surface {
         std::weak_ptr<const scene::TerrainSurface> owner;
-        std::vector<std::shared_ptr<const RayTile>> tiles; // of row_parts()
+        std::vector<std::shared_ptr<const RayTile>> tiles; // of surface_pieces()
         Light light;                                       // of the last frame
         std::shared_ptr<const LitGround> ground; // for point lights and detail; null: not made yet
         std::optional<scene::TerrainLight> ground_light; // absent: without its share of the sun
@@ -112,8 +112,8 @@ private:
 
     explicit Driver(const DriverOptions& options);
     Surface& surface_of(const std::shared_ptr<const scene::TerrainSurface>& surface);
-    void place_surface(const scene::TerrainNode& terrain, const PictureRays& rays,
-                       PlacedTiles& placed, view::FrameStats& stats);
+    void place_surface(const SeenTerrain& seen, const PictureRays& rays, PlacedTiles& placed,
+                       view::FrameStats& stats);
     const Light& light_of(const scene::TerrainNode& terrain,
                           const std::optional<scene::TerrainLight>& light, view::FrameStats& stats);
     view::PictureRounding::Found rounding_of(const view::DrawList& list, const SeenTerrain& seen);

@@ -7,7 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/cast/frame/tile_pieces.h"
 #include "engine/scene/streaming/tile_stream.h"
 
 namespace reljef::cast {
@@ -110,67 +109,16 @@ std::shared_ptr<const CurvedRays> earth_rays(const view::DrawList& list, const S
         options);
 }
 
-std::vector<RowPart> row_parts(const scene::TerrainNode& node) {
-    const geo::WrappedRows rows = rows_of(node);
-    const int north = rows.wrap().north_rows();
-    const int south = rows.wrap().south_rows();
-    const int last = node.surface->heightfield().heights.rows() - 1;
-    std::vector<int> cuts{0};
-    if (north > 0 && last > 1) {
-        cuts.push_back(1);
-    }
-    if (south > 0 && last - 1 > cuts.back()) {
-        cuts.push_back(last - 1);
-    }
-    cuts.push_back(last);
-    std::vector<RowPart> parts;
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-        RowPart& part = parts.emplace_back();
-        part.first = cuts[i];
-        part.cells = cuts[i + 1] - cuts[i];
-        part.even_first = rows.even_row(part.first);
-        part.even_step = (rows.even_row(cuts[i + 1]) - part.even_first) / part.cells;
-        part.walls = (i > 0 ? north_wall : 0U) | (i + 2 < cuts.size() ? south_wall : 0U);
-    }
-    return parts;
+std::vector<TilePiece> surface_pieces(const scene::TerrainNode& node) {
+    const Grid<float>& heights = node.surface->heightfield().heights;
+    terrain::TileLattice all;
+    all.last = glm::dvec2(heights.cols() - 1, heights.rows() - 1);
+    all.cells = {heights.cols() - 1, heights.rows() - 1};
+    all.rows = rows_of(node);
+    return pieces_of(all, all.last, glm::dvec2(0.0));
 }
 
-void place_part(const RowPart& part, PlacedTile& tile) {
-    tile.walls = part.walls;
-    tile.first = {0.0, part.even_first};
-    tile.step = {1.0, part.even_step};
-    tile.scale = {1.0, 1.0 / part.even_step};
-    tile.by = {0.0, -part.even_first / part.even_step};
-}
-
-namespace {
-
-// Of tiles from north to south.
-int add_nodes(const SeenTerrain& seen, std::span<const PlacedTile> tiles, std::size_t index,
-              TileNodes& nodes) {
-    const auto over = static_cast<int>(nodes.size());
-    const PlacedTile& tile = tiles[index];
-    const double end = tile.first.y + tile.step.y * tile.tile->cells().y;
-    TileNode node;
-    node.box.add(glm::dvec3(0.0, tile.first.y, seen.samples.low.z));
-    node.box.add(glm::dvec3(seen.columns_around, end, seen.samples.high.z));
-    node.seen = tile.seen;
-    node.tile = static_cast<int>(index);
-    if (index + 1 == tiles.size()) {
-        nodes.push_back(node);
-        return over;
-    }
-    nodes.emplace_back();
-    nodes.push_back(node);
-    const int beside = add_nodes(seen, tiles, index + 1, nodes);
-    nodes[static_cast<std::size_t>(over)] =
-        node_over(nodes, {over + 1, -1, beside, -1}, {0.0, end});
-    return over;
-}
-
-} // namespace
-
-void join_ends(const SeenTerrain& seen, PlacedTiles& placed) {
+void join_ends(const SeenTerrain& seen, std::span<const TilePiece> pieces, PlacedTiles& placed) {
     if (!(seen.columns_around > 0.0)) {
         return;
     }
@@ -178,10 +126,18 @@ void join_ends(const SeenTerrain& seen, PlacedTiles& placed) {
     if (seen.has_tiles) {
         first = seen.node->stream->maker().on_overview(glm::dvec2(0.0)).x;
     } else {
-        for (PlacedTile& tile : placed.tiles) {
-            tile.walls |= west_wall | east_wall;
+        std::vector<TileNode> boxes;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const TilePiece& piece = pieces[i];
+            placed.tiles[i].walls |= west_wall | east_wall;
+            const glm::dvec2 end = piece.first + piece.step * glm::dvec2(piece.cells);
+            TileNode& node = boxes.emplace_back();
+            node.box.add(glm::dvec3(piece.first, seen.samples.low.z));
+            node.box.add(glm::dvec3(end, seen.samples.high.z));
+            node.seen = placed.tiles[i].seen;
+            node.tile = static_cast<int>(i);
         }
-        add_nodes(seen, placed.tiles, 0, placed.nodes);
+        add_piece_nodes(pieces, boxes, placed.nodes);
     }
     placed.turn = {first, first + seen.columns_around};
 }

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/cast/block_rays.h"
 #include "engine/cast/curved_rays.h"
 #include "engine/cast/frame/seen_terrain.h"
+#include "engine/cast/frame/tile_pieces.h"
 
 namespace reljef::cast {
 
@@ -13,23 +15,12 @@ namespace reljef::cast {
 std::shared_ptr<const CurvedRays> earth_rays(const view::DrawList& list, const SeenTerrain& seen,
                                              const CurvedRays::Options& options);
 
-/// Rows of a terrain in memory whose cells have one size: on the ellipsoid, those at a pole are
-/// shorter.
-struct RowPart {
-    int first = 0; ///< row
-    int cells = 1;
-    double even_first = 0.0; ///< EarthMap
-    double even_step = 1.0;
-    unsigned walls = 0; ///< BlockJob::walls
-};
+/// The pieces of a terrain in memory, from north to south: one, but for a globe's rows at the
+/// poles.
+std::vector<TilePiece> surface_pieces(const scene::TerrainNode& node);
 
-/// From north to south.
-std::vector<RowPart> row_parts(const scene::TerrainNode& node);
-
-/// The place of a part's tile among the samples of the terrain.
-void place_part(const RowPart& part, PlacedTile& tile);
-
-/// Sets where the tiles of a globe begin anew. Those of a terrain in memory need walls there.
-void join_ends(const SeenTerrain& seen, PlacedTiles& placed);
+/// Sets where the tiles of a globe begin anew. Those of a terrain in memory (`pieces`) need walls
+/// there.
+void join_ends(const SeenTerrain& seen, std::span<const TilePiece> pieces, PlacedTiles& placed);
 
 } // namespace reljef::cast

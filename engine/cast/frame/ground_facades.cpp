@@ -7,6 +7,7 @@ namespace reljef::cast {
 static_assert(sizeof(view::FacadeTexels) == FacadePaint::wall_values * sizeof(float));
 
 const FacadePaint* GroundFacades::prepare(const view::DrawList& list, const SeenTerrain& seen) {
+    // Their samples are those of one tile, a globe in memory is cast at in pieces.
     if (seen.has_tiles || seen.columns_around > 0.0 || !view::shows_facades(*seen.node)) {
         return nullptr;
     }

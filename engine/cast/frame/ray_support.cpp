@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -90,15 +91,12 @@ std::string obstacle_in_view(const view::DrawList& list, const SeenTerrain& terr
     return {};
 }
 
-} // namespace
-
-std::string obstacle_of(const view::DrawList& list) {
+std::string obstacle_among(const view::DrawList& list, const std::vector<SeenTerrain>& terrains) {
     for (const view::MeshDraw& mesh : list.meshes) {
         if (auto found = obstacle_of(*mesh.mesh); !found.empty()) {
             return found;
         }
     }
-    const std::vector<SeenTerrain> terrains = seen_terrains(list);
     for (const SeenTerrain& terrain : terrains) {
         if (auto found = obstacle_in_view(list, terrain); !found.empty()) {
             return found;
@@ -107,17 +105,21 @@ std::string obstacle_of(const view::DrawList& list) {
     return terrains.size() > 1 ? "more than one terrain" : "";
 }
 
+} // namespace
+
+std::string obstacle_of(const view::DrawList& list) {
+    return obstacle_among(list, seen_terrains(list));
+}
+
 std::string obstacle_beside_triangles(const view::DrawList& list) {
-    if (auto found = obstacle_of(list); !found.empty()) {
-        return found;
-    }
     const std::vector<SeenTerrain> terrains = seen_terrains(list);
     const bool has_pole =
         std::any_of(terrains.begin(), terrains.end(), [](const SeenTerrain& terrain) {
             return terrain.has_pole &&
                    terrain.node->material.technique.id() != scene::TechniqueId::exact;
         });
-    return has_pole ? "a globe with a pole in view" : "";
+    auto found = obstacle_among(list, terrains);
+    return found.empty() && has_pole ? "a globe with a pole in view" : std::move(found);
 }
 
 Result<void> check_support(const view::DrawList& list) {

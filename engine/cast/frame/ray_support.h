@@ -19,8 +19,8 @@ std::string obstacle_of(const scene::MeshNode& mesh);
 
 /// The same of a list, which has at most one terrain.
 std::string obstacle_of(const view::DrawList& list);
-/// The same where OpenGL may draw instead: also what its triangles draw faster within the
-/// technique's error bound.
+/// The same where OpenGL may draw instead: also what its triangles keep drawing faster within the
+/// technique's error bound. Their first frame may take longer.
 std::string obstacle_beside_triangles(const view::DrawList& list);
 /// Fails if there is an obstacle.
 Result<void> check_support(const view::DrawList& list);

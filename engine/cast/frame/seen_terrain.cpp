@@ -4,8 +4,10 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/cast/globe_part.h"
 #include "engine/scene/streaming/tile_stream.h"
@@ -61,22 +63,53 @@ void add_surface(SeenTerrain& seen) {
     }
 }
 
-void leave_out_far_side(const scene::Camera& camera, SeenTerrain& seen) {
+// All rays of a map, local.
+ParallelRays parallel_rays(const view::DrawList& list, const glm::dmat4& local_from_world) {
+    const auto ray_at = [&](glm::dvec2 part) {
+        const Ray ray = scene::view_ray(list.camera, list.size, part * glm::dvec2(list.size));
+        return Ray{glm::dvec3(local_from_world * glm::dvec4(ray.origin, 1.0)),
+                   glm::dmat3(local_from_world) * ray.direction};
+    };
+    ParallelRays rays{ray_at(glm::dvec2(0.5))};
+    for (const glm::dvec2 corner : {glm::dvec2(0.0), glm::dvec2(1.0)}) {
+        rays.radius =
+            std::max(rays.radius, glm::distance(ray_at(corner).origin, rays.middle.origin));
+    }
+    return rays;
+}
+
+// Whether a pole lies in the picture, or as far beside it as it is large.
+bool shows_pole(const view::DrawList& list, const SeenTerrain& seen, double latitude) {
+    const auto local = seen.node->surface->placement().world_from_geodetic({latitude, 0.0, 0.0});
+    if (!local) {
+        return false;
+    }
+    const glm::dvec3 world(seen.world_from_local * glm::dvec4(*local, 1.0));
+    const scene::Projected projected = scene::project(list.camera, list.size, world);
+    const glm::dvec2 size(list.size);
+    return (projected.depth > 0.0 ||
+            list.camera.projection == scene::ProjectionKind::orthographic) &&
+           glm::all(glm::greaterThan(projected.pixel, -size)) &&
+           glm::all(glm::lessThan(projected.pixel, 2.0 * size));
+}
+
+void leave_out_far_side(const view::DrawList& list, SeenTerrain& seen) {
     const terrain::Placement& placement = seen.node->surface->placement();
     seen.columns_around = *placement.columns_all_around();
     const glm::dmat4 local_from_world = glm::inverse(seen.world_from_local);
     const geo::WrappedRows rows = rows_of(*seen.node);
     const auto part =
-        camera.projection == scene::ProjectionKind::perspective
-            ? globe_part_from(glm::dvec3(local_from_world * glm::dvec4(camera.eye, 1.0)), placement,
-                              rows, seen.samples)
-            : globe_part_along(glm::dmat3(local_from_world) * scene::view_axes(camera).forward,
-                               placement, rows, seen.samples);
+        list.camera.projection == scene::ProjectionKind::perspective
+            ? globe_part_from(glm::dvec3(local_from_world * glm::dvec4(list.camera.eye, 1.0)),
+                              placement, rows, seen.samples)
+            : globe_part_along(parallel_rays(list, local_from_world), placement, rows,
+                               seen.samples);
     seen.is_from_below = !part;
     if (part) {
         seen.local = part->local;
         seen.samples = part->samples;
-        seen.has_pole = part->has_pole;
+        seen.has_pole = (part->has_north_pole && shows_pole(list, seen, 90.0)) ||
+                        (part->has_south_pole && shows_pole(list, seen, -90.0));
     }
 }
 
@@ -104,7 +137,7 @@ void find_part_of_globe(const view::DrawList& list, SeenTerrain& seen) {
     if (!seen.has_tiles) {
         leave_out_unseen_rows(list, seen);
     }
-    leave_out_far_side(list.camera, seen);
+    leave_out_far_side(list, seen);
 }
 
 } // namespace

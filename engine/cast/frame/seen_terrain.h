@@ -27,7 +27,7 @@ struct SeenTerrain {
     double columns_around = 0.0;
     /// Of such a terrain: the eye is below all ground, and the boxes are those of all of it.
     bool is_from_below = false;
-    bool has_pole = false; ///< of such a terrain: a pole may be seen
+    bool has_pole = false; ///< of such a terrain: a pole lies in the picture, or near it
 };
 
 /// On the ellipsoid, the rows of a terrain's surface: SeenTerrain::samples are even. On a plane

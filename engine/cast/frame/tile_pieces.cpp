@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/cast/packet/block_kernel.h"
+#include "engine/core/check.h"
 
 namespace reljef::cast {
 namespace {
@@ -179,6 +180,8 @@ std::vector<int> row_cuts(const terrain::TileLattice& tile) {
         }
     }
     cuts.push_back(tile.cells.y);
+    check(cuts.size() <= static_cast<std::size_t>(max_tile_parts.y) + 1,
+          "rows of a tile at two poles");
     return cuts;
 }
 

@@ -215,7 +215,7 @@ struct SamplePacket {
             right[lane] = static_cast<float>(col) + middle + place.x;
             down[lane] = static_cast<float>(row) + middle + place.y;
             beam[lane] = beam_at(col, row);
-            pixel_of_beam[lane] = lane_at(col, row);
+            pixel_of_beam[lane] = beam_pixel_at(col, row);
             index.next(sampled);
         }
     }
@@ -263,7 +263,7 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         const auto start_of = [&](const BlockJob& job) HWY_ATTR {
             alignas(64) LaneFloats starts;
             for (std::size_t lane = 0; lane < starts.size(); ++lane) {
-                const bool is_ray = (job.lanes >> packet.pixel_of_beam[lane] & 1U) != 0;
+                const bool is_ray = (job.beam_pixels >> packet.pixel_of_beam[lane] & 1U) != 0;
                 starts[lane] = is_ray ? job.starts[packet.beam[lane]] : nowhere;
             }
             return hn::Load(floats, starts.data());

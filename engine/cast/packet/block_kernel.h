@@ -26,6 +26,10 @@ inline constexpr int beam_rows = 2;
 inline constexpr int beams_a_row = block_side / beam_cols;
 inline constexpr int beam_count = beams_a_row * (block_side / beam_rows);
 
+/// All pixels of a beam as bits.
+inline constexpr std::uint16_t whole_beam = 0xFFFF;
+static_assert(beam_cols * beam_rows == 16);
+
 /// A RayTile.
 struct TileSamples {
     const float* heights = nullptr;
@@ -271,7 +275,7 @@ struct BlockJob {
     bool skips_cells = true;  ///< and over cells whose maximum is below them
     bool has_starts = false;  ///< they are found
     /// The pixels of the beams whose rays these are: bits, row after row. Others hit nothing.
-    std::uint16_t lanes = 0xFFFF;
+    std::uint16_t beam_pixels = whole_beam;
     alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
 };
 

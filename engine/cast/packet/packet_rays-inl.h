@@ -48,18 +48,18 @@ HWY_INLINE Ints all(std::int32_t value) {
     return hn::Set(ints, value);
 }
 
-// The bit of a pixel in BlockJob::lanes.
-HWY_INLINE unsigned lane_at(int col, int row) {
+// The bit of a pixel in BlockJob::beam_pixels.
+HWY_INLINE unsigned beam_pixel_at(int col, int row) {
     return static_cast<unsigned>(row % beam_rows * beam_cols + col % beam_cols);
 }
 
 // Where the rays of a packet may begin; infinity: they hit nothing. Its first pixel is (col, row).
 HWY_INLINE Floats starts_of(const BlockJob& job, int col, int row) {
     const Floats start = all(job.starts[beam_at(col, row)]);
-    if (job.lanes == 0xFFFF) {
+    if (job.beam_pixels == whole_beam) {
         return start;
     }
-    const unsigned bits = job.lanes >> lane_at(col, row);
+    const unsigned bits = job.beam_pixels >> beam_pixel_at(col, row);
     const std::array<std::uint8_t, 8> bytes{static_cast<std::uint8_t>(bits & 0xFFU),
                                             static_cast<std::uint8_t>(bits >> 8U)};
     return hn::IfThenElse(hn::LoadMaskBits(floats, bytes.data()), start,
