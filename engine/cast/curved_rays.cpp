@@ -348,7 +348,8 @@ private:
         const double near = rays_.pixel_at(from.t);
         const double far = rays_.pixel_at(to.t);
         const double off = glm::length(chord.off * chord.metres);
-        const double of_chord = std::min(off / near, 4.0 * off / (far - near));
+        const double of_chord =
+            far > near ? std::min(off / near, 4.0 * off / (far - near)) : off / near;
         if (degree_ == FanDegree::constant) {
             const double in_pixel = 0.5 * std::numbers::sqrt2; // from its middle to its corner
             return of_chord + (rays_.middles_only_ ? 0.0 : in_pixel);

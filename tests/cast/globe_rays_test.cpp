@@ -224,6 +224,21 @@ TEST(GlobeRays, HitWhatTheTruthHitsAtThePoles) {
     }
 }
 
+// Nearly a globe: rays pass from one end to the other, with a gap between. Neither the truth nor
+// they draw ground where longitudes begin anew.
+TEST(GlobeRays, HitWhatTheTruthHitsAtAGapOfAFewDegrees) {
+    const auto ground = [] {
+        return test::geographic_heightfield(test::random_heights(594, 200, -900.0F, 900.0F, 15),
+                                            89.9, -178.0, 0.6);
+    };
+    GlobeStage stage(ground(), false);
+    for (const GlobeView& view :
+         {GlobeView{30.0, 179.9, 2e6, 5.0, 70.0}, GlobeView{80.0, -179.5, 1e6, 0.0, 70.0}}) {
+        stage.look(view);
+        expect_true(stage, fmt::format("{} degrees", view.latitude));
+    }
+}
+
 TEST(GlobeRays, StateSmallErrorsAtThePoles) {
     GlobeStage stage(0.5, 0.5, false);
     for (const double latitude : {90.0, 89.99, 89.0, -80.0}) {

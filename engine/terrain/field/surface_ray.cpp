@@ -298,6 +298,8 @@ void SurfaceRay::search_chord(const RayPlace& from, const RayPlace& to, bool mov
     } else if (crosses_seam(from, to)) {
         search_across_seam(from, to);
         return;
+    } else if (!moves_hit && passes_beside(from, to)) {
+        side_ = Side::unknown;
     } else {
         const Chord chord{from, to, moves_hit};
         walk({*from.sample, *to.sample - *from.sample}, {0.0, 1.0}, &chord);
@@ -313,6 +315,14 @@ void SurfaceRay::search_chord(const RayPlace& from, const RayPlace& to, bool mov
 bool SurfaceRay::crosses_seam(const RayPlace& from, const RayPlace& to) const {
     const auto around = surface_->columns_all_around();
     return around && std::abs(to.sample->x - from.sample->x) > 0.5 * *around;
+}
+
+// A piece too short to be divided, from beyond one end of the columns to beyond the other: behind
+// the Earth's other side, where longitudes begin anew.
+bool SurfaceRay::passes_beside(const RayPlace& from, const RayPlace& to) const {
+    const double last = surface_->last_sample().x;
+    return (from.sample->x > last && to.sample->x < 0.0) ||
+           (from.sample->x < 0.0 && to.sample->x > last);
 }
 
 // The shorter way around the globe, from each of its ends: beyond the seam there are no columns. It

@@ -94,6 +94,7 @@ private:
     bool waits_at(const RayPlace& place);
     void search_chord(const RayPlace& from, const RayPlace& to, bool moves_hit);
     [[nodiscard]] bool crosses_seam(const RayPlace& from, const RayPlace& to) const;
+    [[nodiscard]] bool passes_beside(const RayPlace& from, const RayPlace& to) const;
     void search_across_seam(const RayPlace& from, const RayPlace& to);
     void walk(const Ray& sample_ray, Interval range, const Chord* chord);
     bool passes(const TileWalk& walk, const Ray& sample_ray);
