@@ -183,8 +183,8 @@ private:
 
     // Columns continue those of the ray in the middle: rays at the border of a block may pass a
     // pole exactly.
-    void begin_at(std::optional<RayFan> fan) {
-        from_ = std::move(fan);
+    void begin_at(const std::optional<RayFan>& fan) {
+        from_ = fan;
         if (from_) {
             col_ = from_->samples[from_->middle()].x;
         }

@@ -204,14 +204,14 @@ struct RaysOver {
 };
 
 RaysOver rays_over(const view::DrawList& list, const SeenTerrain& seen,
-                   const CurvedRays::Options& options) {
+                   const DriverOptions& options, bool paints) {
     const terrain::Placement& placement = seen.node->surface->placement();
     if (!is_curved(*seen.node)) {
         return {
             picture_rays(list.camera, list.size, seen.world_from_local, placement, seen.samples),
             nullptr};
     }
-    auto curve = earth_rays(list, seen, options);
+    auto curve = earth_rays(list, seen, {options.threads, !paints || options.samples == 1});
     PictureRays straight;
     straight.size = list.size;
     straight.range = curve->local().range;
@@ -238,8 +238,7 @@ PlacedTiles Driver::placed_tiles(const StreamedList& frame, bool paints, view::F
     }
     const SeenTerrain& seen = terrains.front();
     const scene::TerrainNode& node = *seen.node;
-    const auto [rays, curve] =
-        rays_over(list, seen, {options_.threads, !paints || options_.samples == 1});
+    const auto [rays, curve] = rays_over(list, seen, options_, paints);
     const bool stands_in = node.stream != nullptr && !seen.has_tiles; // for tiles to be loaded
     if (!stands_in && (seen.has_tiles || node.surface->has_all_samples())) {
         const view::PictureRounding::Found rounding = rounding_of(list, seen);

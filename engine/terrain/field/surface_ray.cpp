@@ -293,13 +293,11 @@ bool SurfaceRay::waits_at(const RayPlace& place) {
 
 // On the straight line between two places.
 void SurfaceRay::search_chord(const RayPlace& from, const RayPlace& to, bool moves_hit) {
-    if (!from.sample || !to.sample) {
+    if (!from.sample || !to.sample || (!moves_hit && passes_beside(from, to))) {
         side_ = Side::unknown;
     } else if (crosses_seam(from, to)) {
         search_across_seam(from, to);
         return;
-    } else if (!moves_hit && passes_beside(from, to)) {
-        side_ = Side::unknown;
     } else {
         const Chord chord{from, to, moves_hit};
         walk({*from.sample, *to.sample - *from.sample}, {0.0, 1.0}, &chord);
@@ -321,8 +319,8 @@ bool SurfaceRay::crosses_seam(const RayPlace& from, const RayPlace& to) const {
 // the Earth's other side, where longitudes begin anew.
 bool SurfaceRay::passes_beside(const RayPlace& from, const RayPlace& to) const {
     const double last = surface_->last_sample().x;
-    return (from.sample->x > last && to.sample->x < 0.0) ||
-           (from.sample->x < 0.0 && to.sample->x > last);
+    return !surface_->columns_all_around() && ((from.sample->x > last && to.sample->x < 0.0) ||
+                                               (from.sample->x < 0.0 && to.sample->x > last));
 }
 
 // The shorter way around the globe, from each of its ends: beyond the seam there are no columns. It
