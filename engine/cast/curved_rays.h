@@ -29,7 +29,6 @@ struct RayPiece {
     glm::dvec3 metres{1.0}; ///< of a column, a row and a metre of height there, at most
 };
 
-
 /// The rays of a picture over a terrain on the ellipsoid, in samples. They are bent there, so those
 /// of a block of pixels are cut into pieces, each so short that its chords have no visible error.
 /// Where the rays of a block are not linear in the pixel, they are of second degree, and where that
