@@ -224,19 +224,22 @@ TEST(GlobeRays, HitWhatTheTruthHitsAtThePoles) {
     }
 }
 
-// Nearly a globe: rays pass from one end to the other, with a gap between. Neither the truth nor
-// they draw ground where longitudes begin anew.
-TEST(GlobeRays, HitWhatTheTruthHitsAtAGapOfAFewDegrees) {
-    const auto ground = [] {
-        return test::geographic_heightfield(test::random_heights(594, 200, -900.0F, 900.0F, 15),
-                                            89.9, -178.0, 0.6);
-    };
-    GlobeStage stage(ground(), false);
-    for (const GlobeView& view :
-         {GlobeView{30.0, 179.9, 2e6, 5.0, 70.0}, GlobeView{80.0, -179.5, 1e6, 0.0, 70.0}}) {
-        stage.look(view);
-        expect_true(stage, fmt::format("{} degrees", view.latitude));
-    }
+// Nearly a globe. Neither the truth nor rays draw ground in the gap, where longitudes begin anew.
+TEST(GlobeRays, HitWhatTheTruthHitsBesideAGapOfADegree) {
+    GlobeStage stage(test::geographic_heightfield(
+                         test::random_heights(599, 200, -900.0F, 900.0F, 15), 89.9, -179.7, 0.6),
+                     false);
+    stage.look({75.0, 179.1, 6e4, 15.0, 40.0});
+    expect_true(stage, "beside a gap");
+}
+
+// Nor beyond a pole at the end of the ground.
+TEST(GlobeRays, HitWhatTheTruthHitsBesideAPoleAtTheEndOfTheGround) {
+    GlobeStage stage(test::geographic_heightfield(test::random_heights(150, 100, 0.0F, 900.0F, 16),
+                                                  90.0, 10.0, 0.1),
+                     false);
+    stage.look({89.9, 97.5, 1.2e4, 345.0, 70.0});
+    expect_true(stage, "beside a pole");
 }
 
 TEST(GlobeRays, StateSmallErrorsAtThePoles) {
