@@ -54,7 +54,7 @@ CurvedRays::CurvedRays(const scene::Camera& camera, glm::ivec2 size, const Terra
       earth_(terrain.placement, terrain.rows, terrain.samples),
       is_globe_(terrain.placement.columns_all_around().has_value()),
       columns_around_(terrain.placement.columns_all_around().value_or(earth_.columns_around())),
-      pixel_(view::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
+      pixel_(scene::metres_a_pixel(camera, size)), cols_((size.x + block_side - 1) / block_side) {
     width_ = block_side * pixel_at(depths_.end);
     constexpr double share = share_of_map * chord_error;
     map_.emplace(earth_,

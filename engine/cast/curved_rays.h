@@ -90,7 +90,7 @@ private:
     std::optional<SampleMap> map_;
     bool is_globe_;
     double columns_around_; // the Earth; 0 where columns are no meridians
-    glm::dvec2 pixel_{0.0}; // view::metres_a_pixel()
+    glm::dvec2 pixel_{0.0}; // scene::metres_a_pixel()
     double width_ = 0.0;    // of a whole block at the farthest surface, metres
     int cols_;              // of blocks
     std::vector<std::vector<RayPiece>> blocks_;

@@ -147,8 +147,9 @@ glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm
     }
     const glm::dvec2 per_metre = glm::dvec2(paint.texels_per_sample) / spacing;
     constexpr double anisotropy = 8.0;
-    const double pixel = view::metres_a_pixel(list.camera, list.size).y;
-    return {0.0F, static_cast<float>(anisotropy * pixel * std::max(per_metre.x, per_metre.y))};
+    const double pixel = scene::metres_a_pixel(list.camera, list.size).y;
+    // By the larger side of a texel: near poles the other one would blur over dozens of pixels.
+    return {0.0F, static_cast<float>(anisotropy * pixel * std::min(per_metre.x, per_metre.y))};
 }
 
 } // namespace reljef::cast

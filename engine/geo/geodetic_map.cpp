@@ -129,6 +129,18 @@ GeodeticMap GeodeticMap::closed(const GlobalWrap& wrap, int cols, int rows) cons
     return map;
 }
 
+std::optional<DegreeGrid> GeodeticMap::degree_grid() const {
+    if (!linear_inverse_) {
+        return std::nullopt;
+    }
+    const glm::dmat2 samples_a_step(step_.x, 0.0, 0.0, step_.y);
+    const glm::dmat2 samples_a_degree = samples_a_step * *linear_inverse_;
+    const glm::dvec2 first_sample = first_ + glm::dvec2(0.0, rows_.wrap().north_rows());
+    return DegreeGrid{glm::dvec2(base_ + control_(0, 0)) -
+                          glm::inverse(samples_a_degree) * first_sample,
+                      samples_a_degree, middle_longitude_, rows_};
+}
+
 GeodeticMap GeodeticMap::resampled(glm::dvec2 factor) const {
     check(factor.x > 0.0 && factor.y > 0.0, "GeodeticMap::resampled needs factors > 0");
     GeodeticMap map(*this);

@@ -71,6 +71,8 @@ public:
         : closing_(wrap), last_(source_rows - 1.0) {}
 
     [[nodiscard]] const GlobalWrap& wrap() const { return closing_; }
+    /// The last row of the source, as a row of the closed raster.
+    [[nodiscard]] double last_source_row() const { return last_ + closing_.north_rows(); }
     /// Converts between rows of the closed raster and rows of the source.
     [[nodiscard]] double source_row(double row) const;
     [[nodiscard]] double closed_row(double source_row) const;
@@ -86,6 +88,14 @@ public:
 private:
     GlobalWrap closing_;
     double last_ = 0.0;
+};
+
+/// Samples that are even in latitude and longitude, with even rows (WrappedRows::even_row).
+struct DegreeGrid {
+    glm::dvec2 first{0.0};            ///< latitude and longitude of (0, 0)
+    glm::dmat2 samples_a_degree{1.0}; ///< (col, row) per degree of latitude, and of longitude
+    double middle_longitude = 0.0;    ///< columns follow longitudes up to 180 degrees beside it
+    WrappedRows rows;
 };
 
 /// WGS 84 latitude and longitude of any (col, row) of a raster in any CRS. Interpolates exact
@@ -106,6 +116,8 @@ public:
     /// The map of the closed raster; the source has `cols`×`rows` samples.
     [[nodiscard]] GeodeticMap closed(const GlobalWrap& wrap, int cols, int rows) const;
     [[nodiscard]] const WrappedRows& rows() const { return rows_; }
+    /// Empty unless the raster is even in degrees.
+    [[nodiscard]] std::optional<DegreeGrid> degree_grid() const;
     /// The map of samples `factor` of these apart, from the same first one. Precondition: factor >
     /// 0; the raster is not closed.
     [[nodiscard]] GeodeticMap resampled(glm::dvec2 factor) const;

@@ -332,9 +332,8 @@ std::vector<std::string> DeviceFrames::error_notes() const {
     }
     if (frames_as_triangles_ > 0) {
         notes.push_back(fmt::format(
-            "{} of the pictures show triangles instead of the technique: on the ellipsoid its rays "
-            "are bent too much from far above, near poles, and without perspective; --placement "
-            "plane shows it",
+            "{} of the pictures show triangles instead of the technique: its rays bend too much over "
+            "so large a part of this map of the Earth; --placement plane shows it",
             frames_as_triangles_));
     }
     return notes;

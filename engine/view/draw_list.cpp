@@ -171,13 +171,6 @@ glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain) {
     return glm::vec2(1.0, 2.0) * static_cast<float>(error > 0.0 ? error : 1.0);
 }
 
-glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size) {
-    if (camera.projection == scene::ProjectionKind::orthographic) {
-        return {camera.view_height / size.y, 0.0};
-    }
-    return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
-}
-
 double contour_scale(const scene::Camera& camera, glm::ivec2 size) {
     constexpr double rows = 768.0;
     return std::max(1.0, scene::whole_picture(camera, size).y / rows);
@@ -201,7 +194,7 @@ DetailLevel seen_detail(const scene::TerrainNode& terrain, const scene::Camera& 
         return DetailLevel::none;
     }
     const scene::TerrainDetail& detail = *terrain.detail;
-    const glm::dvec2 metres(metres_a_pixel(camera, size));
+    const glm::dvec2 metres(scene::metres_a_pixel(camera, size));
     const double pixel = metres.x + metres.y * distance;
     const auto is_seen = [&](double size_on_ground, float min_pixels) {
         return size_on_ground > static_cast<double>(min_pixels) * pixel;

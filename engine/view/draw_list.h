@@ -15,7 +15,7 @@
 #include "engine/scene/streaming/terrain_light.h"
 #include "engine/terrain/mesh/bisection_mesh.h"
 #include "engine/view/frame_stats.h"
-#include "engine/view/ray_course.h"
+#include "engine/view/rays/ray_course.h"
 
 namespace reljef::view {
 
@@ -149,9 +149,6 @@ inline constexpr glm::vec2 seen_tile_pixels{8.0F, 32.0F};
 /// Heights of a detail tile on the picture between which its relief fades in, pixels: the error
 /// bound of the polygons, or one pixel, and twice that.
 glm::vec2 seen_height_pixels(const scene::TerrainNode& terrain);
-
-/// Width of a pixel, metres: x at the eye, plus y per metre of distance.
-glm::vec2 metres_a_pixel(const scene::Camera& camera, glm::ivec2 size);
 
 /// How many times as wide as in a picture of 768 rows the contours and their labels are, at least
 /// 1: in high pictures they look as in those.

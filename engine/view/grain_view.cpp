@@ -76,7 +76,7 @@ glm::dvec3 turned(glm::dvec3 world) {
 }
 
 bool shows_grain(const DrawList& list, const scene::TerrainNode& terrain, double distance) {
-    const glm::dvec2 metres(metres_a_pixel(list.camera, list.size));
+    const glm::dvec2 metres(scene::metres_a_pixel(list.camera, list.size));
     const double texel = first_width(terrain) / material::GrainMap::side;
     return scene::shown_grain(terrain) > 0.0F &&
            metres.x + metres.y * distance < std::exp2(GrainView::unseen_level) * texel;

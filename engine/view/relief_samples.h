@@ -5,7 +5,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/scene.h"
-#include "engine/view/ray_course.h"
+#include "engine/view/rays/ray_course.h"
 #include "engine/view/tile_selection.h"
 
 namespace reljef::view {

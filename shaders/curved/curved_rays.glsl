@@ -1,79 +1,15 @@
-// Rays over the curved Earth: in the search space they are polynomials of degree 4 in their part. View rays have
-// the terms of degree 4 with QUARTIC only.
+// Rays over the curved Earth: in the search space they are bent. `part` counts from their start to their end.
 layout(std140, binding = course_block_binding) uniform CourseBlock {
 #include "frame/course_block.inc"
 };
 
-struct Curve {
-    vec3 eye;
-    vec3 terms[4]; // of the powers 1 to 4 of the part
-    vec3 low;      // of the part of the search space that is searched
-    vec3 high;
-    float chords; // at part 1
-};
+#ifdef DEGREES
+#include "curved/degree_rays.glsl"
+#else
+#include "curved/polynomial_rays.glsl"
+#endif
 
-// Of this fragment's ray.
-Curve curve = Curve(vec3(0.0), vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), vec3(0.0), vec3(0.0), 1.0);
-vec2 curve_range = vec2(0.0, 1.0); // its parts that are searched
-
-vec3 curve_at(float part) {
-    return curve.eye +
-           part * (curve.terms[0] +
-                   part * (curve.terms[1] + part * (curve.terms[2] + part * curve.terms[3])));
-}
-
-vec3 curve_slope_at(float part) {
-    return curve.terms[0] +
-           part * (2.0 * curve.terms[1] +
-                   part * (3.0 * curve.terms[2] + part * 4.0 * curve.terms[3]));
-}
-
-vec3 curve_bend_at(float part) {
-    return 2.0 * curve.terms[1] + part * (6.0 * curve.terms[2] + part * 12.0 * curve.terms[3]);
-}
+vec2 curve_range = vec2(0.0, 1.0); // parts of this fragment's ray that are searched
 
 // The first hit between two parts. `above`: the ray comes from above the search space.
 bool find_between(vec2 range, bool above, out float part, out vec2 place);
-
-struct Monomials {
-    vec3 d;
-    vec3 x; // times x, y, z
-    vec3 y;
-    vec3 z;
-};
-
-Monomials monomials_of(vec3 relative) {
-    vec3 d = mat3(unit_from_relative) * relative;
-    return Monomials(d, d.x * d, d.y * d, d.z * d);
-}
-
-// Sums of the terms of a degree, by falling powers of x, then of y.
-#define SUM_OF_3(t, n, d) (d.x * t[n].xyz + d.y * t[n + 1].xyz + d.z * t[n + 2].xyz)
-#define FIRST_DEGREE(t, n, m) SUM_OF_3(t, n, m.d)
-#define SECOND_DEGREE(t, n, m) \
-    (SUM_OF_3(t, n, m.x) + m.y.y * t[n + 3].xyz + m.y.z * t[n + 4].xyz + m.z.z * t[n + 5].xyz)
-#define THIRD_DEGREE(t, n, m) \
-    (m.x.x * SUM_OF_3(t, n, m.d) + \
-     m.d.x * (m.y.y * t[n + 3].xyz + m.y.z * t[n + 4].xyz + m.z.z * t[n + 5].xyz) + \
-     m.y.y * (m.d.y * t[n + 6].xyz + m.d.z * t[n + 7].xyz) + \
-     m.z.z * (m.d.y * t[n + 8].xyz + m.d.z * t[n + 9].xyz))
-#define FOURTH_DEGREE(t, n, m) \
-    (m.x.x * SECOND_DEGREE(t, n, m) + \
-     m.x.y * (m.y.y * t[n + 6].xyz + m.y.z * t[n + 7].xyz + m.z.z * t[n + 8].xyz) + \
-     m.x.z * m.z.z * t[n + 9].xyz + \
-     m.y.y * (m.y.y * t[n + 10].xyz + m.y.z * t[n + 11].xyz + m.z.z * t[n + 12].xyz) + \
-     m.z.z * (m.y.z * t[n + 13].xyz + m.z.z * t[n + 14].xyz))
-
-// `relative`: its end, relative to the eye.
-Curve view_curve(vec3 relative) {
-    Monomials m = monomials_of(relative);
-    vec3 terms[4] = vec3[4](FIRST_DEGREE(course_terms, 0, m), SECOND_DEGREE(course_terms, 3, m),
-                            THIRD_DEGREE(course_terms, 9, m),
-#ifdef QUARTIC
-                            FOURTH_DEGREE(course_terms, 19, m));
-#else
-                            vec3(0.0));
-#endif
-    return Curve(course_eye.xyz, terms, course_begin.xyz, course_end.xyz,
-                 sqrt(length(relative)) * course_eye.w);
-}

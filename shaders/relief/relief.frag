@@ -159,9 +159,14 @@ StraightRay ray_in_box() {
 // Mip level from derivatives, limited to an anisotropy of 8: over a silhouette the neighbours show another
 // place.
 float level_of(vec2 place, float distance_to_hit) {
+#ifdef CURVED
+    vec2 across = texels_at(within_half_turn(dFdx(place)));
+    vec2 down = texels_at(within_half_turn(dFdy(place)));
+#else
     vec2 texels = texels_at(place);
     vec2 across = dFdx(texels);
     vec2 down = dFdy(texels);
+#endif
     float longest = 8.0 * distance_to_hit * texels_per_metre_away;
     return 0.5 * log2(min(max(dot(across, across), dot(down, down)), longest * longest));
 }
@@ -263,7 +268,7 @@ void main() {
     if (!find_on_curve(part, place)) {
         SHOW_NOTHING;
     }
-    vec3 relative = part * back;
+    vec3 relative = on_view_ray(back, part);
 #else
     StraightRay ray = ray_in_box();
     vec3 start = ray.start;
@@ -300,7 +305,7 @@ void main() {
 #ifdef CURVED
     vec3 start = curve_at(curve_range.x);
     float distance_share = near_miss(start, curve_at(curve_range.y) - start, at, missed);
-    vec3 past = mix(curve_range.x, curve_range.y, at) * back;
+    vec3 past = on_view_ray(back, mix(curve_range.x, curve_range.y, at));
 #else
     float distance_share = near_miss(start, part * span, at, missed);
     vec3 past = relative;

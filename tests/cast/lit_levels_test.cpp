@@ -49,5 +49,17 @@ TEST(LitLevels, ATexelIsTheMeanOfTheLightOfFour) {
     EXPECT_EQ(texel(paint, 2, {0, 0}), quarter | quarter << 10U | quarter << 20U);
 }
 
+// Near poles, columns are much closer than rows.
+TEST(LitLevels, TheLongerSideOfTexelsLimitsTheirLevel) {
+    const LitLevels levels(Image(map_size.x, map_size.y, Rgba8{50, 100, 200, 255}), map_size);
+    view::DrawList list;
+    list.size = {640, 480};
+    const TilePaint paint = levels.paint();
+    const float square = longest_texels(list, paint, {20.0, 20.0}).y;
+    EXPECT_GT(square, 0.0F);
+    EXPECT_EQ(longest_texels(list, paint, {1.0, 20.0}).y, square);
+    EXPECT_EQ(longest_texels(list, paint, {20.0, 1.0}).y, square);
+}
+
 } // namespace
 } // namespace reljef::cast

@@ -40,12 +40,12 @@ struct EarthStage {
     scene::Node* camera = nullptr;
 
     explicit EarthStage(const EarthPlace& place) : EarthStage(place, mountains(side)) {}
-    EarthStage(const EarthPlace& place, Grid<float> heights) {
-        terrain =
-            &add_terrain(scene,
-                         geographic_heightfield(std::move(heights), place.latitude, place.longitude,
-                                                place.step, place.turn),
-                         {}, {.placement = place.placement, .exaggeration = place.exaggeration});
+    EarthStage(const EarthPlace& place, Grid<float> heights)
+        : EarthStage(geographic_heightfield(std::move(heights), place.latitude, place.longitude,
+                                            place.step, place.turn),
+                     {.placement = place.placement, .exaggeration = place.exaggeration}) {}
+    EarthStage(terrain::Heightfield heightfield, const scene::TerrainOptions& options) {
+        terrain = &add_terrain(scene, std::move(heightfield), {}, options);
         camera = &scene.add_camera({});
     }
 
@@ -71,6 +71,19 @@ struct EarthStage {
         scene::Camera at;
         at.eye = world({from, height(from) + above});
         at.target = world({to, height(to)});
+        at.near = 0.01;
+        look(at);
+    }
+
+    /// Degrees and metres, `down` from the horizontal.
+    void look_from(geo::Geodetic place, double azimuth, double down) {
+        const terrain::Placement& placement = surface().placement();
+        scene::Camera at;
+        at.eye = placement.world_from_geodetic(place).value();
+        const scene::Compass compass{placement.up(at.eye), placement.north(at.eye)};
+        const scene::Camera turned = scene::camera_from_angles(at.eye, azimuth, -down, compass);
+        at.target = turned.target;
+        at.up = turned.up;
         at.near = 0.01;
         look(at);
     }

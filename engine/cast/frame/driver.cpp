@@ -394,7 +394,7 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed,
                    const PainterOptions& options) {
     // Of a pixel's width: a step of this depth shows another surface.
     constexpr double step_in_pixels = 2.0;
-    const glm::vec2 pixel = view::metres_a_pixel(list.camera, list.size);
+    const glm::vec2 pixel = scene::metres_a_pixel(list.camera, list.size);
     first_.is_perspective = list.camera.projection == scene::ProjectionKind::perspective;
     first_.samples_all = options_.samples_all;
     first_.disagreement =

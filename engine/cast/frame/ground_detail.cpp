@@ -162,7 +162,7 @@ const DetailPaint* GroundDetail::prepare(const view::DrawList& list, const SeenT
     paint_.up = glm::vec3(glm::normalize(glm::dmat3(seen.world_from_local) * up));
     paint_.seen_width = view::seen_tile_pixels;
     paint_.seen_height = view::seen_height_pixels(*seen.node);
-    paint_.metres_a_pixel = view::metres_a_pixel(list.camera, list.size);
+    paint_.metres_a_pixel = scene::metres_a_pixel(list.camera, list.size);
     return &paint_;
 }
 

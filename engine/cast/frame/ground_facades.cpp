@@ -24,7 +24,7 @@ const FacadePaint* GroundFacades::prepare(const view::DrawList& list, const Seen
               .sky = map_.sky,
               .exaggeration = static_cast<float>(seen.node->surface->placement().exaggeration()),
               .turn = view::GrainView::turn,
-              .metres_a_pixel = view::metres_a_pixel(list.camera, list.size)};
+              .metres_a_pixel = scene::metres_a_pixel(list.camera, list.size)};
     return &paint_;
 }
 

@@ -73,7 +73,7 @@ const GrainPaint* GroundGrain::prepare(const view::DrawList& list, const SeenTer
     if (list.sun) {
         paint_.to_sun = glm::vec3(view::turned(scene::to_light(*list.sun)));
     }
-    paint_.metres_a_pixel = view::metres_a_pixel(list.camera, list.size);
+    paint_.metres_a_pixel = scene::metres_a_pixel(list.camera, list.size);
     return &paint_;
 }
 

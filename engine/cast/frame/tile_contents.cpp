@@ -28,7 +28,8 @@ bool has_near_detail(const view::TileDraw& draw) {
 }
 
 std::size_t number_of(const TilePiece& piece) {
-    return static_cast<std::size_t>(piece.part.y * max_tile_parts.x + piece.part.x);
+    constexpr auto in_row = static_cast<std::size_t>(max_tile_parts.x);
+    return static_cast<std::size_t>(piece.part.y) * in_row + static_cast<std::size_t>(piece.part.x);
 }
 
 // A rectangle of pixels around all that is seen of a box in samples of the overview.

@@ -117,7 +117,7 @@ struct GrainPaint {
     glm::vec3 up{0.0F};             ///< at the eye, along the turned axes
     glm::vec3 to_sun{0.0F};         ///< along the turned axes; 0 without a sun
     glm::vec3 level_light{1.0F};    ///< view::GrainView::level_light
-    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
+    glm::vec2 metres_a_pixel{0.0F}; ///< see scene::metres_a_pixel()
 };
 
 /// A map that repeats, and its mip levels, each half as large: square roots of colours or normals,
@@ -160,7 +160,7 @@ struct DetailPaint {
     glm::vec3 up{0.0F, 0.0F, 1.0F}; ///< at the eye, in the world
     glm::vec2 seen_width{0.0F};     ///< widths between which it fades in, pixels
     glm::vec2 seen_height{0.0F};    ///< heights between which its relief does, pixels
-    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
+    glm::vec2 metres_a_pixel{0.0F}; ///< see scene::metres_a_pixel()
 };
 
 /// The façades of a terrain in memory (view::FacadeMap), whose samples are those of its tile.
@@ -174,7 +174,7 @@ struct FacadePaint {
     glm::vec3 sky{0.0F};
     float exaggeration = 1.0F;
     glm::vec2 turn{1.0F, 0.0F};     ///< view::GrainView::turn
-    glm::vec2 metres_a_pixel{0.0F}; ///< see view::metres_a_pixel()
+    glm::vec2 metres_a_pixel{0.0F}; ///< see scene::metres_a_pixel()
 };
 
 /// A scene::PointLight.

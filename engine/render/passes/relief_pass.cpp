@@ -24,7 +24,8 @@ bool is_streamed(const view::TerrainDraw& draw) {
 ShaderFeatures surface_features(const view::TerrainDraw& draw) {
     const auto& course = draw.search->course;
     return (is_streamed(draw) ? feature_streamed : 0U) | (course ? feature_curved : 0U) |
-           (course && course->needs_quartic ? feature_quartic : 0U);
+           (course && course->needs_quartic ? feature_quartic : 0U) |
+           (course && course->degrees ? feature_degrees : 0U);
 }
 
 // A draw's search space. Its origin is near the eye, where floats are precise.
@@ -123,8 +124,9 @@ void set_origin(gl::Program& program, const DrawnSpace& drawn) {
     program.set(uniforms.samples_a_cell, static_cast<float>(drawn.samples_a_cell));
 }
 
-bool uses_beams(const FrameContext& frame, const scene::Technique& technique) {
-    return frame.skips.beams && has_beams(technique);
+bool uses_beams(const FrameContext& frame, const view::TerrainDraw& draw) {
+    const auto& course = draw.search->course;
+    return frame.skips.beams && has_beams(draw.search->technique) && !(course && course->degrees);
 }
 
 void set_own_heights(gl::Program& program, const ResidentRelief& relief) {
@@ -156,46 +158,85 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
     program.set(uniforms.last_cell, tiles.space.last_cell);
 }
 
-// `in_space`: from samples.
-template <class InSpace>
-void set_light(CourseBlock& block, const view::RayCourse& course, const ReliefSpace& space,
-               const InSpace& in_space) {
+// From samples of a terrain's surface.
+glm::dvec3 in_space(const ReliefSpace& space, glm::dvec3 sample) {
+    return (sample - space.sample_of_origin) / space.samples_per_unit;
+}
+
+void set_light(CourseBlock& block, const view::RayCourse& course, const ReliefSpace& space) {
     const view::LightCourse& light = *course.light;
     const Box crossed = with_heights(light.samples, course, space);
-    const double chords = std::sqrt(light.reach * course.curvature / (4.0 * view::max_light_error));
-    block.light_begin = glm::vec4(glm::vec3(in_space(crossed.low)), light.reach);
-    block.light_end = glm::vec4(glm::vec3(in_space(crossed.high)), chords);
+    const double chords =
+        course.degrees ? view::max_light_error
+                       : std::sqrt(light.reach * course.curvature / (4.0 * view::max_light_error));
+    block.light_begin = glm::vec4(glm::vec3(in_space(space, crossed.low)), light.reach);
+    block.light_end = glm::vec4(glm::vec3(in_space(space, crossed.high)), chords);
     for (std::size_t term = 0; term < view::LightCourse::term_count; ++term) {
         block.light_terms[term] =
             glm::vec4(glm::vec3(light.terms[term] / space.samples_per_unit), 0.0F);
     }
 }
 
-CourseBlock course_block(const view::RayCourse& course, const ReliefSpace& space,
-                         const view::DrawList& list) {
-    const auto in_space = [&](glm::dvec3 sample) {
-        return (sample - space.sample_of_origin) / space.samples_per_unit;
+// Where rows that close a terrain at a pole begin, in the space, and by what part they are longer.
+glm::vec4 rows_at_poles(const view::TerrainDraw& draw, const DrawnSpace& drawn) {
+    const geo::WrappedRows& rows = is_streamed(draw) ? draw.terrain->stream->maker().rows()
+                                                     : draw.search->course->degrees->rows;
+    const geo::GlobalWrap& wrap = rows.wrap();
+    const auto at = [&](double row) {
+        return (row - drawn.origin_sample.y) / drawn.samples_a_cell;
     };
+    const auto longer = [](double part) { return part > 0.0 ? 1.0 / part - 1.0 : 0.0; };
+    return {at(wrap.north_rows()), longer(wrap.north), at(rows.last_source_row()),
+            longer(wrap.south)};
+}
+
+void set_degrees(CourseBlock& block, const view::TerrainDraw& draw, const DrawnSpace& drawn,
+                 const view::DrawList& list) {
+    const view::DegreeCourse& degrees = *draw.search->course->degrees;
+    const ReliefSpace& space = drawn.space;
+    const glm::dvec2 per_unit(space.samples_per_unit);
+    const glm::dvec2 earth = geo::radii_of_earth();
+    const double stretch = max_stretch(glm::dmat3(draw.world_from_local));
+    const Box local = local_box(draw, space);
+    const double longest = stretch * glm::length(local.size()); // of parallel rays
+    const glm::dvec2 pixel(scene::metres_a_pixel(list.camera, list.size));
+    block.course_eye = glm::vec4(glm::vec3(in_space(space, degrees.eye)), 0.0F);
+    block.degree_eye = glm::vec4(degrees.from_axis, degrees.lift, degrees.first_lift,
+                                 1.0 / (degrees.exaggeration * space.samples_per_unit.z));
+    block.degree_circle = glm::vec4(degrees.circle, degrees.first_longitude, 0.0);
+    block.degree_earth = glm::vec4(earth, earth.x / earth.y, longest);
+    block.degree_samples =
+        glm::vec4(degrees.samples_a_radian[0] / per_unit, degrees.samples_a_radian[1] / per_unit);
+    block.degree_rows = rows_at_poles(draw, drawn);
+    block.degree_chords =
+        glm::vec4(view::max_degree_chord_error * glm::dvec2(pixel.y, pixel.x / stretch), 0.0, 0.0);
+}
+
+CourseBlock course_block(const view::TerrainDraw& draw, const DrawnSpace& drawn,
+                         const view::DrawList& list) {
+    const view::RayCourse& course = *draw.search->course;
+    const ReliefSpace& space = drawn.space;
     const Box visible = visible_samples(course, space);
     const double chord_error =
-        view::max_chord_error * view::metres_a_pixel(list.camera, list.size).y;
-    CourseBlock block{.unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative)),
-                      .course_eye = glm::vec4(glm::vec3(in_space(course.eye)),
-                                              std::sqrt(course.curvature / (4.0 * chord_error))),
-                      .course_begin = glm::vec4(glm::vec3(in_space(visible.low)), 0.0F),
-                      .course_end = glm::vec4(glm::vec3(in_space(visible.high)), 0.0F),
-                      .course_scale = glm::vec4(
-                          glm::vec3(course.min_metres * space.samples_per_unit), course.curvature),
-                      .course_terms = {},
-                      .light_begin = {},
-                      .light_end = {},
-                      .light_terms = {}};
+        view::max_chord_error * scene::metres_a_pixel(list.camera, list.size).y;
+    CourseBlock block{};
+    block.unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative));
+    block.course_begin = glm::vec4(glm::vec3(in_space(space, visible.low)), 0.0F);
+    block.course_end = glm::vec4(glm::vec3(in_space(space, visible.high)), 0.0F);
+    if (course.light) {
+        set_light(block, course, space);
+    }
+    if (course.degrees) {
+        set_degrees(block, draw, drawn, list);
+        return block;
+    }
+    block.course_eye = glm::vec4(glm::vec3(in_space(space, course.eye)),
+                                 std::sqrt(course.curvature / (4.0 * chord_error)));
+    block.course_scale =
+        glm::vec4(glm::vec3(course.min_metres * space.samples_per_unit), course.curvature);
     for (std::size_t term = 0; term < view::RayCourse::term_count; ++term) {
         block.course_terms[term] =
             glm::vec4(glm::vec3(course.terms[term] / space.samples_per_unit), 0.0F);
-    }
-    if (course.light) {
-        set_light(block, course, space, in_space);
     }
     return block;
 }
@@ -224,8 +265,8 @@ Result<void> draw_beams(const FrameContext& frame, const view::TerrainDraw& draw
     if (auto set = state.set(relief_block(frame, draw, space)); !set) {
         return set;
     }
-    if (const auto& course = draw.search->course) {
-        if (auto set = state.set(course_block(*course, space, frame.list)); !set) {
+    if (draw.search->course) {
+        if (auto set = state.set(course_block(draw, drawn, frame.list)); !set) {
             return set;
         }
         const ReliefSpace world;
@@ -299,7 +340,8 @@ glm::vec2 texels_in_space(const FrameContext& frame, const view::TerrainDraw& dr
     return glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
 }
 
-// Texels of the lit map per pixel at a distance of one metre.
+// Texels of the lit map per pixel at a distance of one metre, by their larger side: near poles the
+// other one would blur over dozens of pixels.
 float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& draw,
                             const ReliefSpace& space) {
     const view::DrawList& list = frame.list;
@@ -309,7 +351,7 @@ float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& 
     const glm::vec2 texels_per_metre =
         texels_in_space(frame, draw) / glm::vec2(space.metres_per_unit);
     const glm::vec4 ray = ray_from_pixel(list.camera, list.size);
-    return ray.x * std::max(texels_per_metre.x, texels_per_metre.y);
+    return ray.x * std::min(texels_per_metre.x, texels_per_metre.y);
 }
 
 void set_certain_sun(gl::Program& program, const FrameContext& frame,
@@ -343,12 +385,12 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
         return set;
     }
     set_space(program, frame.list.camera, space, draw.world_from_local);
-    if (const auto& course = draw.search->course) {
-        if (auto set = frame.state.set(course_block(*course, space, frame.list)); !set) {
+    if (draw.search->course) {
+        if (auto set = frame.state.set(course_block(draw, drawn, frame.list)); !set) {
             return set;
         }
     }
-    if (uses_beams(frame, technique)) {
+    if (uses_beams(frame, draw)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
     program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
@@ -369,12 +411,12 @@ Result<void> draw_relief(const FrameContext& frame, const view::TerrainDraw& dra
     const scene::Technique& technique = draw.search->technique;
     DrawState& state = frame.state;
     frame.no_vertices.bind();
-    if (uses_beams(frame, technique)) {
+    if (uses_beams(frame, draw)) {
         if (auto drawn = draw_beams(frame, draw); !drawn) {
             return drawn;
         }
     }
-    const ShaderFeatures unused = uses_beams(frame, technique) ? 0U : feature_beams;
+    const ShaderFeatures unused = uses_beams(frame, draw) ? 0U : feature_beams;
     const ShaderFeatures features = frame.features | (technique_features(technique) & ~unused) |
                                     depth_features(frame, technique) | surface_features(draw) |
                                     overlay_features(frame, *draw.terrain) |

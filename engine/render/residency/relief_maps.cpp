@@ -71,11 +71,11 @@ terrain::MinMax range_of(const scene::TerrainSurface& overview, Tiles tiles) {
 }
 
 // Local metres of a terrain's samples on a plane, and the samples of its overview. Rows that close
-// it at a pole count like all others.
+// it or its overview at a pole count like all others, which are between them.
 struct SamplePlaces {
     SamplePlaces(const scene::TileBuilder& builder, glm::dvec2 last_sample)
         : exaggeration(builder.overview().placement().exaggeration()) {
-        const glm::dvec2 first = glm::min(glm::dvec2(1.0), 0.25 * last_sample);
+        const glm::dvec2 first = 0.25 * last_sample;
         const glm::dvec2 second = last_sample - first;
         const glm::dvec2 first_on_overview = builder.on_overview(first);
         overview_a_sample = (builder.on_overview(second) - first_on_overview) / (second - first);

@@ -15,7 +15,7 @@
 #include "engine/material/cone_map.h"
 #include "engine/scene/graph/terrain_node.h"
 #include "engine/scene/streaming/tile_builder.h"
-#include "engine/view/ray_course.h"
+#include "engine/view/rays/ray_course.h"
 
 namespace reljef::render {
 

@@ -35,7 +35,7 @@ FrameBlock frame_block(const view::DrawList& list) {
     block.vertex_grid = glm::vec4(glm::vec2(list.size) * (0.5F * view::vertex_steps), 1.0F, 0.0F);
     block.projection =
         glm::vec4(is_perspective(list.camera) ? 1.0F : 0.0F, static_cast<float>(list.camera.near),
-                  view::metres_a_pixel(list.camera, list.size));
+                  scene::metres_a_pixel(list.camera, list.size));
     set_rays(block, list);
     if (list.sun) {
         block.to_sun = glm::vec4(glm::vec3(scene::to_light(*list.sun)), 0.0F);

@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 12> file_names{
     "mesh/textured_mesh",       "mesh/relief_mesh",       "mesh/relief_hull", "mesh/sun_depth",
     "terrain/textured_terrain", "terrain/relief_terrain", "frame/sky",        "frame/average"};
 // By the bits of ShaderFeatures.
-constexpr std::array<std::string_view, 35> feature_names{
+constexpr std::array<std::string_view, 36> feature_names{
     "LIT",         "FOG",          "HIT",          "EXACT",       "PARALLAX",     "BISECT",
     "SECANT",      "LIMITED",      "ITERATED",     "VIEW_STEPS",  "FADE",         "HARD_SHADOW",
     "SOFT_SHADOW", "SMOOTH_EDGES", "WRITE_DEPTH",  "WARPED",      "CONE",         "NORMAL_MAP",
     "BUMP",        "EMBOSS",       "WRAP",         "BEAMS",       "LAYERS",       "MULTISAMPLED",
     "STREAMED",    "CURVED",       "COUNT",        "SLIVER",      "CORNER_DEPTH", "OVERLAY",
-    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS", "SKY_PICTURE", "QUARTIC"};
-static_assert(std::bit_width(feature_quartic) == feature_names.size());
+    "FACADES",     "POINT_LIGHTS", "MESH_SHADOWS", "SKY_PICTURE", "QUARTIC",      "DEGREES"};
+static_assert(std::bit_width(feature_degrees) == feature_names.size());
 
 std::string header_of(ShaderFeatures features) {
     std::string header = "#version 450 core\n";
@@ -219,13 +219,17 @@ ShaderFeatures options_of(ShaderFeatures features, ShaderFeatures search) {
 ShaderFeatures beams_of(ShaderFeatures features, ShaderFeatures search) {
     const bool anywhere =
         search == feature_exact || search == feature_cone || search == feature_secant;
-    return anywhere && (features & feature_fade) == 0 ? features & feature_beams : 0U;
+    return anywhere && (features & (feature_fade | feature_degrees)) == 0 ? features & feature_beams
+                                                                          : 0U;
 }
 
 // Of a terrain's search space.
 ShaderFeatures space_features_of(ShaderFeatures features) {
-    const bool is_curved = (features & feature_curved) != 0;
-    return features & (feature_streamed | feature_curved | (is_curved ? feature_quartic : 0U));
+    ShaderFeatures bent = features & feature_curved;
+    if (bent != 0) {
+        bent |= features & ((features & feature_degrees) != 0 ? feature_degrees : feature_quartic);
+    }
+    return (features & feature_streamed) | bent;
 }
 
 ShaderFeatures lighting_of(ShaderFeatures features) {
@@ -294,7 +298,7 @@ ShaderFeatures own_features(const ShaderVariant& variant) {
                mesh_shadows_on_relief(variant.features, options_of(variant.features, search)) |
                space_features_of(variant.features);
     case ShaderKind::beams:
-        return space_features_of(variant.features);
+        return space_features_of(variant.features & ~feature_degrees);
     case ShaderKind::relief_mesh:
         return search | options_of(variant.features, search) | wrap | points |
                mesh_shadows_of(variant.features);

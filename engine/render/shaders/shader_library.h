@@ -92,6 +92,8 @@ inline constexpr ShaderFeatures feature_mesh_shadows = 1ULL << 32U;
 inline constexpr ShaderFeatures feature_sky_picture = 1ULL << 33U; ///< the sky is a picture
 /// Of bent view rays: polynomials of degree 4 instead of 3 (view::RayCourse::needs_quartic).
 inline constexpr ShaderFeatures feature_quartic = 1ULL << 34U;
+/// Of bent rays: places are mapped one by one, without beams (view::DegreeCourse).
+inline constexpr ShaderFeatures feature_degrees = 1ULL << 35U;
 
 struct ShaderVariant {
     ShaderKind kind = ShaderKind::terrain;

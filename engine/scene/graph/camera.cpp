@@ -142,6 +142,13 @@ Projected project(const Camera& camera, glm::ivec2 size, glm::dvec3 world) {
     return {place - camera.shift, depth};
 }
 
+glm::vec2 metres_a_pixel(const Camera& camera, glm::ivec2 size) {
+    if (camera.projection == ProjectionKind::orthographic) {
+        return {camera.view_height / size.y, 0.0};
+    }
+    return {0.0, 2.0 * std::tan(0.5 * glm::radians(camera.vertical_fov)) / size.y};
+}
+
 Camera camera_from_angles(glm::dvec3 eye, double heading, double pitch, const Compass& compass) {
     const glm::dvec3 upward = direction_or(compass.up, {0.0, 0.0, 1.0});
     const glm::dvec3 east = direction_or(glm::cross(compass.north, upward), {1.0, 0.0, 0.0});

@@ -65,6 +65,9 @@ Camera with_fitted_depth(Camera camera, const Box& bounds);
 /// For selection and tests; drawing is relative to the camera.
 glm::dmat4 clip_from_world(const Camera& camera, glm::ivec2 size);
 
+/// Width of a pixel, metres: x at the eye, plus y per metre of distance.
+glm::vec2 metres_a_pixel(const Camera& camera, glm::ivec2 size);
+
 /// The ray through a place of the picture (pixels from the top left corner, centres at .5). Its
 /// direction has length 1 along the view axis, so t is the depth.
 Ray view_ray(const Camera& camera, glm::ivec2 size, glm::dvec2 pixel);

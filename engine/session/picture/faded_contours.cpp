@@ -56,7 +56,7 @@ std::vector<ContourProbe> probes_of(const TerrainScene& scene, glm::ivec2 size) 
     const scene::Camera& camera = *scene.camera->get<scene::Camera>();
     const terrain::SurfaceCaster caster(surface.heightfield().heights.view(), surface.pyramid(),
                                         surface.placement());
-    const glm::dvec2 metres(view::metres_a_pixel(camera, size));
+    const glm::dvec2 metres(scene::metres_a_pixel(camera, size));
     std::vector<ContourProbe> found;
     for (int row = 0; row < probes.y; ++row) {
         for (int col = 0; col < probes.x; ++col) {

@@ -96,6 +96,10 @@ HeightRange Placement::find_zero_range() const {
     return {range.low - step, range.high + step};
 }
 
+std::optional<geo::DegreeGrid> Placement::degree_grid() const {
+    return frame_ && !geoid_ && !tile_ ? geodetic_->degree_grid() : std::nullopt;
+}
+
 std::optional<glm::dvec2> Placement::latitudes_all_around() const {
     if (!geodetic_ || !geodetic_->rows().wrap().around) {
         return std::nullopt;

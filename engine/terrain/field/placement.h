@@ -59,6 +59,9 @@ public:
     [[nodiscard]] const geo::LocalFrame* frame() const { return frame_ ? &*frame_ : nullptr; }
     /// Bounds of the geoid's height above the ellipsoid over the terrain, metres; 0 without one.
     [[nodiscard]] HeightRange zero_range() const { return zero_range_; }
+    /// Of a terrain on the ellipsoid that is even in degrees, without a geoid; otherwise, and of a
+    /// tile, empty.
+    [[nodiscard]] std::optional<geo::DegreeGrid> degree_grid() const;
     /// South and north of a terrain that covers all longitudes, degrees; otherwise empty.
     [[nodiscard]] std::optional<glm::dvec2> latitudes_all_around() const;
     [[nodiscard]] bool has_geoid() const { return geoid_.has_value(); }

@@ -318,10 +318,12 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
         }
     }
     if (floats == RayFloats::opengl && draw.search && draw.search->course) {
-        const double pixel = metres_a_pixel(list.camera, list.size).y; // radians
-        found.error =
-            more_on_ellipsoid * found.error +
-            world_metres * (local_metres * draw.search->course->error / pixel + max_chord_error);
+        const RayCourse& course = *draw.search->course;
+        const glm::dvec2 metres(scene::metres_a_pixel(list.camera, list.size));
+        const double pixel = metres.x + metres.y; // of parallel rays metres, else radians
+        const double chords = course.degrees ? max_degree_chord_error : max_chord_error;
+        found.error = more_on_ellipsoid * found.error +
+                      world_metres * (local_metres * course.error / pixel + chords);
     }
     return found;
 }

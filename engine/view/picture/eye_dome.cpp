@@ -28,7 +28,7 @@ public:
         : depths_(depths), nearness_(depths.cols(), depths.rows()),
           per_nearness_(depths.cols(), depths.rows()),
           is_perspective_(list.camera.projection == scene::ProjectionKind::perspective) {
-        const glm::vec2 metres = metres_a_pixel(list.camera, list.size);
+        const glm::vec2 metres = scene::metres_a_pixel(list.camera, list.size);
         pixels_per_metre_ = 1.0F / (is_perspective_ ? metres.y : metres.x);
         const double scale = contour_scale(list.camera, list.size);
         for (const double ring : rings) {

@@ -163,7 +163,7 @@ double metres_at(const BorderError& error, glm::dvec3 place, glm::dvec3 up) {
 } // namespace
 
 BorderError border_error(const DrawList& list, const TileDraw& draw) {
-    const glm::dvec2 metres(metres_a_pixel(list.camera, list.size));
+    const glm::dvec2 metres(scene::metres_a_pixel(list.camera, list.size));
     const double pixels = std::max(draw.triangle_error, 1.0);
     BorderError error{.metres = error_of(draw) + pixels * metres.x / sine_of_view(list, draw)};
     if (draw.coarse) {

@@ -102,7 +102,7 @@ TEST(SunMaps, ShowEachSeenPlaceInTheShadowOfAMesh) {
                 ASSERT_GE(caster.z, place.z);
                 ASSERT_TRUE(caster.z > 0.0 && caster.z < 1.0);
                 // Texels are a few pixels wide at most.
-                const double pixel = view::metres_a_pixel(list.camera, list.size).y * at.depth;
+                const double pixel = scene::metres_a_pixel(list.camera, list.size).y * at.depth;
                 ASSERT_LE(first->texel, 12.0 * pixel + 0.01) << at.depth;
             }
         }

@@ -292,13 +292,21 @@ TEST_F(CurvedReliefGlTest, OptionsShowOnSmallTerrainsWhatTheyShowOnAPlane) {
     }
 }
 
-// Triangles stand in, and the frame says so.
+// Triangles stand in, and the frame says so: places are mapped one by one where no geoid is.
 TEST_F(CurvedReliefGlTest, ViewsThatBendRaysTooMuchShowTriangles) {
-    EarthStage stage({.latitude = 89.9, .step = 0.01});
-    stage.look({120.3, 201.7}, 3e4, {140.0, 40.0});
-    const view::DrawnHits shown = hits(stage, "exact");
-    EXPECT_EQ(shown.stats.reliefs_as_triangles, 1);
-    EXPECT_GT(shown.stats.triangles, 500U);
+    for (const bool has_geoid : {false, true}) {
+        terrain::Heightfield ground =
+            test::geographic_heightfield(test::mountains(EarthStage::side), 89.9, 7.0, 0.01);
+        if (has_geoid) {
+            ground.georeference->geoid =
+                geo::Geoid("made", Grid<float>(20, 20, 30.0F), {86.0, 6.0}, {0.25, 0.25});
+        }
+        EarthStage stage(std::move(ground), {.placement = terrain::PlacementKind::ellipsoid});
+        stage.look({120.3, 201.7}, 3e4, {140.0, 40.0});
+        const view::DrawnHits shown = hits(stage, "exact");
+        EXPECT_EQ(shown.stats.reliefs_as_triangles, has_geoid ? 1 : 0);
+        EXPECT_EQ(shown.stats.triangles > 500U, has_geoid);
+    }
 }
 
 } // namespace

@@ -1,7 +1,8 @@
-#include "engine/view/ray_course.h"
+#include "engine/view/rays/ray_course.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -10,74 +11,12 @@
 
 #include "engine/terrain/field/gradient.h"
 #include "engine/terrain/field/sample_polynomial.h"
-#include "engine/view/draw_list.h"
+#include "engine/view/rays/course_terms.h"
 
 namespace reljef::view {
 namespace {
 
 using terrain::SamplePolynomial;
-
-constexpr int degree = 4;
-
-struct Monomial {
-    int x = 0;
-    int y = 0;
-    int z = 0;
-};
-
-constexpr std::array<Monomial, RayCourse::term_count> monomials = [] {
-    std::array<Monomial, RayCourse::term_count> all{};
-    std::size_t count = 0;
-    for (int total = 1; total <= degree; ++total) {
-        for (int x = total; x >= 0; --x) {
-            for (int y = total - x; y >= 0; --y) {
-                all[count++] = {x, y, total - x - y};
-            }
-        }
-    }
-    return all;
-}();
-
-// Of a monomial among all.
-std::size_t index_of(Monomial term) {
-    constexpr std::array<std::size_t, degree + 1> first{0, 0, 3, 9, 19}; // of a degree
-    const auto less_x = static_cast<std::size_t>(term.y) + static_cast<std::size_t>(term.z);
-    return first[static_cast<std::size_t>(term.x) + less_x] + less_x * (less_x + 1) / 2 +
-           static_cast<std::size_t>(term.z);
-}
-
-double power(double base, int exponent) {
-    double product = 1.0;
-    for (int i = 0; i < exponent; ++i) {
-        product *= base;
-    }
-    return product;
-}
-
-double binomial(int n, int k) {
-    double ways = 1.0;
-    for (int i = 1; i <= k; ++i) {
-        ways = ways * (n - k + i) / i;
-    }
-    return ways;
-}
-
-// Of a polynomial of degree 4, the coefficient around `origin`.
-glm::dvec3 shifted_term(const SamplePolynomial& polynomial, Monomial term, glm::dvec3 origin) {
-    glm::dvec3 sum(0.0);
-    for (int i = term.x; i <= degree; ++i) {
-        for (int j = term.y; i + j <= degree; ++j) {
-            const int last = std::min(degree - i - j, SamplePolynomial::vertical_degree);
-            for (int k = term.z; k <= last; ++k) {
-                const double ways = binomial(i, term.x) * binomial(j, term.y) * binomial(k, term.z);
-                const glm::dvec3 whole = polynomial.coefficient(i, j, k);
-                sum += ways * power(origin.x, i - term.x) * power(origin.y, j - term.y) *
-                       power(origin.z, k - term.z) * whole;
-            }
-        }
-    }
-    return sum;
-}
 
 // Places of the surface, at its lowest and its highest.
 std::vector<glm::dvec3> checked_samples(const Box& samples) {
@@ -123,70 +62,6 @@ std::optional<SamplePolynomial> polynomial_around(const terrain::Placement& plac
     constexpr double min_half_size = 0.01;
     const glm::dvec3 half_size = glm::max(glm::max(-box.low, box.high), glm::dvec3(min_half_size));
     return SamplePolynomial::create(placement, frame.middle, half_size);
-}
-
-// Of a symmetric matrix, the largest absolute eigenvalue; by the trigonometric solution of its
-// cubic.
-double norm(const glm::dmat3& matrix) {
-    const double mean = (matrix[0][0] + matrix[1][1] + matrix[2][2]) / 3.0;
-    const glm::dmat3 rest = matrix - glm::dmat3(mean);
-    double squares = 0.0;
-    for (int column = 0; column < 3; ++column) {
-        squares += glm::dot(rest[column], rest[column]);
-    }
-    const double size = std::sqrt(squares / 6.0);
-    if (size == 0.0) {
-        return std::abs(mean);
-    }
-    const double cosine = std::clamp(0.5 * glm::determinant(rest / size), -1.0, 1.0);
-    const double angle = std::acos(cosine) / 3.0;
-    const double largest = mean + 2.0 * size * std::cos(angle);
-    const double smallest = mean + 2.0 * size * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
-    return std::max(std::abs(largest), std::abs(smallest));
-}
-
-// Of the second derivatives of a place, along any unit direction in metres; 1/metre.
-double curvature_at(const RayCourse& course, glm::dvec3 relative, glm::dvec3 metres) {
-    const glm::dvec3 at = course.unit_from_relative * relative;
-    std::array<glm::dmat3, 3> hessians{};
-    for (std::size_t term = 0; term < monomials.size(); ++term) {
-        const std::array<int, 3> powers{monomials[term].x, monomials[term].y, monomials[term].z};
-        for (int a = 0; a < 3; ++a) {
-            for (int b = 0; b < 3; ++b) {
-                std::array<int, 3> left = powers;
-                double factor = left[static_cast<std::size_t>(a)]--;
-                factor *= left[static_cast<std::size_t>(b)]--;
-                if (factor == 0.0) {
-                    continue;
-                }
-                const double value =
-                    factor * power(at.x, left[0]) * power(at.y, left[1]) * power(at.z, left[2]);
-                for (int axis = 0; axis < 3; ++axis) {
-                    hessians[static_cast<std::size_t>(axis)][a][b] +=
-                        value * course.terms[term][axis];
-                }
-            }
-        }
-    }
-    double square = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const double bend =
-            norm(glm::transpose(course.unit_from_relative) *
-                 hessians[static_cast<std::size_t>(axis)] * course.unit_from_relative);
-        square += metres[axis] * metres[axis] * bend * bend;
-    }
-    return std::sqrt(square);
-}
-
-// What the terms of degree 4 add to the sample of a place.
-glm::dvec3 quartic_at(const RayCourse& course, glm::dvec3 relative) {
-    const glm::dvec3 at = course.unit_from_relative * relative;
-    glm::dvec3 sum(0.0);
-    for (std::size_t term = index_of({degree, 0, 0}); term < monomials.size(); ++term) {
-        const auto [x, y, z] = monomials[term];
-        sum += power(at.x, x) * power(at.y, y) * power(at.z, z) * course.terms[term];
-    }
-    return sum;
 }
 
 // Metres from a height above the ground to where a ray touches the ground, at most.
@@ -282,30 +157,6 @@ Box with_light(const Box& seen, const terrain::Placement& placement,
     return lit;
 }
 
-// The terms of a polynomial at a place plus a way, by powers of the way.
-std::array<glm::dvec3, LightCourse::term_count>
-terms_along(const std::array<glm::dvec3, RayCourse::term_count>& terms, glm::dvec3 way) {
-    constexpr std::array<std::size_t, degree> first{0, 20, 30, 34}; // of each power
-    std::array<glm::dvec3, LightCourse::term_count> along{};
-    const auto add = [&](Monomial whole, Monomial part, std::size_t at) {
-        const int total = whole.x + whole.y + whole.z - part.x - part.y - part.z;
-        const double ways = binomial(whole.x, part.x) * binomial(whole.y, part.y) *
-                            binomial(whole.z, part.z) * power(way.x, whole.x - part.x) *
-                            power(way.y, whole.y - part.y) * power(way.z, whole.z - part.z);
-        along[first[static_cast<std::size_t>(total) - 1] + at] += ways * terms[index_of(whole)];
-    };
-    for (const Monomial whole : monomials) {
-        add(whole, {0, 0, 0}, 0);
-        for (const Monomial part : monomials) {
-            const bool is_smaller = part.x + part.y + part.z < whole.x + whole.y + whole.z;
-            if (is_smaller && part.x <= whole.x && part.y <= whole.y && part.z <= whole.z) {
-                add(whole, part, 1 + index_of(part));
-            }
-        }
-    }
-    return along;
-}
-
 std::vector<glm::dvec3> places_of(const terrain::Placement& placement,
                                   const std::vector<glm::dvec3>& samples) {
     std::vector<glm::dvec3> places;
@@ -347,8 +198,11 @@ RayCourse measured(RayCourse course, const CourseCheck& check) {
         const glm::dvec3 metres = terrain::metres_at(check.placement, check.samples[i]);
         if (distance > 0.0) { // at the eye it is exact
             course.error = std::max(course.error, glm::distance(found, check.places[i]) / distance);
-            quartic =
-                std::max(quartic, glm::length(metres * quartic_at(course, relative)) / distance);
+            quartic = std::max(
+                quartic,
+                glm::length(metres * sum_of_quartic_terms(course.terms,
+                                                          course.unit_from_relative * relative)) /
+                    distance);
         }
         course.min_metres = glm::min(course.min_metres, metres);
         course.curvature = std::max(course.curvature, curvature_at(course, relative, metres));
@@ -360,37 +214,43 @@ RayCourse measured(RayCourse course, const CourseCheck& check) {
 } // namespace
 
 glm::dvec3 RayCourse::sample(glm::dvec3 relative) const {
-    const glm::dvec3 at = unit_from_relative * relative;
-    glm::dvec3 sum = eye;
-    for (std::size_t term = 0; term < monomials.size(); ++term) {
-        const auto [x, y, z] = monomials[term];
-        sum += power(at.x, x) * power(at.y, y) * power(at.z, z) * terms[term];
+    if (degrees) {
+        return degrees->sample(relative);
     }
-    return sum;
+    return eye + sum_of_terms(terms, unit_from_relative * relative);
 }
 
-std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
-                                    const glm::dmat4& world_from_local,
-                                    const terrain::Placement& placement, const Box& samples,
-                                    const std::optional<SunRays>& sun) {
-    if (camera.projection == scene::ProjectionKind::orthographic) {
-        return std::nullopt;
-    }
-    const glm::dmat4 local_from_world = glm::inverse(world_from_local);
-    const glm::dvec3 eye(local_from_world * glm::dvec4(camera.eye, 1.0));
+namespace {
+
+// What view rays are made for.
+struct CourseView {
+    const scene::Camera& camera;
+    glm::ivec2 size;
+    const glm::dmat4& world_from_local;
+    const terrain::Placement& placement;
+    const Box& samples;
+    const std::optional<SunRays>& sun;
+    glm::dmat4 local_from_world = glm::inverse(world_from_local);
+    glm::dvec3 eye{local_from_world * glm::dvec4(camera.eye, 1.0)}; // local
+};
+
+// Empty if none is precise enough.
+std::optional<RayCourse> polynomial_course(const CourseView& view) {
+    const terrain::Placement& placement = view.placement;
+    const glm::dvec3 eye = view.eye;
     const auto eye_sample = placement.sample_from_world(eye);
     if (!eye_sample) {
         return std::nullopt;
     }
-    const Box seen = within_horizon(samples, placement, eye, *eye_sample);
+    const Box seen = within_horizon(view.samples, placement, eye, *eye_sample);
     if (seen.low.x >= seen.high.x || seen.low.y >= seen.high.y) {
         return std::nullopt;
     }
+    const glm::dmat3 turn(view.local_from_world);
     RayCourse course;
     course.samples = seen;
-    if (sun) {
-        course.light =
-            light_over(seen, placement, glm::dmat3(local_from_world) * sun->to_sun, sun->samples);
+    if (view.sun) {
+        course.light = light_over(seen, placement, turn * view.sun->to_sun, view.sun->samples);
     }
     const std::vector<glm::dvec3> checked =
         checked_samples(course.light ? course.light->samples : seen);
@@ -401,24 +261,100 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
         return std::nullopt;
     }
 
-    const glm::dvec3 origin = polynomial->local(eye);
-    for (std::size_t term = 0; term < monomials.size(); ++term) {
-        course.terms[term] = shifted_term(*polynomial, monomials[term], origin);
-    }
+    course.terms = shifted_terms(*polynomial, polynomial->local(eye));
     // The polynomial's columns, which are continuous all around the Earth.
     const auto around = placement.columns_all_around();
     course.eye = *eye_sample;
     if (around) {
         course.eye.x += *around * std::round((polynomial->at(eye).x - eye_sample->x) / *around);
     }
-    course.unit_from_relative = polynomial->local_from_offset() * glm::dmat3(local_from_world);
-    if (sun) {
-        course.light->terms = terms_along(course.terms, course.unit_from_relative *
-                                                            (course.light->reach * sun->to_sun));
+    course.unit_from_relative = polynomial->local_from_offset() * turn;
+    if (view.sun) {
+        course.light->terms = terms_along(
+            course.terms, course.unit_from_relative * (course.light->reach * view.sun->to_sun));
     }
-    const double pixel = metres_a_pixel(camera, size).y;
-    course = measured(course, {placement, checked, places, glm::dmat3(world_from_local), pixel});
+    const double pixel = scene::metres_a_pixel(view.camera, view.size).y;
+    course =
+        measured(course, {placement, checked, places, glm::dmat3(view.world_from_local), pixel});
     return course.error <= max_course_error * pixel ? std::optional(course) : std::nullopt;
+}
+
+// Largest distance, as an angle from the eye or of parallel rays, between places and those that
+// floats find.
+double error_of_floats(const RayCourse& course, const CourseView& view,
+                       const std::vector<glm::dvec3>& checked) {
+    double error = 0.0;
+    for (const glm::dvec3 sample : checked) {
+        const glm::dvec3 place = view.placement.world_from_sample(sample);
+        const glm::dvec3 way = place - view.eye;
+        const glm::dvec3 found = view.placement.world_from_sample(
+            course.degrees->sample_in_floats(glm::dmat3(view.world_from_local) * way));
+        const double beside = glm::distance(found, place);
+        const bool is_parallel = view.camera.projection == scene::ProjectionKind::orthographic;
+        error = std::max(error, is_parallel ? beside : beside / glm::length(way));
+    }
+    return error;
+}
+
+// Of a terrain whose longitudes begin anew: floats of the columns behind that have the digits of a
+// whole turn. As error_of_floats().
+double error_behind_turn(const RayCourse& course, const CourseView& view) {
+    const auto around = view.placement.columns_all_around();
+    if (!around || view.samples.size().x < *around) {
+        return 0.0;
+    }
+    const DegreeCourse& degrees = *course.degrees;
+    const double away = std::min(-degrees.first_longitude,
+                                 2.0 * std::numbers::pi + degrees.first_longitude); // radians
+    const double beside = degrees.from_axis * std::sin(std::min(away, 0.5 * std::numbers::pi));
+    const double above = view.placement.exaggeration() * (degrees.eye.z - view.samples.high.z);
+    const double distance = std::max(beside, above);
+    constexpr double rounding = 2.0 * std::numbers::pi * 0x1p-24;
+    const double metres = rounding * (degrees.from_axis + std::max(distance, 0.0));
+    const bool is_parallel = view.camera.projection == scene::ProjectionKind::orthographic;
+    return is_parallel ? metres : metres / std::max(distance, std::numeric_limits<double>::min());
+}
+
+std::optional<RayCourse> course_over_degrees(const CourseView& view) {
+    const terrain::Placement& placement = view.placement;
+    const double lowest = placement.exaggeration() * view.samples.low.z;
+    auto degrees = degree_course(view.eye, glm::dmat3(view.local_from_world), placement,
+                                 view.samples.center().x);
+    if (!degrees || !(lowest > -max_depth_of_degrees)) {
+        return std::nullopt;
+    }
+    RayCourse course;
+    course.samples = view.samples;
+    course.eye = {degrees->eye.x, degrees->rows.from_even_row(degrees->eye.y), degrees->eye.z};
+    course.unit_from_relative = degrees->axes_from_relative;
+    course.needs_quartic = false;
+    course.degrees = std::move(degrees);
+    const std::vector<glm::dvec3> checked = checked_samples(view.samples);
+    if (view.sun) {
+        const glm::dvec3 to_sun = glm::dmat3(view.local_from_world) * view.sun->to_sun;
+        course.light.emplace();
+        course.light->samples = view.sun->samples;
+        course.light->reach =
+            light_reach(placement, places_of(placement, checked), to_sun, view.sun->samples);
+    }
+    constexpr double between_checked = 2.0;
+    course.error =
+        between_checked * error_of_floats(course, view, checked) + error_behind_turn(course, view);
+    const glm::dvec2 pixel(scene::metres_a_pixel(view.camera, view.size));
+    return course.error <= max_course_error * (pixel.x + pixel.y) ? std::optional(course)
+                                                                  : std::nullopt;
+}
+
+} // namespace
+
+std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
+                                    const glm::dmat4& world_from_local,
+                                    const terrain::Placement& placement, const Box& samples,
+                                    const std::optional<SunRays>& sun) {
+    const CourseView view{camera, size, world_from_local, placement, samples, sun};
+    const bool is_parallel = camera.projection == scene::ProjectionKind::orthographic;
+    auto course = is_parallel ? std::nullopt : polynomial_course(view);
+    return course ? course : course_over_degrees(view);
 }
 
 } // namespace reljef::view

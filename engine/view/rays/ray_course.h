@@ -12,6 +12,7 @@
 #include "engine/core/geometry.h"
 #include "engine/scene/graph/camera.h"
 #include "engine/terrain/field/placement.h"
+#include "engine/view/rays/degree_course.h"
 
 namespace reljef::view {
 
@@ -35,9 +36,11 @@ struct SunRays {
 
 /// The view rays over a terrain on the ellipsoid. They are bent in its samples: the sample at
 /// eye + direction is a polynomial of degree 4 in the direction. So along a ray it is one in the
-/// part of the ray, whose coefficients are precise in floats near the eye.
+/// part of the ray, whose coefficients are precise in floats near the eye. Where no such polynomial
+/// is precise, places of rays are mapped one by one.
 struct RayCourse {
-    Box samples; ///< the part of the surface within the horizon; true metres
+    Box samples; ///< the part of the surface that may be visible; true metres
+    std::optional<DegreeCourse> degrees = {}; ///< maps places; there is no polynomial
     /// Monomials x^i·y^j·z^k of degree 1 to 4: by degree, then falling i, then falling j.
     static constexpr std::size_t term_count = 34;
 
@@ -49,8 +52,8 @@ struct RayCourse {
     /// seen beside the ray by at most (sqrt(b) - sqrt(a))^2 / 2 of it, in radians.
     double curvature = 0.0;
     glm::dvec3 min_metres{1.0}; ///< world metres of a step of each coordinate of a sample, at least
-    /// Of the polynomial: largest angle between a checked place of the surface and the one found,
-    /// seen from the eye, radians.
+    /// Largest angle between a checked place of the surface and the one found, seen from the eye,
+    /// radians; of parallel rays metres.
     double error = 0.0;
     /// Whether the terms of degree 4 move a checked place by more than max_quartic_error on the
     /// picture. Without them, frames take 5 to 13 % less time.
@@ -68,13 +71,15 @@ inline constexpr double max_course_error = 0.1;
 inline constexpr double max_quartic_error = 0.005;
 /// Pixels by which the chords of a ray may be.
 inline constexpr double max_chord_error = 0.005;
+/// Pixels by which the chords of a ray may be whose places are mapped one by one.
+inline constexpr double max_degree_chord_error = 0.01;
 /// Radians by which the chords of a ray to the sun may be: a thousandth of the sun's disc.
 inline constexpr double max_light_error = 1e-5;
 
-/// For the surface within `samples`: columns, rows and heights in true metres. Empty if no
-/// polynomial is precise enough: for parallel rays, eyes far above large terrains, and near poles.
-/// `sun`: with light rays, where the polynomial is then precise, too.
-/// Preconditions: an invertible transform, a placement on the ellipsoid.
+/// For the surface within `samples`: columns, rows and heights in true metres. For parallel rays,
+/// eyes far above large terrains, and near poles no polynomial is precise enough; then it is empty
+/// unless degree_course() is there. `sun`: with light rays, where the polynomial is then precise,
+/// too. Preconditions: an invertible transform, a placement on the ellipsoid.
 std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size,
                                     const glm::dmat4& world_from_local,
                                     const terrain::Placement& placement, const Box& samples,

@@ -1,4 +1,4 @@
-#include "engine/view/ray_course.h"
+#include "engine/view/rays/ray_course.h"
 
 #include <algorithm>
 #include <cmath>
@@ -188,17 +188,35 @@ TEST(RayCourse, IsThereForTerrainsOfCentimetres) {
     }
 }
 
-TEST(RayCourse, IsNoneWhereNoPolynomialIsPreciseOrRaysAreParallel) {
+TEST(RayCourse, MapsPlacesWhereNoPolynomialIsPreciseOrRaysAreParallel) {
     const terrain::Placement placement = placed(45.0, 1.0 / 1200.0);
-    const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 3000.0});
-    scene::Camera parallel = camera_at(eye);
-    parallel.projection = scene::ProjectionKind::orthographic;
-    EXPECT_FALSE(ray_course(parallel, size, glm::dmat4(1.0), placement, all_samples()));
     const auto at_pole = placed(89.999, 1.0 / 1200.0);
-    EXPECT_FALSE(ray_course(camera_at(at_pole.world_from_sample({10.0, 10.0, 3000.0})), size,
-                            glm::dmat4(1.0), at_pole, all_samples()));
-    EXPECT_FALSE(ray_course(camera_at(placement.world_from_sample({600.0, 600.0, 1e7})), size,
-                            glm::dmat4(1.0), placement, all_samples()));
+    const auto maps_places = [](const scene::Camera& camera, const terrain::Placement& on) {
+        const auto course = ray_course(camera, size, glm::dmat4(1.0), on, all_samples());
+        return course && course->degrees;
+    };
+    const glm::dvec3 eye = placement.world_from_sample({600.0, 600.0, 3000.0});
+    EXPECT_FALSE(maps_places(camera_at(eye), placement));
+    scene::Camera parallel = camera_at(eye);
+    parallel.view_height = 1e5;
+    parallel.projection = scene::ProjectionKind::orthographic;
+    EXPECT_TRUE(maps_places(parallel, placement));
+    EXPECT_TRUE(maps_places(camera_at(at_pole.world_from_sample({10.0, 10.0, 3000.0})), at_pole));
+    EXPECT_TRUE(
+        maps_places(camera_at(placement.world_from_sample({600.0, 600.0, 1e7})), placement));
+}
+
+// Floats of columns behind it have the digits of a turn: metres at the equator.
+TEST(RayCourse, IsNoneNearWhereLongitudesBeginAnew) {
+    const terrain::Placement globe = test::placed(test::closed_globe(300, 0.5, 1.0, 11));
+    const Box all{{0.0, 0.0, -100.0}, {*globe.columns_all_around(), 302.0, 100.0}};
+    const auto is_there = [&](double longitude, double height) {
+        const auto eye = globe.world_from_geodetic({10.0, longitude, height});
+        return ray_course(camera_at(*eye), size, glm::dmat4(1.0), globe, all).has_value();
+    };
+    EXPECT_TRUE(is_there(90.0, 1e3));
+    EXPECT_TRUE(is_there(179.99, 1e5));
+    EXPECT_FALSE(is_there(179.99, 1e3));
 }
 
 // Of a degree and of ten degrees of ground.
@@ -222,7 +240,7 @@ TEST(RayCourse, LeavesOutTheFourthDegreeOnlyWhereNoPixelShowsIt) {
             const glm::dvec3 without = placement.world_from_sample(cubic.sample(relative));
             worst = std::max(worst, glm::distance(found, without) / glm::length(relative));
         }
-        const double pixels = worst / metres_a_pixel(camera_at(eye), size).y;
+        const double pixels = worst / scene::metres_a_pixel(camera_at(eye), size).y;
         EXPECT_EQ(pixels > 1.1 * max_quartic_error, course->needs_quartic) << pixels;
     }
 }

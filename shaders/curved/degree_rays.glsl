@@ -1,0 +1,157 @@
+// Over terrain that is even in degrees: places of a ray are mapped one by one, in differences from the eye
+// (view/rays/degree_course.h). Axes: away from that of the Earth at the eye's meridian, east, and north along it.
+struct Curve {
+    vec3 eye;       // the sample from which places differ; with even rows
+    vec3 begin;     // of the ray, from the eye, metres along the axes
+    vec3 way;       // to its end
+    vec3 low;       // of the part of the search space that is searched
+    vec3 high;
+    float rise;     // units of height in a metre
+    vec2 tolerance; // of chords: radians seen from the begin; metres
+};
+
+// Of this fragment's ray.
+Curve curve = Curve(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 1.0, vec2(1.0));
+
+const float pi = 3.14159265358979;
+
+// Of a vector, with errors of a few units of 2^-24 (polynomial: Moshier, Cephes, atanf).
+float angle_of(float y, float x) {
+    float longer = max(abs(x), abs(y));
+    float t = min(abs(x), abs(y)) / max(longer, 1e-37);
+    const float tan_of_eighth = 0.414213562;
+    bool beyond = t > tan_of_eighth;
+    float r = beyond ? (t - 1.0) / (t + 1.0) : t;
+    float z = r * r;
+    float angle = (((8.05374449538e-2 * z - 1.38776856032e-1) * z + 1.99777106478e-1) * z -
+                   3.33329491539e-1) * z * r + r;
+    angle += beyond ? 0.25 * pi : 0.0;
+    angle = abs(y) > abs(x) ? 0.5 * pi - angle : angle;
+    angle = x < 0.0 ? pi - angle : angle;
+    return y < 0.0 ? -angle : angle;
+}
+
+// Seen from the eye.
+struct EarthPlace {
+    vec3 shift; // of the sample: with even rows
+    vec3 up;    // unit vector
+    float to_center; // of the meridian's curvature, metres
+    float from_axis; // metres
+    vec2 aside; // from the axis
+};
+
+EarthPlace earth_place(vec3 way) {
+    vec2 earth = degree_earth.xy;
+    vec2 flattened = vec2(1.0, degree_earth.z);
+    vec2 circle = degree_circle.xy;
+    float eye_from_axis = degree_eye.x;
+    float lift_of_eye = degree_eye.y;
+    vec2 aside = vec2(eye_from_axis + way.x, way.y);
+    float from_axis = length(aside);
+    float farther = (way.x * (eye_from_axis + aside.x) + way.y * way.y) / max(from_axis + eye_from_axis, 1e-30);
+    vec2 shift = vec2(farther, way.z);
+    float lift = degree_eye.z;
+    for (int i = 0; i < 3; ++i) {
+        vec2 radii = earth + flattened * (lift_of_eye + lift);
+        vec2 change = (shift - circle * flattened * lift) / radii;
+        vec2 at = circle + change;
+        lift += dot(2.0 * circle + change, change) / (2.0 * dot(at * at, flattened / radii));
+    }
+    vec2 change = (shift - circle * flattened * lift) / (earth + flattened * (lift_of_eye + lift));
+    vec2 normal_of_eye = circle * flattened;
+    vec2 more = flattened * change;
+    vec2 normal = normal_of_eye + more;
+    float length_of_eye = length(normal_of_eye);
+    float size = length(normal);
+    float longer = dot(2.0 * normal_of_eye + more, more) / (size + length_of_eye);
+    float latitude = angle_of(normal_of_eye.x * more.y - normal_of_eye.y * more.x, dot(normal_of_eye, normal));
+    float longitude = angle_of(aside.y, aside.x);
+    longitude -= 2.0 * pi * floor((longitude - degree_circle.z) / (2.0 * pi));
+    vec2 moved = degree_samples.xy * latitude + degree_samples.zw * longitude;
+    vec2 upward = normal / size;
+    float meridian = earth.y * earth.y / earth.x * size * size * size; // its radius of curvature
+    return EarthPlace(vec3(moved, (lift * size + lift_of_eye * longer) * curve.rise),
+                      vec3(upward.x * aside / max(from_axis, 1e-30), upward.y),
+                      meridian + (lift_of_eye + lift) * size, from_axis, aside);
+}
+
+EarthPlace earth_place_at(float part) {
+    return earth_place(curve.begin + part * curve.way);
+}
+
+// Rows that close the terrain at a pole are nearer to the others.
+float closed_row(float even) {
+    return even + degree_rows.y * min(even - degree_rows.x, 0.0) + degree_rows.w * max(even - degree_rows.z, 0.0);
+}
+
+float even_row(float closed) {
+    return closed - degree_rows.y / (1.0 + degree_rows.y) * min(closed - degree_rows.x, 0.0) -
+           degree_rows.w / (1.0 + degree_rows.w) * max(closed - degree_rows.z, 0.0);
+}
+
+vec3 curve_at(float part) {
+    vec3 place = curve.eye + earth_place_at(part).shift;
+    return vec3(place.x, closed_row(place.y), place.z);
+}
+
+vec3 curve_slope_at(float part) {
+    EarthPlace at = earth_place_at(part);
+    vec2 outward = at.aside / max(at.from_axis, 1e-30);
+    vec3 north = vec3(-at.up.z * outward, length(at.up.xy));
+    float latitude = dot(north, curve.way) / at.to_center;
+    float longitude = (outward.x * curve.way.y - outward.y * curve.way.x) / max(at.from_axis, 1e-30);
+    vec2 moved = degree_samples.xy * latitude + degree_samples.zw * longitude;
+    float even = curve.eye.y + at.shift.y;
+    moved.y *= 1.0 + (even < degree_rows.x ? degree_rows.y : 0.0) + (even > degree_rows.z ? degree_rows.w : 0.0);
+    return vec3(moved, dot(at.up, curve.way) * curve.rise);
+}
+
+// Radians east in a way between samples.
+float longitude_of(vec2 way) {
+    vec4 a_radian = degree_samples;
+    return (a_radian.x * way.y - a_radian.y * way.x) / (a_radian.x * a_radian.w - a_radian.y * a_radian.z);
+}
+
+vec3 turned(vec3 place, float turns) {
+    return vec3(place.xy + turns * 2.0 * pi * degree_samples.zw, place.z);
+}
+
+// The same way, less than half a turn long.
+vec2 within_half_turn(vec2 way) {
+    return turned(vec3(way, 0.0), -round(longitude_of(way) / (2.0 * pi))).xy;
+}
+
+vec3 nearest_turn(vec3 start, vec3 end) {
+    return vec3(start.xy + within_half_turn(end.xy - start.xy), end.z);
+}
+
+// From a chord's end beyond the last longitude to the first, and back.
+float turns_behind(vec3 end) {
+    float east = longitude_of(end.xy - curve.eye.xy) - degree_circle.z;
+    return east < 0.0 ? 1.0 : east >= 2.0 * pi ? -1.0 : 0.0;
+}
+
+// The same place between the first longitude and the last.
+vec2 within_turn(vec2 place) {
+    return turned(vec3(place, 0.0), turns_behind(vec3(place, 0.0))).xy;
+}
+
+// `back`: the end of a view ray, relative to the eye. Parallel rays begin at a distance before it.
+vec3 on_view_ray(vec3 back, float part) {
+    return perspective > 0.5 ? part * back : back - (1.0 - part) * degree_earth.w * view_forward.xyz;
+}
+
+float metres_of_view(vec3 back) {
+    return perspective > 0.5 ? length(back) : degree_earth.w;
+}
+
+float first_part_of_view(vec3 back) {
+    return perspective > 0.5 ? clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0) : 0.0;
+}
+
+Curve view_curve(vec3 back) {
+    mat3 axes_from_relative = mat3(unit_from_relative);
+    vec3 begin = axes_from_relative * on_view_ray(back, 0.0);
+    return Curve(course_eye.xyz, begin, axes_from_relative * back - begin, course_begin.xyz, course_end.xyz,
+                 degree_eye.w, degree_chords.xy);
+}
