@@ -51,7 +51,7 @@ std::string place_on_earth(const scene::TerrainSurface& surface, const scene::Ca
 /// its error bound.
 std::string error_text(const view::FrameStats& stats, const scene::Technique& technique) {
     if (stats.reliefs_as_triangles > 0) {
-        return " - triangles, rays are bent too much here";
+        return " - triangles, rays are not precise here";
     }
     const double bound = technique.id() == scene::TechniqueId::exact
                              ? scene::max_expected_error_of_rays

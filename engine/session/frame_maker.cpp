@@ -331,11 +331,10 @@ std::vector<std::string> DeviceFrames::error_notes() const {
             std::floor(100.0 * *min_share_)));
     }
     if (frames_as_triangles_ > 0) {
-        notes.push_back(
-            fmt::format("{} of the pictures show triangles instead of the technique: its rays bend "
-                        "too much over "
-                        "so large a part of this map of the Earth; --placement plane shows it",
-                        frames_as_triangles_));
+        notes.push_back(fmt::format(
+            "{} of the pictures show triangles instead of the technique: rays over this map of the "
+            "Earth are not precise there; --placement plane shows it",
+            frames_as_triangles_));
     }
     return notes;
 }

@@ -58,9 +58,9 @@ struct FrameStats {
     bool lacks_triangles = false;
     bool exceeded_by_rounding = false; ///< see terrain::ErrorView
     std::optional<Choice> choice;      ///< of `auto`
-    int reliefs_as_triangles = 0; ///< on the ellipsoid, where a view bends rays too much to search
-    std::size_t rays = 0;         ///< cast on the CPU
-    int draws = 0;                ///< draw calls, the sky's included
+    int reliefs_as_triangles = 0;      ///< on the ellipsoid, where no rays are precise enough
+    std::size_t rays = 0;              ///< cast on the CPU
+    int draws = 0;                     ///< draw calls, the sky's included
     int state_changes = 0; ///< programs, vertex arrays, textures, uniform blocks and modes set
     int uploads = 0;       ///< buffers and textures filled
     std::size_t upload_bytes = 0;

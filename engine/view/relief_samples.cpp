@@ -35,10 +35,17 @@ std::optional<SunRays> sun_rays(const scene::TerrainNode& terrain,
         return std::nullopt;
     }
     const Grid<float>& heights = terrain.surface->heightfield().heights;
+    glm::dvec2 first(0.0);
+    glm::dvec2 last(heights.cols() - 1, heights.rows() - 1);
+    if (terrain.stream != nullptr) { // its outer samples lie beyond those of the overview
+        const scene::TileBuilder& builder = terrain.stream->maker();
+        const terrain::TreeTile root = builder.tree().root();
+        first = builder.on_overview(builder.sample(root, {0, 0}));
+        last = builder.on_overview(builder.sample(root, builder.tree().cells(root)));
+    }
     const terrain::MinMax range = terrain.surface->pyramid().total();
-    return SunRays{
-        scene::to_light(*sun),
-        {{0.0, 0.0, range.low}, {heights.cols() - 1.0, heights.rows() - 1.0, range.high}}};
+    return SunRays{scene::to_light(*sun),
+                   {glm::dvec3(first, range.low), glm::dvec3(last, range.high)}};
 }
 
 } // namespace reljef::view

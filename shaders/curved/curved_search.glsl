@@ -47,10 +47,10 @@ vec2 range_inside(vec2 range) {
     Chords chords = chords_between(range, share_of_chords);
     vec2 inner = vec2(2.0, 0.0);
     float before = first_end(chords);
-    vec3 start = curve_at(before);
+    vec3 start = place_on_curve(chords, before);
     for (int i = 1; i <= chords.count && before < range.y; ++i) {
         float next = end_of_chord(chords, i, before);
-        vec3 end = nearest_turn(start, curve_at(next));
+        vec3 end = nearest_turn(start, place_on_curve(chords, next));
         vec2 inside = parts_of_chord(start, end);
         if (inside.x <= inside.y) {
             inner = vec2(min(inner.x, mix(before, next, inside.x)), mix(before, next, inside.y));
@@ -122,7 +122,7 @@ bool find_at_reference(vec2 range, out float part, out vec2 place) {
 bool find_between(vec2 range, bool above, out float part, out vec2 place) {
     curve_range = range;
     vec3 start = curve_at(range.x);
-    bool found = find_hit(start, curve_at(range.y) - start, part, place);
+    bool found = find_hit(start, nearest_turn(start, curve_at(range.y)) - start, part, place);
     part = mix(range.x, range.y, part);
     return found;
 }
@@ -130,23 +130,22 @@ bool find_between(vec2 range, bool above, out float part, out vec2 place) {
 
 // The part of the way to where the ray leaves the box.
 bool find_on_curve(out float part, out vec2 place) {
-    back = back_on_ray();
-    curve = view_curve(back);
-    float begin = first_part_of_view(back);
+    curve = view_curve(back_on_ray());
+    float begin = first_part_of_view();
     vec2 range = falling_range(begin);
 #if !defined(EXACT) && !defined(CONE)
     range = range_inside(range);
 #endif
     vec3 first = curve_at(range.x);
     vec3 way = nearest_turn(first, curve_at(range.y)) - first;
-    set_metres(way, (range.y - range.x) * metres_of_view(back));
+    set_metres(way, (range.y - range.x) * metres_of_view());
 #ifdef FADE
     fade_curve(way);
     vec2 faded = falling_range(begin);
     range = vec2(max(range.x, faded.x), min(range.y, faded.y));
 #endif
 #ifdef BEAMS
-    range.x = max(range.x, clear_part(dot(back, view_forward.xyz)));
+    range.x = max(range.x, clear_part(dot(view_way, view_forward.xyz)));
 #endif
     if (!(range.x <= range.y)) {
         return false;

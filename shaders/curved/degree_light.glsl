@@ -5,12 +5,9 @@ Curve light_curve(vec3 start, vec3 relative) {
     mat3 axes_from_relative = mat3(unit_from_relative);
     vec3 begin = axes_from_relative * relative;
     vec3 way = light_begin.w * (axes_from_relative * to_sun.xyz);
-    curve.rise = degree_eye.w;
-    vec3 even = vec3(start.x, even_row(start.y), start.z);
-    vec3 shift = earth_place(begin).shift;
-    vec3 shifted = nearest_turn(even, course_eye.xyz + shift);
-    vec3 eye = even - (shifted - course_eye.xyz);
-    return Curve(eye, begin, way, light_begin.xyz, light_end.xyz, degree_eye.w, vec2(light_end.w, 0.0));
+    vec3 moved = moved_by(earth_place(begin, degree_eye.w));
+    vec3 eye = start - (nearest_turn(start, course_eye.xyz + moved) - course_eye.xyz);
+    return Curve(eye, begin, way, light_begin.xyz, light_end.xyz, degree_eye.w, vec2(degree_chords.z, 0.0));
 }
 
 // The part at which the ray is above all heights, at most.

@@ -1,7 +1,7 @@
 // Over terrain that is even in degrees: places of a ray are mapped one by one, in differences from the eye
 // (view/rays/degree_course.h). Axes: away from that of the Earth at the eye's meridian, east, and north along it.
 struct Curve {
-    vec3 eye;       // the sample from which places differ; with even rows
+    vec3 eye;       // the sample from which places differ
     vec3 begin;     // of the ray, from the eye, metres along the axes
     vec3 way;       // to its end
     vec3 low;       // of the part of the search space that is searched
@@ -40,7 +40,8 @@ struct EarthPlace {
     vec2 aside; // from the axis
 };
 
-EarthPlace earth_place(vec3 way) {
+// `rise`: units of height in a metre.
+EarthPlace earth_place(vec3 way, float rise) {
     vec2 earth = degree_earth.xy;
     vec2 flattened = vec2(1.0, degree_earth.z);
     vec2 circle = degree_circle.xy;
@@ -48,8 +49,8 @@ EarthPlace earth_place(vec3 way) {
     float lift_of_eye = degree_eye.y;
     vec2 aside = vec2(eye_from_axis + way.x, way.y);
     float from_axis = length(aside);
-    float farther = (way.x * (eye_from_axis + aside.x) + way.y * way.y) / max(from_axis + eye_from_axis, 1e-30);
-    vec2 shift = vec2(farther, way.z);
+    vec2 shift = vec2((way.x * (eye_from_axis + aside.x) + way.y * way.y) / max(from_axis + eye_from_axis, 1e-30),
+                      way.z); // from and along the axis
     float lift = degree_eye.z;
     for (int i = 0; i < 3; ++i) {
         vec2 radii = earth + flattened * (lift_of_eye + lift);
@@ -59,51 +60,62 @@ EarthPlace earth_place(vec3 way) {
     }
     vec2 change = (shift - circle * flattened * lift) / (earth + flattened * (lift_of_eye + lift));
     vec2 normal_of_eye = circle * flattened;
-    vec2 more = flattened * change;
-    vec2 normal = normal_of_eye + more;
-    float length_of_eye = length(normal_of_eye);
+    vec2 normal_change = flattened * change;
+    vec2 normal = normal_of_eye + normal_change;
     float size = length(normal);
-    float longer = dot(2.0 * normal_of_eye + more, more) / (size + length_of_eye);
-    float latitude = angle_of(normal_of_eye.x * more.y - normal_of_eye.y * more.x, dot(normal_of_eye, normal));
+    float size_change = dot(2.0 * normal_of_eye + normal_change, normal_change) / (size + length(normal_of_eye));
+    float latitude = angle_of(normal_of_eye.x * normal_change.y - normal_of_eye.y * normal_change.x,
+                              dot(normal_of_eye, normal));
     float longitude = angle_of(aside.y, aside.x);
     longitude -= 2.0 * pi * floor((longitude - degree_circle.z) / (2.0 * pi));
     vec2 moved = degree_samples.xy * latitude + degree_samples.zw * longitude;
     vec2 upward = normal / size;
     float meridian = earth.y * earth.y / earth.x * size * size * size; // its radius of curvature
-    return EarthPlace(vec3(moved, (lift * size + lift_of_eye * longer) * curve.rise),
+    return EarthPlace(vec3(moved, (lift * size + lift_of_eye * size_change) * rise),
                       vec3(upward.x * aside / max(from_axis, 1e-30), upward.y),
                       meridian + (lift_of_eye + lift) * size, from_axis, aside);
 }
 
 EarthPlace earth_place_at(float part) {
-    return earth_place(curve.begin + part * curve.way);
+    return earth_place(curve.begin + part * curve.way, curve.rise);
 }
 
-// Rows that close the terrain at a pole are nearer to the others.
-float closed_row(float even) {
-    return even + degree_rows.y * min(even - degree_rows.x, 0.0) + degree_rows.w * max(even - degree_rows.z, 0.0);
+// Rows of a way of even rows from the eye. Rows that close the terrain at a pole are nearer to the others: before one row
+// and after another, both counted from the eye.
+float rows_of(float even) {
+    vec4 longer = degree_rows;
+    float before = longer.x > 0.0 ? min(even, longer.x) : min(even - longer.x, 0.0);
+    float after = longer.z < 0.0 ? max(even, longer.z) : max(even - longer.z, 0.0);
+    return even + longer.y * before + longer.w * after;
 }
 
-float even_row(float closed) {
-    return closed - degree_rows.y / (1.0 + degree_rows.y) * min(closed - degree_rows.x, 0.0) -
-           degree_rows.w / (1.0 + degree_rows.w) * max(closed - degree_rows.z, 0.0);
+float rows_in_even_row(float even) {
+    return 1.0 + (even < degree_rows.x ? degree_rows.y : 0.0) + (even > degree_rows.z ? degree_rows.w : 0.0);
+}
+
+vec3 moved_by(EarthPlace at) {
+    return vec3(at.shift.x, rows_of(at.shift.y), at.shift.z);
+}
+
+vec3 sample_of(EarthPlace at) {
+    return curve.eye + moved_by(at);
 }
 
 vec3 curve_at(float part) {
-    vec3 place = curve.eye + earth_place_at(part).shift;
-    return vec3(place.x, closed_row(place.y), place.z);
+    return sample_of(earth_place_at(part));
 }
 
-vec3 curve_slope_at(float part) {
-    EarthPlace at = earth_place_at(part);
+vec3 slope_of(EarthPlace at) {
     vec2 outward = at.aside / max(at.from_axis, 1e-30);
     vec3 north = vec3(-at.up.z * outward, length(at.up.xy));
     float latitude = dot(north, curve.way) / at.to_center;
     float longitude = (outward.x * curve.way.y - outward.y * curve.way.x) / max(at.from_axis, 1e-30);
     vec2 moved = degree_samples.xy * latitude + degree_samples.zw * longitude;
-    float even = curve.eye.y + at.shift.y;
-    moved.y *= 1.0 + (even < degree_rows.x ? degree_rows.y : 0.0) + (even > degree_rows.z ? degree_rows.w : 0.0);
-    return vec3(moved, dot(at.up, curve.way) * curve.rise);
+    return vec3(moved.x, moved.y * rows_in_even_row(at.shift.y), dot(at.up, curve.way) * curve.rise);
+}
+
+vec3 curve_slope_at(float part) {
+    return slope_of(earth_place_at(part));
 }
 
 // Radians east in a way between samples.
@@ -136,22 +148,46 @@ vec2 within_turn(vec2 place) {
     return turned(vec3(place, 0.0), turns_behind(vec3(place, 0.0))).xy;
 }
 
-// `back`: the end of a view ray, relative to the eye. Parallel rays begin at a distance before it.
-vec3 on_view_ray(vec3 back, float part) {
-    return perspective > 0.5 ? part * back : back - (1.0 - part) * degree_earth.w * view_forward.xyz;
+// Of this fragment's view ray, relative to the eye.
+vec3 view_begin = vec3(0.0);
+vec3 view_way = vec3(0.0);
+
+vec3 on_view_ray(float part) {
+    return view_begin + part * view_way;
 }
 
-float metres_of_view(vec3 back) {
-    return perspective > 0.5 ? length(back) : degree_earth.w;
+float metres_of_view() {
+    return length(view_way);
 }
 
-float first_part_of_view(vec3 back) {
-    return perspective > 0.5 ? clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0) : 0.0;
+// From the Earth's centre, along the axes.
+vec3 eye_from_center() {
+    return vec3(degree_eye.x, 0.0, (degree_earth.y + degree_earth.z * degree_eye.y) * degree_circle.y);
 }
 
-Curve view_curve(vec3 back) {
+// Parallel rays begin above the highest ground, so that floats have the digits of the way through heights.
+void set_parallel_ray() {
+    const float margin = 100.0; // metres: of floats, and of an ellipsoid beside the highest ground
     mat3 axes_from_relative = mat3(unit_from_relative);
-    vec3 begin = axes_from_relative * on_view_ray(back, 0.0);
-    return Curve(course_eye.xyz, begin, axes_from_relative * back - begin, course_begin.xyz, course_end.xyz,
-                 degree_eye.w, degree_chords.xy);
+    vec2 place = share_of_picture();
+    vec3 origin = degree_corner.xyz + place.x * degree_right.xyz + place.y * degree_up.xyz;
+    vec3 shrinking = 1.0 / (degree_earth.xxy + degree_earth.w + margin);
+    vec3 from = (eye_from_center() + axes_from_relative * origin) * shrinking;
+    vec3 way = (axes_from_relative * view_forward.xyz) * shrinking;
+    float nearest = -dot(from, way) / dot(way, way);
+    vec3 there = from + nearest * way;
+    float half_length = sqrt(max(1.0 - dot(there, there), 0.0) / dot(way, way)) + margin;
+    view_begin = origin + (nearest - half_length) * view_forward.xyz;
+    view_way = 2.0 * half_length * view_forward.xyz;
+}
+
+// `back`: where a ray leaves the box, relative to the eye.
+Curve view_curve(vec3 back) {
+    view_way = back;
+    if (perspective < 0.5) {
+        set_parallel_ray();
+    }
+    mat3 axes_from_relative = mat3(unit_from_relative);
+    return Curve(course_eye.xyz, axes_from_relative * view_begin, axes_from_relative * view_way, course_begin.xyz,
+                 course_end.xyz, degree_eye.w, degree_chords.xy);
 }

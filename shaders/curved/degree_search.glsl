@@ -1,43 +1,57 @@
+float first_part_of_view() {
+    return perspective > 0.5 ? clamp(near_depth / dot(view_way, view_forward.xyz), 0.0, 1.0) : 0.0;
+}
+
 // Chords that a ray is seen beside by less than its tolerance. Meridians converge, so they are short near the axis.
 struct Chords {
     float first; // part
     float last;
-    float wider; // than the tolerance
+    float tolerance; // a factor of the curve's
     int count;
+    EarthPlace here; // at the last end
 };
 
 // `share`: of the number that keeps the error.
 Chords chords_between(vec2 range, float share) {
     const int max_chords = 4096;
-    return Chords(range.x, range.y, 1.0 / (share * share), max_chords);
+    return Chords(range.x, range.y, 1.0 / (share * share), max_chords, earth_place_at(range.x));
 }
 
 float first_end(Chords chords) {
     return chords.first;
 }
 
-// A straight way is curved in degrees: by 2 / radius at most through its height, and along the ground by 1.16 times the
-// tangent of the latitude over the radius. Between distances a and b it is seen beside a chord by at most
-// (sqrt(b) - sqrt(a))^2 / 2 of the curvature.
-float end_of_chord(Chords chords, int i, float before) {
-    const float least_radius = 6.3e6; // metres
-    EarthPlace here = earth_place_at(before);
-    float metres = length(curve.way);
-    float distance_to_begin = before * metres;
-    vec2 tolerance = curve.tolerance * chords.wider;
-    float upward = dot(here.up, curve.way) / metres;
-    float along_ground = max(1.0 - upward * upward, 1e-6);
-    float unseen = tolerance.x * distance_to_begin + tolerance.y;
-    float from_axis = max(0.5 * here.from_axis, unseen);
-    float bend = 2.0 / least_radius + 1.16 * along_ground * abs(here.up.z) / from_axis;
-    float root = sqrt(distance_to_begin) + sqrt(2.0 * tolerance.x / bend);
-    float end = tolerance.x > 0.0 ? root * root : distance_to_begin + sqrt(8.0 * tolerance.y / bend);
-    end = min(end, distance_to_begin + from_axis * inversesqrt(along_ground)); // half of the way to the axis
-    return min(max(end / metres, before * (1.0 + 1e-6)), chords.last);
+vec3 place_on_curve(inout Chords chords, float part) {
+    chords.here = earth_place_at(part);
+    return sample_of(chords.here);
 }
 
-vec3 place_of_end(Chords chords, float part) {
-    return curve_at(part);
+vec3 place_of_end(inout Chords chords, float part) {
+    return place_on_curve(chords, part);
+}
+
+// A straight way is curved in degrees: by 2 / radius at most through its height. Along the ground by 1.16 times the
+// tangent of the latitude over the radius; and if it passes the axis at a distance of p, by 2 p / d^2 at a distance of d.
+// Between distances a and b from the begin it is seen beside a chord by at most (sqrt(b) - sqrt(a))^2 / 2 of the
+// curvature.
+float end_of_chord(Chords chords, int i, float before) {
+    const float min_radius = 6.3e6;    // metres
+    const float min_distance = 0.0001; // metres, from the axis
+    float metres = length(curve.way);
+    float from_begin = before * metres;
+    vec2 tolerance = curve.tolerance * chords.tolerance;
+    float upward = dot(chords.here.up, curve.way) / metres;
+    float along_ground = max(1.0 - upward * upward, 1e-6);
+    float unseen = max(tolerance.x * from_begin + tolerance.y, min_distance);
+    float from_axis = max(0.5 * chords.here.from_axis, unseen);
+    vec2 aside = chords.here.aside;
+    float passes = abs(aside.x * curve.way.y - aside.y * curve.way.x) / metres;
+    float turning = min(1.16 * along_ground / from_axis, 2.0 * passes / (from_axis * from_axis));
+    float bend = 2.0 / min_radius + abs(chords.here.up.z) * turning;
+    float root = sqrt(from_begin) + sqrt(2.0 * tolerance.x / bend);
+    float end = tolerance.x > 0.0 ? root * root : from_begin + sqrt(8.0 * tolerance.y / bend);
+    end = min(end, from_begin + from_axis * inversesqrt(along_ground)); // half of the way to the axis
+    return i == chords.count ? chords.last : min(max(end / metres, before * (1.0 + 1e-6)), chords.last);
 }
 
 #ifdef FADE
@@ -53,11 +67,12 @@ float falling_to(float height, float begin) {
     const int max_steps = 8;
     float part = begin;
     for (int i = 0; i < max_steps && part <= 1.0; ++i) {
-        float over = curve_at(part).z - height;
+        EarthPlace at = earth_place_at(part);
+        float over = sample_of(at).z - height;
         if (over <= 0.0) {
             break;
         }
-        float slope = curve_slope_at(part).z;
+        float slope = slope_of(at).z;
         part = slope < 0.0 ? part - over / slope : 2.0;
     }
     return part;
@@ -67,9 +82,13 @@ float rising_to(float height, float end) {
     const int max_steps = 8;
     float part = end;
     for (int i = 0; i < max_steps; ++i) {
-        float over = curve_at(part).z - height;
-        float slope = curve_slope_at(part).z;
-        part -= over > 0.0 && slope > 0.0 ? over / slope : 0.0;
+        EarthPlace at = earth_place_at(part);
+        float over = sample_of(at).z - height;
+        float slope = slope_of(at).z;
+        if (over <= 0.0 || slope <= 0.0) {
+            break;
+        }
+        part -= over / slope;
     }
     return part;
 }
@@ -78,8 +97,7 @@ float rising_to(float height, float end) {
 float deepest_part() {
     const float square_at_depth = 0.96;
     vec3 shrinking = 1.0 / degree_earth.xxy;
-    float along_axis = (degree_earth.y + degree_earth.z * degree_eye.y) * degree_circle.y;
-    vec3 from = (vec3(degree_eye.x, 0.0, along_axis) + curve.begin) * shrinking;
+    vec3 from = (eye_from_center() + curve.begin) * shrinking;
     vec3 way = curve.way * shrinking;
     float square = dot(way, way);
     float nearest = -dot(from, way) / square;

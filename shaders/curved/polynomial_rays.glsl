@@ -76,17 +76,20 @@ vec2 within_turn(vec2 place) {
     return place;
 }
 
-// `back`: the end of a view ray, relative to the eye.
-vec3 on_view_ray(vec3 back, float part) {
-    return part * back;
+// Of this fragment's view ray: where it leaves the box, relative to the eye.
+vec3 view_way = vec3(0.0);
+
+vec3 on_view_ray(float part) {
+    return part * view_way;
 }
 
-float metres_of_view(vec3 back) {
-    return length(back);
+float metres_of_view() {
+    return length(view_way);
 }
 
 // `relative`: its end, relative to the eye.
 Curve view_curve(vec3 relative) {
+    view_way = relative;
     Monomials m = monomials_of(relative);
     vec3 terms[4] = vec3[4](FIRST_DEGREE(course_terms, 0, m), SECOND_DEGREE(course_terms, 3, m),
                             THIRD_DEGREE(course_terms, 9, m),

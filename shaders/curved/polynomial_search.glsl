@@ -1,5 +1,5 @@
-float first_part_of_view(vec3 back) {
-    return clamp(near_depth / dot(back, view_forward.xyz), 0.0, 1.0);
+float first_part_of_view() {
+    return clamp(near_depth / dot(view_way, view_forward.xyz), 0.0, 1.0);
 }
 
 // Chords of equal length in the square root of the part are seen from part 0 beside the curve by equal angles
@@ -23,12 +23,16 @@ float first_end(Chords chords) {
     return chords.first * chords.first;
 }
 
+vec3 place_on_curve(inout Chords chords, float part) {
+    return curve_at(part);
+}
+
 float end_of_chord(Chords chords, int i, float before) {
     float root = chords.first + float(i) * chords.stride;
     return root * root;
 }
 
-vec3 place_of_end(Chords chords, float part) {
+vec3 place_of_end(inout Chords chords, float part) {
     return curve_at(part) - 0.25 * chords.stride * chords.stride * part * curve_bend_at(part);
 }
 

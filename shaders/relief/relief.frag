@@ -37,10 +37,6 @@
 
 in vec3 vertex_back;
 
-#ifdef CURVED
-vec3 back = vec3(0.0); // where the view ray leaves the box, relative to the eye
-#endif
-
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
@@ -268,7 +264,7 @@ void main() {
     if (!find_on_curve(part, place)) {
         SHOW_NOTHING;
     }
-    vec3 relative = on_view_ray(back, part);
+    vec3 relative = on_view_ray(part);
 #else
     StraightRay ray = ray_in_box();
     vec3 start = ray.start;
@@ -304,8 +300,9 @@ void main() {
     float at;
 #ifdef CURVED
     vec3 start = curve_at(curve_range.x);
-    float distance_share = near_miss(start, curve_at(curve_range.y) - start, at, missed);
-    vec3 past = on_view_ray(back, mix(curve_range.x, curve_range.y, at));
+    vec3 way = nearest_turn(start, curve_at(curve_range.y)) - start;
+    float distance_share = near_miss(start, way, at, missed);
+    vec3 past = on_view_ray(mix(curve_range.x, curve_range.y, at));
 #else
     float distance_share = near_miss(start, part * span, at, missed);
     vec3 past = relative;

@@ -133,7 +133,7 @@ std::string place_text(const PlaceContent& place, PlaceFormat format) {
 
 std::string error_summary(const view::FrameStats& stats, const scene::Technique& technique) {
     if (stats.reliefs_as_triangles > 0) {
-        return "triangles: rays bend too much";
+        return "triangles: rays not precise here";
     }
     const bool is_exact = technique.id() == scene::TechniqueId::exact;
     const double bound =

@@ -7,6 +7,7 @@
 
 #include "engine/core/geometry.h"
 #include "engine/render/passes/beams.h"
+#include "engine/render/passes/course_block.h"
 #include "engine/render/passes/overlay_pass.h"
 #include "engine/render/shaders/bindings.h"
 #include "engine/render/shaders/relief_options.h"
@@ -17,24 +18,12 @@
 namespace reljef::render {
 namespace {
 
-bool is_streamed(const view::TerrainDraw& draw) {
-    return !draw.search->tiles.empty();
-}
-
 ShaderFeatures surface_features(const view::TerrainDraw& draw) {
     const auto& course = draw.search->course;
     return (is_streamed(draw) ? feature_streamed : 0U) | (course ? feature_curved : 0U) |
            (course && course->needs_quartic ? feature_quartic : 0U) |
            (course && course->degrees ? feature_degrees : 0U);
 }
-
-// A draw's search space. Its origin is near the eye, where floats are precise.
-struct DrawnSpace {
-    ReliefSpace space;
-    glm::ivec2 origin{0};          // cell at (0, 0)
-    glm::dvec2 origin_sample{0.0}; // of the terrain
-    double samples_a_cell = 1.0;
-};
 
 DrawnSpace space_of(const FrameContext& frame, const view::TerrainDraw& draw) {
     if (is_streamed(draw)) {
@@ -47,32 +36,16 @@ DrawnSpace space_of(const FrameContext& frame, const view::TerrainDraw& draw) {
             ? draw.search->course->eye
             : whole.space_from_local * local_eye(frame.list.camera, draw.world_from_local) +
                   whole.space_of_origin;
-    const glm::dvec2 origin = glm::clamp(glm::floor(glm::dvec2(eye)), glm::dvec2(whole.box.low),
-                                         glm::dvec2(whole.box.high) - 1.0);
+    const glm::dvec2 origin =
+        origin_near(glm::dvec2(eye), glm::dvec2(whole.box.high), draw.search->course);
     return {moved_to(whole, origin), glm::ivec2(origin), origin, 1.0};
 }
 
-// With the heights of the search space, and what floats round of the heights of rays: a few units
-// of 2^-24 of the eye's. So rays begin above and end below thin surfaces, too.
-Box with_heights(const Box& samples, const view::RayCourse& course, const ReliefSpace& space) {
-    constexpr double rounding = 0x1p-21;
-    const double lowest = space.sample_of_origin.z;
-    const double range = space.samples_per_unit.z;
-    const double rounded = rounding * std::abs(course.eye.z - lowest);
-    return {{samples.low.x, samples.low.y, lowest + range * space.box.low.z - rounded},
-            {samples.high.x, samples.high.y, lowest + range * space.box.high.z + rounded}};
-}
-
-Box visible_samples(const view::RayCourse& course, const ReliefSpace& space) {
-    return with_heights(course.samples, course, space);
-}
-
 Box local_box(const view::TerrainDraw& draw, const ReliefSpace& space) {
-    const auto& course = draw.search->course;
-    if (!course) {
+    if (!draw.search->course) {
         return space.local_box;
     }
-    const Box visible = visible_samples(*course, space);
+    const Box visible = visible_samples(draw, space);
     return terrain::placed_bounds(draw.terrain->surface->placement(), glm::dvec2(visible.low),
                                   glm::dvec2(visible.high), {visible.low.z, visible.high.z});
 }
@@ -156,89 +129,6 @@ void set_streamed_heights(gl::Program& program, const ResidentReliefTiles& tiles
     program.set(uniforms.top_level, levels_of_tile + tiles.pages->levels() - 2);
     program.set(uniforms.height_texel, 1.0F / glm::vec2(tiles.heights->size()));
     program.set(uniforms.last_cell, tiles.space.last_cell);
-}
-
-// From samples of a terrain's surface.
-glm::dvec3 in_space(const ReliefSpace& space, glm::dvec3 sample) {
-    return (sample - space.sample_of_origin) / space.samples_per_unit;
-}
-
-void set_light(CourseBlock& block, const view::RayCourse& course, const ReliefSpace& space) {
-    const view::LightCourse& light = *course.light;
-    const Box crossed = with_heights(light.samples, course, space);
-    const double chords =
-        course.degrees ? view::max_light_error
-                       : std::sqrt(light.reach * course.curvature / (4.0 * view::max_light_error));
-    block.light_begin = glm::vec4(glm::vec3(in_space(space, crossed.low)), light.reach);
-    block.light_end = glm::vec4(glm::vec3(in_space(space, crossed.high)), chords);
-    for (std::size_t term = 0; term < view::LightCourse::term_count; ++term) {
-        block.light_terms[term] =
-            glm::vec4(glm::vec3(light.terms[term] / space.samples_per_unit), 0.0F);
-    }
-}
-
-// Where rows that close a terrain at a pole begin, in the space, and by what part they are longer.
-glm::vec4 rows_at_poles(const view::TerrainDraw& draw, const DrawnSpace& drawn) {
-    const geo::WrappedRows& rows = is_streamed(draw) ? draw.terrain->stream->maker().rows()
-                                                     : draw.search->course->degrees->rows;
-    const geo::GlobalWrap& wrap = rows.wrap();
-    const auto at = [&](double row) {
-        return (row - drawn.origin_sample.y) / drawn.samples_a_cell;
-    };
-    const auto longer = [](double part) { return part > 0.0 ? 1.0 / part - 1.0 : 0.0; };
-    return {at(wrap.north_rows()), longer(wrap.north), at(rows.last_source_row()),
-            longer(wrap.south)};
-}
-
-void set_degrees(CourseBlock& block, const view::TerrainDraw& draw, const DrawnSpace& drawn,
-                 const view::DrawList& list) {
-    const view::DegreeCourse& degrees = *draw.search->course->degrees;
-    const ReliefSpace& space = drawn.space;
-    const glm::dvec2 per_unit(space.samples_per_unit);
-    const glm::dvec2 earth = geo::radii_of_earth();
-    const double stretch = max_stretch(glm::dmat3(draw.world_from_local));
-    const Box local = local_box(draw, space);
-    const double longest = stretch * glm::length(local.size()); // of parallel rays
-    const glm::dvec2 pixel(scene::metres_a_pixel(list.camera, list.size));
-    block.course_eye = glm::vec4(glm::vec3(in_space(space, degrees.eye)), 0.0F);
-    block.degree_eye = glm::vec4(degrees.from_axis, degrees.lift, degrees.first_lift,
-                                 1.0 / (degrees.exaggeration * space.samples_per_unit.z));
-    block.degree_circle = glm::vec4(degrees.circle, degrees.first_longitude, 0.0);
-    block.degree_earth = glm::vec4(earth, earth.x / earth.y, longest);
-    block.degree_samples =
-        glm::vec4(degrees.samples_a_radian[0] / per_unit, degrees.samples_a_radian[1] / per_unit);
-    block.degree_rows = rows_at_poles(draw, drawn);
-    block.degree_chords =
-        glm::vec4(view::max_degree_chord_error * glm::dvec2(pixel.y, pixel.x / stretch), 0.0, 0.0);
-}
-
-CourseBlock course_block(const view::TerrainDraw& draw, const DrawnSpace& drawn,
-                         const view::DrawList& list) {
-    const view::RayCourse& course = *draw.search->course;
-    const ReliefSpace& space = drawn.space;
-    const Box visible = visible_samples(course, space);
-    const double chord_error =
-        view::max_chord_error * scene::metres_a_pixel(list.camera, list.size).y;
-    CourseBlock block{};
-    block.unit_from_relative = glm::mat4(glm::mat3(course.unit_from_relative));
-    block.course_begin = glm::vec4(glm::vec3(in_space(space, visible.low)), 0.0F);
-    block.course_end = glm::vec4(glm::vec3(in_space(space, visible.high)), 0.0F);
-    if (course.light) {
-        set_light(block, course, space);
-    }
-    if (course.degrees) {
-        set_degrees(block, draw, drawn, list);
-        return block;
-    }
-    block.course_eye = glm::vec4(glm::vec3(in_space(space, course.eye)),
-                                 std::sqrt(course.curvature / (4.0 * chord_error)));
-    block.course_scale =
-        glm::vec4(glm::vec3(course.min_metres * space.samples_per_unit), course.curvature);
-    for (std::size_t term = 0; term < view::RayCourse::term_count; ++term) {
-        block.course_terms[term] =
-            glm::vec4(glm::vec3(course.terms[term] / space.samples_per_unit), 0.0F);
-    }
-    return block;
 }
 
 void set_heights(gl::Program& program, const FrameContext& frame, const view::TerrainDraw& draw) {

@@ -126,6 +126,12 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface) {
     return space;
 }
 
+glm::dvec2 origin_near(glm::dvec2 eye, glm::dvec2 last,
+                       const std::optional<view::RayCourse>& course) {
+    return course && course->degrees ? glm::clamp(glm::round(eye), glm::dvec2(0.0), last)
+                                     : glm::clamp(glm::floor(eye), glm::dvec2(0.0), last - 1.0);
+}
+
 ReliefSpace moved_to(const ReliefSpace& space, glm::dvec2 origin) {
     ReliefSpace moved = space;
     const glm::dvec3 way(origin, 0.0);
@@ -182,8 +188,8 @@ StreamedSpace streamed_space(const scene::TileBuilder& builder, Tiles tiles, glm
     const glm::dvec2 eye_sample = course
                                       ? places.from_overview(glm::dvec2(course->eye))
                                       : (glm::dvec2(eye) - places.origin) / places.metres_a_sample;
-    made.origin = glm::ivec2(glm::clamp(glm::floor(eye_sample / made.samples_a_cell),
-                                        glm::dvec2(0.0), glm::dvec2(made.last_cell)));
+    made.origin = glm::ivec2(
+        origin_near(eye_sample / made.samples_a_cell, glm::dvec2(made.last_cell) + 1.0, course));
     made.origin_sample = glm::dvec2(made.origin) * made.samples_a_cell;
 
     ReliefSpace& space = made.space;

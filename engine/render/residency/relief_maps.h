@@ -39,6 +39,11 @@ ReliefSpace relief_space(const scene::TerrainSurface& surface);
 /// and rows of the box are those of the samples.
 void place_space(ReliefSpace& space, const std::function<glm::dvec3(glm::dvec3)>& local);
 
+/// The cell that a search space begins at, near the eye; `eye` and `last` count cells. At the last
+/// row of a course over degrees, which may be a pole, it is the end of the last cell.
+glm::dvec2 origin_near(glm::dvec2 eye, glm::dvec2 last,
+                       const std::optional<view::RayCourse>& course);
+
 /// The same space with its origin at a column and row.
 ReliefSpace moved_to(const ReliefSpace& space, glm::dvec2 origin);
 

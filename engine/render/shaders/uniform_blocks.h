@@ -123,9 +123,9 @@ static_assert(offsetof(CourseBlock, course_eye) == 64);
 static_assert(offsetof(CourseBlock, course_begin) == 64 + 16);
 static_assert(offsetof(CourseBlock, course_terms) == 64 + 4 * 16);
 static_assert(offsetof(CourseBlock, degree_eye) == 64 + 38 * 16);
-static_assert(offsetof(CourseBlock, light_begin) == 64 + 44 * 16);
-static_assert(offsetof(CourseBlock, light_terms) == 64 + 46 * 16);
-static_assert(sizeof(CourseBlock) == 64 + 81 * 16);
+static_assert(offsetof(CourseBlock, light_begin) == 64 + 47 * 16);
+static_assert(offsetof(CourseBlock, light_terms) == 64 + 49 * 16);
+static_assert(sizeof(CourseBlock) == 64 + 84 * 16);
 inline constexpr BlockLayout CourseBlock::layout{"CourseBlock", bindings::course_block_binding,
                                                  sizeof(CourseBlock)};
 

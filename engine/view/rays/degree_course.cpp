@@ -12,10 +12,10 @@
 namespace reljef::view {
 namespace {
 
-// Whether Newton's method begins at the eye's height, or at that of the ellipsoid.
+// Of an eye; above it, Newton's method begins at the ellipsoid.
 constexpr double max_near_height = 1e5; // metres
 
-// From a unit vector to the axis: of a place relative to an eye.
+// Of a place, from an eye.
 template <class T> struct TurnAndRise {
     T latitude;  // radians
     T longitude; // radians
@@ -32,9 +32,9 @@ TurnAndRise<T> turn_and_rise(const DegreeCourse& course, const glm::vec<3, T>& w
     const T eye_from_axis = static_cast<T>(course.from_axis);
     const T x = eye_from_axis + way.x;
     const T from_axis = std::hypot(x, way.y);
-    const T farther = (way.x * (eye_from_axis + x) + way.y * way.y) /
-                      std::max(from_axis + eye_from_axis, std::numeric_limits<T>::min());
-    const Pair shift(farther, way.z);
+    const T away = (way.x * (eye_from_axis + x) + way.y * way.y) /
+                   std::max(from_axis + eye_from_axis, std::numeric_limits<T>::min());
+    const Pair shift(away, way.z); // from and along the axis
 
     T lift = static_cast<T>(course.first_lift); // from the eye's
     Pair change(T(0));                          // of the circle
@@ -46,20 +46,21 @@ TurnAndRise<T> turn_and_rise(const DegreeCourse& course, const glm::vec<3, T>& w
     for (int i = 0; i < 3; ++i) {
         const Pair radii = follow();
         const Pair at = circle + change;
-        const T beside = glm::dot(T(2) * circle + change, change);
-        lift += beside / (T(2) * glm::dot(at * at, flattened / radii));
+        const T off_circle = glm::dot(T(2) * circle + change, change);
+        lift += off_circle / (T(2) * glm::dot(at * at, flattened / radii));
     }
     follow();
 
     const Pair normal_of_eye = circle * flattened;
-    const Pair more = flattened * change;
-    const Pair normal = normal_of_eye + more;
+    const Pair normal_change = flattened * change;
+    const Pair normal = normal_of_eye + normal_change;
     const T length_of_eye = glm::length(normal_of_eye);
     const T length = glm::length(normal);
-    const T longer = glm::dot(T(2) * normal_of_eye + more, more) / (length + length_of_eye);
-    return {std::atan2(normal_of_eye.x * more.y - normal_of_eye.y * more.x,
+    const T length_change =
+        glm::dot(T(2) * normal_of_eye + normal_change, normal_change) / (length + length_of_eye);
+    return {std::atan2(normal_of_eye.x * normal_change.y - normal_of_eye.y * normal_change.x,
                        glm::dot(normal_of_eye, normal)),
-            std::atan2(way.y, x), lift * length + lift_of_eye * longer};
+            std::atan2(way.y, x), lift * length + lift_of_eye * length_change};
 }
 
 template <class T> glm::dvec3 sample_at(const DegreeCourse& course, glm::dvec3 relative) {
@@ -119,7 +120,7 @@ std::optional<DegreeCourse> degree_course(glm::dvec3 eye, const glm::dmat3& loca
     const double columns_a_degree = grid->samples_a_degree[1].x;
     const double middle =
         placement.columns_all_around()
-            ? grid->first.y + middle_column / columns_a_degree // its rows follow latitudes alone
+            ? grid->first.y + middle_column / columns_a_degree // rows do not turn with longitudes
             : grid->middle_longitude;
     const double east = place.longitude - 360.0 * std::round((place.longitude - middle) / 360.0);
     course.eye =

@@ -12,8 +12,8 @@
 namespace reljef::view {
 
 /// The samples of a terrain that is even in degrees, for places relative to an eye. All of it is in
-/// differences from the eye, so that floats have as many digits of them as of the way from it:
-/// around poles, across all of the Earth, and near the ground.
+/// differences from the eye, which floats keep to a few units of 2^-24 of the way from it: around
+/// poles, across all of the Earth, and near the ground.
 ///
 /// In the plane of a meridian, a place is (a + K)·X from the axis and (b + K·a/b)·Z along it, where
 /// (X, Z) is on the unit circle, a and b are the radii of the Earth, and K, its lift, is its height
@@ -34,16 +34,16 @@ struct DegreeCourse {
 
     /// Col, row and height in true metres of a place from the eye, in world metres.
     [[nodiscard]] glm::dvec3 sample(glm::dvec3 relative) const;
-    /// The same with the rounding of floats, which shaders have.
+    /// The same with floats, up to the turns of columns, as shaders compute it.
     [[nodiscard]] glm::dvec3 sample_in_floats(glm::dvec3 relative) const;
 };
 
 /// Metres below the ellipsoid to which the method is certain to converge.
 inline constexpr double max_depth_of_degrees = 1e5;
 
-/// `eye`: local metres. `middle_column`: columns of a terrain that covers all longitudes follow half
-/// a turn on both sides of it; others do so around their own. Empty for terrains that are not even in degrees, or have a geoid, and for
-/// eyes below max_depth_of_degrees.
+/// `eye`: local metres. `middle_column`: columns of a terrain that covers all longitudes follow
+/// half a turn on both sides of it; others do so around their own. Empty for terrains that are not
+/// even in degrees, or have a geoid, and for eyes below max_depth_of_degrees.
 std::optional<DegreeCourse> degree_course(glm::dvec3 eye, const glm::dmat3& local_from_world,
                                           const terrain::Placement& placement,
                                           double middle_column);

@@ -234,6 +234,10 @@ struct CourseView {
     glm::dvec3 eye{local_from_world * glm::dvec4(camera.eye, 1.0)}; // local
 };
 
+bool is_parallel(const CourseView& view) {
+    return view.camera.projection == scene::ProjectionKind::orthographic;
+}
+
 // Empty if none is precise enough.
 std::optional<RayCourse> polynomial_course(const CourseView& view) {
     const terrain::Placement& placement = view.placement;
@@ -290,17 +294,24 @@ double error_of_floats(const RayCourse& course, const CourseView& view,
         const glm::dvec3 found = view.placement.world_from_sample(
             course.degrees->sample_in_floats(glm::dmat3(view.world_from_local) * way));
         const double beside = glm::distance(found, place);
-        const bool is_parallel = view.camera.projection == scene::ProjectionKind::orthographic;
-        error = std::max(error, is_parallel ? beside : beside / glm::length(way));
+        const double distance = is_parallel(view) ? 1.0 : glm::length(way);
+        if (distance > 0.0) { // at the eye it is exact
+            error = std::max(error, beside / distance);
+        }
     }
     return error;
 }
 
-// Of a terrain whose longitudes begin anew: floats of the columns behind that have the digits of a
-// whole turn. As error_of_floats().
+// Samples that rays may cross, those to the sun included.
+const Box& crossed_samples(const CourseView& view) {
+    return view.sun ? view.sun->samples : view.samples;
+}
+
+// Of a terrain whose longitudes begin anew: floats of the columns behind have the digits of a whole
+// turn. As error_of_floats().
 double error_behind_turn(const RayCourse& course, const CourseView& view) {
     const auto around = view.placement.columns_all_around();
-    if (!around || view.samples.size().x < *around) {
+    if (!around || crossed_samples(view).size().x < *around) {
         return 0.0;
     }
     const DegreeCourse& degrees = *course.degrees;
@@ -309,17 +320,32 @@ double error_behind_turn(const RayCourse& course, const CourseView& view) {
     const double beside = degrees.from_axis * std::sin(std::min(away, 0.5 * std::numbers::pi));
     const double above = view.placement.exaggeration() * (degrees.eye.z - view.samples.high.z);
     const double distance = std::max(beside, above);
-    constexpr double rounding = 2.0 * std::numbers::pi * 0x1p-24;
+    // A sum, a product and two more sums, of numbers up to a turn.
+    constexpr double rounding = 4.0 * 2.0 * std::numbers::pi * 0x1p-24;
     const double metres = rounding * (degrees.from_axis + std::max(distance, 0.0));
-    const bool is_parallel = view.camera.projection == scene::ProjectionKind::orthographic;
-    return is_parallel ? metres : metres / std::max(distance, std::numeric_limits<double>::min());
+    return is_parallel(view) ? metres
+                             : metres / std::max(distance, std::numeric_limits<double>::min());
+}
+
+// Metres from the eye to ground in the picture, at most.
+double farthest_ground(const CourseView& view, const DegreeCourse& degrees) {
+    const double exaggeration = degrees.exaggeration;
+    if (!is_parallel(view)) {
+        return horizon_of(exaggeration * degrees.eye.z,
+                          {exaggeration * view.samples.low.z, exaggeration * view.samples.high.z});
+    }
+    const double radius = geo::radii_of_earth().x;
+    const double from_middle = glm::distance(
+        scene::view_ray(view.camera, view.size, glm::dvec2(0.0)).origin, view.camera.eye);
+    const double fall = std::min(from_middle * from_middle / (2.0 * radius), 2.0 * radius);
+    return from_middle + fall + exaggeration * std::abs(degrees.eye.z);
 }
 
 std::optional<RayCourse> course_over_degrees(const CourseView& view) {
     const terrain::Placement& placement = view.placement;
     const double lowest = placement.exaggeration() * view.samples.low.z;
-    auto degrees = degree_course(view.eye, glm::dmat3(view.local_from_world), placement,
-                                 view.samples.center().x);
+    const auto degrees = degree_course(view.eye, glm::dmat3(view.local_from_world), placement,
+                                       crossed_samples(view).center().x);
     if (!degrees || !(lowest > -max_depth_of_degrees)) {
         return std::nullopt;
     }
@@ -328,7 +354,8 @@ std::optional<RayCourse> course_over_degrees(const CourseView& view) {
     course.eye = {degrees->eye.x, degrees->rows.from_even_row(degrees->eye.y), degrees->eye.z};
     course.unit_from_relative = degrees->axes_from_relative;
     course.needs_quartic = false;
-    course.degrees = std::move(degrees);
+    course.degrees = degrees;
+    course.farthest = farthest_ground(view, *degrees);
     const std::vector<glm::dvec3> checked = checked_samples(view.samples);
     if (view.sun) {
         const glm::dvec3 to_sun = glm::dmat3(view.local_from_world) * view.sun->to_sun;
@@ -352,8 +379,7 @@ std::optional<RayCourse> ray_course(const scene::Camera& camera, glm::ivec2 size
                                     const terrain::Placement& placement, const Box& samples,
                                     const std::optional<SunRays>& sun) {
     const CourseView view{camera, size, world_from_local, placement, samples, sun};
-    const bool is_parallel = camera.projection == scene::ProjectionKind::orthographic;
-    auto course = is_parallel ? std::nullopt : polynomial_course(view);
+    auto course = is_parallel(view) ? std::nullopt : polynomial_course(view);
     return course ? course : course_over_degrees(view);
 }
 

@@ -41,6 +41,7 @@ struct SunRays {
 struct RayCourse {
     Box samples; ///< the part of the surface that may be visible; true metres
     std::optional<DegreeCourse> degrees = {}; ///< maps places; there is no polynomial
+    double farthest = 0.0; ///< with `degrees`: ground from the eye, metres, at most
     /// Monomials x^i·y^j·z^k of degree 1 to 4: by degree, then falling i, then falling j.
     static constexpr std::size_t term_count = 34;
 
@@ -64,8 +65,8 @@ struct RayCourse {
     [[nodiscard]] glm::dvec3 sample(glm::dvec3 relative) const;
 };
 
-/// Pixels by which the polynomial may be wrong: a geoid takes about 0.015, the rest less than 0.001
-/// within two degrees around the eye.
+/// Pixels by which the polynomial, or floats, may be wrong: a geoid takes about 0.015, the rest
+/// less than 0.001 within two degrees around the eye.
 inline constexpr double max_course_error = 0.1;
 /// Pixels by which places may be beside the polynomial where its terms of degree 4 are left out.
 inline constexpr double max_quartic_error = 0.005;

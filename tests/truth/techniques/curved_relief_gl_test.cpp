@@ -293,7 +293,7 @@ TEST_F(CurvedReliefGlTest, OptionsShowOnSmallTerrainsWhatTheyShowOnAPlane) {
 }
 
 // Triangles stand in, and the frame says so: places are mapped one by one where no geoid is.
-TEST_F(CurvedReliefGlTest, ViewsThatBendRaysTooMuchShowTriangles) {
+TEST_F(CurvedReliefGlTest, ViewsOverAGeoidThatBendRaysTooMuchShowTriangles) {
     for (const bool has_geoid : {false, true}) {
         terrain::Heightfield ground =
             test::geographic_heightfield(test::mountains(EarthStage::side), 89.9, 7.0, 0.01);

@@ -83,12 +83,27 @@ TEST(DegreeCourse, FindsItWithFloatsAsFarAsFloatsHaveDigits) {
 }
 
 TEST(DegreeCourse, IsThereForTerrainInDegreesWithoutAGeoidOnly) {
-    const terrain::Placement flat =
-        test::placed(test::geographic_heightfield(Grid<float>(9, 9, 0.0F), 45.0, 6.0, 0.01), 1.0);
-    const glm::dvec3 eye = flat.world_from_sample({4.0, 4.0, 100.0});
-    EXPECT_TRUE(degree_course(eye, glm::dmat3(1.0), flat, 4.0));
-    EXPECT_FALSE(
-        degree_course(flat.world_from_sample({4.0, 4.0, -1.1e5}), glm::dmat3(1.0), flat, 4.0));
+    terrain::Heightfield ground =
+        test::geographic_heightfield(Grid<float>(9, 9, 0.0F), 45.0, 6.0, 0.01);
+    const auto is_there = [](const terrain::Heightfield& heightfield, double height) {
+        const terrain::Placement placement = test::placed(heightfield);
+        const glm::dvec3 eye = placement.world_from_sample({4.0, 4.0, height});
+        return degree_course(eye, glm::dmat3(1.0), placement, 4.0).has_value();
+    };
+    EXPECT_TRUE(is_there(ground, 100.0));
+    EXPECT_FALSE(is_there(ground, -1.1e5));
+    terrain::Heightfield over_geoid = ground;
+    over_geoid.georeference->geoid =
+        geo::Geoid("made", Grid<float>(20, 20, 30.0F), {42.0, 4.0}, {0.25, 0.25});
+    EXPECT_FALSE(is_there(over_geoid, 100.0));
+    Grid<glm::dvec2> bent(4, 4);
+    for (int row = 0; row < 4; ++row) {
+        for (int col = 0; col < 4; ++col) {
+            bent(col, row) = {45.0 - 0.04 * row, 6.0 + 0.04 * col + 0.001 * col * row};
+        }
+    }
+    ground.georeference->geodetic = geo::GeodeticMap(bent, {0.0, 0.0}, {4.0, 4.0});
+    EXPECT_FALSE(is_there(ground, 100.0));
 }
 
 } // namespace
