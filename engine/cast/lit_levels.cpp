@@ -142,14 +142,11 @@ TilePaint LitLevels::paint(glm::vec2 first_sample) const {
 
 // An anisotropy of at most 8: over a silhouette a pixel's neighbours show other places.
 glm::vec2 longest_texels(const view::DrawList& list, const TilePaint& paint, glm::dvec2 spacing) {
-    if (list.camera.projection != scene::ProjectionKind::perspective) {
-        return {1e6F, 0.0F};
-    }
     const glm::dvec2 per_metre = glm::dvec2(paint.texels_per_sample) / spacing;
     constexpr double anisotropy = 8.0;
-    const double pixel = scene::metres_a_pixel(list.camera, list.size).y;
     // By the larger side of a texel: near poles the other one would blur over dozens of pixels.
-    return {0.0F, static_cast<float>(anisotropy * pixel * std::min(per_metre.x, per_metre.y))};
+    const double texels = anisotropy * std::min(per_metre.x, per_metre.y);
+    return glm::vec2(texels * glm::dvec2(scene::metres_a_pixel(list.camera, list.size)));
 }
 
 } // namespace reljef::cast

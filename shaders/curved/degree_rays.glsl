@@ -143,9 +143,15 @@ float turns_behind(vec3 end) {
     return east < 0.0 ? 1.0 : east >= 2.0 * pi ? -1.0 : 0.0;
 }
 
-// The same place between the first longitude and the last.
+// The same place between the first longitude and the last. Beyond a pole it is half a turn away.
 vec2 within_turn(vec2 place) {
-    return turned(vec3(place, 0.0), turns_behind(vec3(place, 0.0))).xy;
+    bool is_north = degree_circle.w != 0.0 && degree_circle.w != 2.0 && place.y < box_begin.y;
+    bool is_south = degree_circle.w >= 2.0 && place.y > box_end.y;
+    if (is_north || is_south) {
+        place = vec2(place.x + pi * degree_samples.z, 2.0 * (is_north ? box_begin.y : box_end.y) - place.y);
+    }
+    vec3 same = vec3(place, 0.0);
+    return turned(same, turns_behind(same)).xy;
 }
 
 // Of this fragment's view ray, relative to the eye.

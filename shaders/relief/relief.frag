@@ -40,7 +40,7 @@ in vec3 vertex_back;
 // From world directions relative to the eye to the search space: column, row, height in [0,1].
 uniform mat3 space_from_relative;
 uniform vec3 eye_in_space;
-uniform float texels_per_metre_away; // per pixel
+uniform vec2 texels_of_light; // x: at the eye; y: per metre of distance
 #include "relief/relief_light.glsl"
 #ifdef POINT_LIGHTS
 #include "terrain/ground_points.glsl"
@@ -163,14 +163,14 @@ float level_of(vec2 place, float distance_to_hit) {
     vec2 across = dFdx(texels);
     vec2 down = dFdy(texels);
 #endif
-    float longest = 8.0 * distance_to_hit * texels_per_metre_away;
+    float longest = 8.0 * (texels_of_light.x + distance_to_hit * texels_of_light.y);
     return 0.5 * log2(min(max(dot(across, across), dot(down, down)), longest * longest));
 }
 
 #ifdef SMOOTH_EDGES
 // For a missed place, whose neighbours show other places.
 float near_level(float level, float distance_to_hit) {
-    return min(level, log2(2.0 * distance_to_hit * texels_per_metre_away));
+    return min(level, log2(2.0 * (texels_of_light.x + distance_to_hit * texels_of_light.y)));
 }
 #endif
 #endif

@@ -87,10 +87,18 @@ bool find_rest(vec3 start, vec3 span, float from, out float part, out vec2 place
 }
 #endif
 
+#ifdef CURVED
+// Of all chords of a ray: some drivers end loops after 65,536 turns.
+float cone_steps_left = 8192.0;
+#endif
+
 bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     const float steps_below = 64.0; // per ray, until it leaves the surface
     bool relaxed = cone_relaxed > 0.5 && span.z <= 0.0;
     float n = cone_max_steps;
+#ifdef CURVED
+    n = min(n, cone_steps_left);
+#endif
     float run = length(span.xy);
     float min_way = run > cone_min_step ? cone_min_step / run : 1.0;
     float at = 0.0;
@@ -104,7 +112,12 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     float under = 0.0;
     bool found = false;
     bool skips = false; // any place
-    for (float i = 0.0; i < n && next < 1.0; ++i) {
+#ifndef TILE
+    const float certain_over = 1.0 / 4096.0; // above what texture filters round
+    float certain = 0.0;                     // the last part so far above the surface
+#endif
+    float steps = 0.0;
+    for (; steps < n && next < 1.0; ++steps) {
         count_step();
         vec2 cones = cones_at(start.xy + at * span.xy);
         float ratio = relaxed ? cones.g : cones.r;
@@ -122,7 +135,13 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
         }
         at = next;
         over = now;
+#ifndef TILE
+        certain = over > certain_over ? at : certain;
+#endif
     }
+#ifdef CURVED
+    cone_steps_left -= steps;
+#endif
     part = found ? halved(start, span, at, over, next, under) : at;
     place = start.xy + part * span.xy;
 #ifdef TILE
@@ -130,8 +149,8 @@ bool find_hit(vec3 start, vec3 span, out float part, out vec2 place) {
     found = found || (at < 1.0 && over >= 0.0 && span.z < 0.0);
 #else
     ends_above = true;
-    if (!found && (skips || at < 1.0)) {
-        found = find_rest(start, span, skips ? 0.0 : at, part, place);
+    if (!found && (skips || at < 1.0 || over <= certain_over)) {
+        found = find_rest(start, span, skips ? 0.0 : certain, part, place);
     }
 #endif
     return found;

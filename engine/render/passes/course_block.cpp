@@ -63,6 +63,11 @@ struct EvenRows {
     }
 };
 
+// As CourseBlock::degree_circle.
+double poles_of(const geo::GlobalWrap& wrap) {
+    return wrap.around ? (wrap.begins_at_pole ? 1.0 : 0.0) + (wrap.ends_at_pole ? 2.0 : 0.0) : 0.0;
+}
+
 void set_degrees(CourseBlock& block, const view::TerrainDraw& draw, const DrawnSpace& drawn,
                  const view::DrawList& list) {
     const view::DegreeCourse& degrees = *draw.search->course->degrees;
@@ -80,7 +85,8 @@ void set_degrees(CourseBlock& block, const view::TerrainDraw& draw, const DrawnS
     block.course_eye = glm::vec4(eye.x, rows.closed(eye.y), eye.z, 0.0);
     block.degree_eye = glm::vec4(degrees.from_axis, degrees.lift, degrees.first_lift,
                                  1.0 / (degrees.exaggeration * space.samples_per_unit.z));
-    block.degree_circle = glm::vec4(degrees.circle, degrees.first_longitude, 0.0);
+    block.degree_circle =
+        glm::vec4(degrees.circle, degrees.first_longitude, poles_of(rows.rows.wrap()));
     block.degree_earth = glm::vec4(earth, earth.x / earth.y, highest);
     block.degree_samples =
         glm::vec4(degrees.samples_a_radian[0] / per_unit, degrees.samples_a_radian[1] / per_unit);

@@ -230,18 +230,18 @@ glm::vec2 texels_in_space(const FrameContext& frame, const view::TerrainDraw& dr
     return glm::vec2(maps.lit_from_sample) * glm::vec2(maps.lit.size());
 }
 
-// Texels of the lit map per pixel at a distance of one metre, by their larger side: near poles the
-// other one would blur over dozens of pixels.
-float texels_per_metre_away(const FrameContext& frame, const view::TerrainDraw& draw,
-                            const ReliefSpace& space) {
+// Texels of the lit map per pixel at the eye, and per metre of distance, by their larger side: near
+// poles the other one would blur over dozens of pixels.
+glm::vec2 texels_of_light(const FrameContext& frame, const view::TerrainDraw& draw,
+                          const ReliefSpace& space) {
     const view::DrawList& list = frame.list;
-    if (frame.hits || !is_perspective(list.camera)) {
-        return 1e6F;
+    if (frame.hits) {
+        return {1e6F, 0.0F};
     }
     const glm::vec2 texels_per_metre =
         texels_in_space(frame, draw) / glm::vec2(space.metres_per_unit);
-    const glm::vec4 ray = ray_from_pixel(list.camera, list.size);
-    return ray.x * std::min(texels_per_metre.x, texels_per_metre.y);
+    return std::min(texels_per_metre.x, texels_per_metre.y) *
+           scene::metres_a_pixel(list.camera, list.size);
 }
 
 void set_certain_sun(gl::Program& program, const FrameContext& frame,
@@ -283,7 +283,7 @@ Result<void> set_relief(gl::Program& program, const FrameContext& frame,
     if (uses_beams(frame, draw)) {
         frame.beams.color().bind(bindings::clear_heights_unit);
     }
-    program.set(uniforms.texels_per_metre_away, texels_per_metre_away(frame, draw, space));
+    program.set(uniforms.texels_of_light, texels_of_light(frame, draw, space));
     if (auto set = frame.state.set(relief_block(frame, draw, space)); !set) {
         return set;
     }

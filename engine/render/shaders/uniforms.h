@@ -48,7 +48,7 @@ struct Uniforms {
     // A terrain's relief: relief.frag.
     gl::Uniform<glm::mat3> space_from_relative{"space_from_relative"};
     gl::Uniform<glm::vec3> eye_in_space{"eye_in_space"};
-    gl::Uniform<float> texels_per_metre_away{"texels_per_metre_away"};
+    gl::Uniform<glm::vec2> texels_of_light{"texels_of_light"};
     gl::Uniform<int> has_certain_sun{"has_certain_sun"};
 
     // Its beams: beams.frag.

@@ -1,12 +1,12 @@
 #include "engine/view/choice/ray_rounding.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -138,20 +138,47 @@ private:
         if (part.distance >= (1.0 - precision) * limit || !frustum_.may_see(part.box)) {
             return limit;
         }
+        const glm::dvec2 sides = metres_of(part);
+        const glm::dvec2 spacing = surface_.placement.spacing();
         if (glm::length(part.box.size()) <= precision * part.distance ||
-            std::max(size.x, size.y) < smallest) {
+            std::max(size.x, size.y) < smallest ||
+            std::max(sides.x, sides.y) < smallest * std::max(spacing.x, spacing.y)) {
             return part.distance;
         }
-        const glm::dvec2 mid(middle(part.first.x, part.last.x), middle(part.first.y, part.last.y));
-        std::array quarters{
-            extent(part.first, mid), extent({mid.x, part.first.y}, {part.last.x, mid.y}),
-            extent({part.first.x, mid.y}, {mid.x, part.last.y}), extent(mid, part.last)};
-        std::sort(quarters.begin(), quarters.end(),
+        std::vector<Extent> parts = divided(part, sides);
+        std::sort(parts.begin(), parts.end(),
                   [](const Extent& a, const Extent& b) { return a.distance < b.distance; });
-        for (const Extent& quarter : quarters) {
-            limit = nearest(quarter, limit);
+        for (const Extent& one : parts) {
+            limit = nearest(one, limit);
         }
         return limit;
+    }
+
+    // Along its rows (the longer of both ends) and its columns.
+    [[nodiscard]] glm::dvec2 metres_of(const Extent& part) const {
+        const auto place = [&](double col, double row) {
+            return surface_.placement.world_from_sample({col, row, 0.0});
+        };
+        const glm::dvec3 corner = place(part.first.x, part.first.y);
+        const glm::dvec3 below = place(part.first.x, part.last.y);
+        return {std::max(glm::distance(corner, place(part.last.x, part.first.y)),
+                         glm::distance(below, place(part.last.x, part.last.y))),
+                glm::distance(corner, below)};
+    }
+
+    // Halves along the side that is twice as long, or quarters: columns meet at a pole.
+    [[nodiscard]] std::vector<Extent> divided(const Extent& part, glm::dvec2 sides) const {
+        const glm::dvec2 low = part.first;
+        const glm::dvec2 high = part.last;
+        const glm::dvec2 mid(middle(low.x, high.x), middle(low.y, high.y));
+        if (sides.x > 2.0 * sides.y) {
+            return {extent(low, {mid.x, high.y}), extent({mid.x, low.y}, high)};
+        }
+        if (sides.y > 2.0 * sides.x) {
+            return {extent(low, {high.x, mid.y}), extent({low.x, mid.y}, high)};
+        }
+        return {extent(low, mid), extent({mid.x, low.y}, {high.x, mid.y}),
+                extent({low.x, mid.y}, {mid.x, high.y}), extent(mid, high)};
     }
 
     Surface surface_;

@@ -119,7 +119,7 @@ TEST_F(DegreeReliefGlTest, ExactShowsTheTrueFirstHitOfAGlobeFromAnywhere) {
 }
 
 // Chords grow with the distance, and rays that meet the axis do not turn.
-TEST_F(DegreeReliefGlTest, ExactShowsTheTrueFirstHitFromAPoleNearTheGround) {
+TEST_F(DegreeReliefGlTest, ExactAndConeShowTheTrueFirstHitFromAPoleNearTheGround) {
     terrain::Heightfield globe = test::closed_globe(300, 0.5, 1.0, 11);
     globe.heights = test::made_heights(globe.heights.cols(), globe.heights.rows(),
                                        [](int, int row) { return 50.0 * (row % 5); });
@@ -131,7 +131,9 @@ TEST_F(DegreeReliefGlTest, ExactShowsTheTrueFirstHitFromAPoleNearTheGround) {
             scene::Camera camera = stage.scene.camera();
             camera.vertical_fov = fov;
             stage.look(camera);
-            expect_true(stage, "exact", fmt::format("{} with {} degrees", latitude, fov));
+            for (const char* const technique : {"exact", "cone:n=1024,step=0"}) {
+                expect_true(stage, technique, fmt::format("{} with {} degrees", latitude, fov));
+            }
         }
     }
 }
