@@ -65,7 +65,10 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // shadows, are there with shadows of meshes, too; and the depth that these are made from.
     constexpr std::size_t parallax = 4U * (1U + 2U * 6U) * 4U;
     constexpr std::size_t searches = 8U * (4U + 2U * 6U * 4U * 10U);
-    // All of a relief are there for streams and on the ellipsoid, with degree 4 or not, too.
+    // All of a relief are there for streams and on the ellipsoid, with degree 4 or not, too;
+    // without beams, also for places that are mapped one by one.
+    constexpr std::size_t spaces = 2U * 4U;
+    constexpr std::size_t spaces_with_beams = 2U * 3U;
     // Three of the searches, without fade, are there with beams too; and the beams themselves.
     constexpr std::size_t beams = 1U + 3U * (2U + 2U * 6U * 2U * 10U);
     // A mesh with a tile: lit in four ways, warped or not; one that searches is that of a relief,
@@ -86,11 +89,13 @@ TEST(ShaderVariants, AHitHasNeitherLightNorFogAndTheSkyIsNeverHit) {
     // slivers; of the beams; and of a relief, of four parallaxes with and without fade; of eight
     // searches with these, three shadows, and smooth edges or not; three of them with beams,
     // without fade.
-    constexpr std::size_t counting = 4U + 6U * (1U + 4U * 2U + 8U * 2U * 6U + 3U * 6U);
+    constexpr std::size_t counting =
+        4U + spaces * (4U * 2U + 8U * 2U * 6U) + spaces_with_beams * (1U + 3U * 6U);
     EXPECT_EQ(counted, counting);
     EXPECT_EQ(all_variants().size() - multisampled - counted,
-              plain + 6U * (parallax + searches + beams) + textured + mesh_parallax +
-                  mesh_searches + layers + textured_ground + ground_searches + hull_searches);
+              plain + spaces * (parallax + searches) + spaces_with_beams * beams + textured +
+                  mesh_parallax + mesh_searches + layers + textured_ground + ground_searches +
+                  hull_searches);
     EXPECT_EQ(multisampled, colors) << "whatever a scene shows";
 }
 
