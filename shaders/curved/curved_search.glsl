@@ -64,17 +64,21 @@ vec2 range_inside(vec2 range) {
 }
 
 #if defined(EXACT) || defined(CONE)
-// `part`: of the chord. `above`: whether its start is; then whether its end is.
-bool find_on_chord(vec3 start, vec3 span, inout bool above, out float part, out vec2 place) {
+bool leaves_above = false; // the searched space: the last chord
+
+// `part`: of the chord. `above`: whether its start is, and with `enters` where it enters the searched space; then
+// whether its end is.
+bool find_on_chord(vec3 start, vec3 span, bool enters, inout bool above, out float part, out vec2 place) {
     vec2 inside = parts_inside(start, span);
     if (inside.x < inside.y) {
-        begins_above = above && inside.x <= 0.0;
+        begins_above = above && (enters || inside.x <= 0.0);
         if (find_hit(start + inside.x * span, (inside.y - inside.x) * span, part, place)) {
             part = mix(inside.x, inside.y, part);
             return true;
         }
     }
-    above = inside.x < inside.y && inside.y >= 1.0 && ends_above;
+    leaves_above = inside.x < inside.y && ends_above;
+    above = leaves_above && inside.y >= 1.0;
     return false;
 }
 
@@ -85,12 +89,13 @@ bool find_between(vec2 range, bool above, out float part, out vec2 place) {
     for (int i = 1; i <= chords.count && before < range.y; ++i) {
         float next = end_of_chord(chords, i, before);
         vec3 end = nearest_turn(start, place_of_end(chords, next));
-        bool found = find_on_chord(start, end - start, above, part, place);
+        bool found = find_on_chord(start, end - start, false, above, part, place);
         float turns = turns_behind(end);
         if (!found && turns != 0.0) { // the same chord, from where longitudes begin anew
             start = turned(start, turns);
             end = turned(end, turns);
-            found = find_on_chord(start, end - start, above, part, place);
+            above = leaves_above;
+            found = find_on_chord(start, end - start, true, above, part, place);
         }
         if (found) {
             part = mix(before, next, part);
