@@ -13,6 +13,7 @@
 
 #include "engine/cast/frame/driver.h"
 #include "engine/io/formats/ramp_file.h"
+#include "engine/scene/graph/ground_pick.h"
 #include "engine/scene/streaming/tile_stream.h"
 #include "engine/session/gallery.h"
 #include "engine/session/ground.h"
@@ -132,11 +133,23 @@ double near_distance(const Box& bounds) {
 
 namespace {
 
-void set_projection(scene::Camera& camera, const Box& bounds, const SceneOptions& view) {
+// To the ground in the middle of the picture; where it shows none, to the middle of the terrain.
+double metres_ahead(const TerrainScene& scene, const scene::Camera& camera) {
+    const auto& terrain = *scene.terrain->get<scene::TerrainNode>();
+    const auto hit = scene::pick_ground(terrain, {camera.eye, scene::view_axes(camera).forward});
+    return hit ? hit->t : glm::distance(camera.eye, scene.bounds.center());
+}
+
+// A parallel view is as high as one in perspective is at the target.
+void set_projection(scene::Camera& camera, const TerrainScene& scene, const SceneOptions& view) {
     camera.vertical_fov = view.vertical_fov;
-    camera.near = near_distance(bounds);
+    camera.near = near_distance(scene.bounds);
     if (view.projection == scene::ProjectionKind::orthographic &&
         camera.projection == scene::ProjectionKind::perspective) {
+        if (view.geodetic) { // it has angles, but no target
+            camera.target =
+                camera.eye + metres_ahead(scene, camera) * scene::view_axes(camera).forward;
+        }
         camera.projection = scene::ProjectionKind::orthographic;
         camera.view_height = 2.0 * glm::distance(camera.eye, camera.target) *
                              std::tan(0.5 * glm::radians(view.vertical_fov));
@@ -400,7 +413,7 @@ Result<TerrainScene> make_scene(TerrainSource source, const SourceOptions& terra
     if (!camera) {
         return camera.error();
     }
-    set_projection(*camera, result.bounds, view);
+    set_projection(*camera, result, view);
     result.camera = &result.scene.add_camera(*camera);
     if (shown.stream != nullptr) {
         source.terrain = {};

@@ -211,6 +211,20 @@ TEST_F(GeodeticCamera, MapsHaveASunAndColorsOfTheirOwn) {
     EXPECT_EQ(look_of(view), "315 35 atlas");
 }
 
+// It names angles, but no target: a view straight down shows as much of the ground as one in
+// perspective does.
+TEST_F(GeodeticCamera, InParallelIsAsHighAsInPerspectiveAtTheGround) {
+    session::SceneOptions view = view_of({47.0, 11.0, 5100.0, 0.0, -90.0}); // over 100 m
+    view.projection = scene::ProjectionKind::orthographic;
+    view.vertical_fov = 60.0;
+    for (const auto kind : {terrain::PlacementKind::plane, terrain::PlacementKind::ellipsoid}) {
+        const auto scene = scene_of(view, kind);
+        const auto& camera = *scene.camera->get<scene::Camera>();
+        EXPECT_EQ(camera.projection, scene::ProjectionKind::orthographic);
+        EXPECT_NEAR(camera.view_height, 2.0 * 5000.0 * std::tan(glm::radians(30.0)), 1.0);
+    }
+}
+
 // Else an island is small amid its sea.
 TEST_F(GeodeticCamera, SeesAnIslandWithoutAllOfItsSea) {
     const auto distance = [&](int ground) {
