@@ -36,7 +36,7 @@ vec3 place_of_end(inout Chords chords, float part) {
 // curvature.
 float end_of_chord(Chords chords, int i, float before) {
     const float min_radius = 6.3e6;    // metres
-    const float min_distance = 0.0001; // metres, from the axis
+    const float min_distance = 0.0001; // metres, from the axis: of the closest samples on the Earth
     float metres = length(curve.way);
     float from_begin = before * metres;
     vec2 tolerance = curve.tolerance * chords.tolerance;
@@ -95,7 +95,7 @@ float rising_to(float height, float end) {
 
 // The part nearest to the Earth's centre, or where the ray reaches a depth below all ground.
 float deepest_part() {
-    const float square_at_depth = 0.96;
+    const float square_at_depth = 0.96; // of the share of the radius: 2 % below, 127 km
     vec3 shrinking = 1.0 / degree_earth.xxy;
     vec3 from = (eye_from_center() + curve.begin) * shrinking;
     vec3 way = curve.way * shrinking;

@@ -7,12 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/streaming/terrain_light.h"
-#include "engine/truth/scene_caster.h"
-#include "engine/truth/shading.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/earth_stage.h"
 #include "tests/support/release_only.h"
+#include "tests/truth/techniques/curved/lit_pixels.h"
 
 namespace reljef::render {
 namespace {
@@ -182,42 +180,6 @@ TEST_F(CurvedReliefGlTest, EachTechniqueIsAsGoodAsOnAPlane) {
     }
 }
 
-/// Whether the sun lights what a pixel shows; nothing where it cannot light anything.
-std::vector<std::optional<bool>> lit_pixels(EarthStage& stage) {
-    const scene::Light sun = *stage.scene.sun();
-    const truth::SceneCaster caster = truth::SceneCaster::create(stage.scene).value();
-    const scene::TerrainIrradiance irradiance(stage.surface(), {sun, glm::dmat3(1.0)});
-    const HitBuffer& hits = stage.true_hits(curved_size);
-    std::vector<std::optional<bool>> lit(hits.size());
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Hit& hit = hits.samples()[i];
-        if (hit.is_sky() || irradiance.parts_at(hit.place()).sun.r < 0.05F) {
-            continue;
-        }
-        truth::SceneHit there;
-        there.surface.sample = {
-            hit.place(),
-            terrain::bilinear_height(stage.surface().heightfield().heights.view(), hit.place())};
-        lit[i] = truth::sees_sun(caster, there, scene::to_light(sun));
-    }
-    return lit;
-}
-
-// Of the pixels that the sun may light, those that are black though it does or not though it does
-// not, percent.
-double wrongly_lit(const std::vector<std::optional<bool>>& lit, const Image& shown) {
-    int all = 0;
-    int wrong = 0;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        if (lit[i]) {
-            ++all;
-            wrong += (shown.samples()[i].r != 0) != *lit[i] ? 1 : 0;
-        }
-    }
-    EXPECT_GT(all, 3000);
-    return 100.0 * wrong / all;
-}
-
 // Mountains of 3 km on flat ground, 27 km apart.
 Grid<float> lone_mountains() {
     constexpr int side = EarthStage::side;
@@ -236,10 +198,11 @@ TEST_F(CurvedReliefGlTest, HardShadowIsTheShadowRayOfTheTruth) {
             stage.scene.add_light({297.0, altitude, glm::vec3(1.0F), glm::vec3(0.0F)});
             for (const double above : {3e3, 4e4}) {
                 stage.look({120.3, 201.7}, above, {140.0, 40.0});
-                const std::vector<std::optional<bool>> lit = lit_pixels(stage);
+                const auto lit = test::lit_pixels(stage, curved_size);
+                EXPECT_GT(test::count_of(lit, true) + test::count_of(lit, false), 3000U);
                 for (const char* const technique :
                      {"exact:shadow=hard", "cone:n=1024,step=0,shadow=hard"}) {
-                    EXPECT_LE(wrongly_lit(lit, picture(stage, technique)), 0.5)
+                    EXPECT_LE(test::wrongly_lit(lit, picture(stage, technique)), 0.5)
                         << technique << " at " << latitude << ", sun at " << altitude << " degrees";
                 }
             }

@@ -8,13 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "engine/scene/streaming/terrain_light.h"
-#include "engine/truth/scene_caster.h"
-#include "engine/truth/shading.h"
 #include "tests/render/driver_fixture.h"
 #include "tests/render/earth_stage.h"
 #include "tests/render/made_stream.h"
 #include "tests/scene/streaming/streamed_samples.h"
+#include "tests/truth/techniques/curved/lit_pixels.h"
 
 namespace reljef::render {
 namespace {
@@ -223,28 +221,10 @@ TEST_F(DegreeReliefGlTest, HardShadowIsTheShadowRayOfTheTruth) {
     stage.set(test::must(scene::parse_technique("exact:shadow=hard")));
     test::must(driver_of_all().draw(view::select(stage.scene, small_size)));
     const Image shown = driver_of_all().read_color();
-    const truth::SceneCaster caster = truth::SceneCaster::create(stage.scene).value();
-    const scene::TerrainIrradiance irradiance(stage.surface(), {sun, glm::dmat3(1.0)});
-    const HitBuffer& hits = stage.true_hits(small_size);
-    int lit = 0;
-    int dark = 0;
-    int wrong = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Hit& hit = hits.samples()[i];
-        if (hit.is_sky() || irradiance.parts_at(hit.place()).sun.r < 0.05F) {
-            continue;
-        }
-        truth::SceneHit there;
-        there.surface.sample = {
-            hit.place(),
-            terrain::bilinear_height(stage.surface().heightfield().heights.view(), hit.place())};
-        const bool is_lit = truth::sees_sun(caster, there, scene::to_light(sun));
-        ++(is_lit ? lit : dark);
-        wrong += (shown.samples()[i].r != 0) != is_lit ? 1 : 0;
-    }
-    EXPECT_GT(lit, 500);
-    EXPECT_GT(dark, 100);
-    EXPECT_LE(wrong, (lit + dark) / 200);
+    const auto lit = test::lit_pixels(stage, small_size);
+    EXPECT_GT(test::count_of(lit, true), 500U);
+    EXPECT_GT(test::count_of(lit, false), 100U);
+    EXPECT_LE(test::wrongly_lit(lit, shown), 0.5);
 }
 
 // Samples are there twenty times as close along rows.
