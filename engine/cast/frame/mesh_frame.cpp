@@ -97,9 +97,9 @@ struct MeshFrame::Lit {
 };
 
 MeshPixels::MeshPixels(std::size_t count)
-    : t(count + max_lanes, std::numeric_limits<float>::infinity()),
-      nearness(count + max_lanes, 1.0F) {
-    color.fill(std::vector<float>(count + max_lanes));
+    : t(count + BlockMeshes::values_behind, std::numeric_limits<float>::infinity()),
+      nearness(count + BlockMeshes::values_behind, 1.0F) {
+    color.fill(std::vector<float>(count + BlockMeshes::values_behind));
 }
 
 BlockMeshes MeshPixels::values() const {

@@ -72,17 +72,39 @@ HWY_INLINE void merge(const PacketHits& found, int job, MergedHits& merged) {
     take(found.height, hits.height);
 }
 
-template <class Mode> HWY_INLINE MergedHits merged_hits(const BlockJobs& jobs, int col, int row) {
-    const PixelOffsets pixels = offsets_of(col, row);
+static_assert(BlockMeshes::values_behind >= pair * lane_count);
+
+// The packets whose pixels lie one above the other.
+HWY_INLINE int row_of(int first_row, std::size_t k) {
+    return first_row + static_cast<int>(k) * packet_rows;
+}
+
+HWY_INLINE Pair<PixelOffsets> pair_offsets(int col, int row) {
+    return {offsets_of(col, row), offsets_of(col, row_of(row, 1))};
+}
+
+HWY_INLINE Floats pair_starts(const BlockJob& job, int col, int row, std::size_t k) {
+    return starts_of(job, col, row_of(row, k));
+}
+
+template <class Mode>
+HWY_INLINE Pair<MergedHits> merged_hits(const BlockJobs& jobs, int col, int row) {
+    const Pair<PixelOffsets> pixels = pair_offsets(col, row);
     const Floats zero = hn::Zero(floats);
     const Ints none = hn::Zero(ints);
-    MergedHits merged{{no_lanes(), none, none, all(nowhere), zero, zero, zero, {}}, none};
-    Met met = Met::nothing();
+    const MergedHits nothing{{no_lanes(), none, none, all(nowhere), zero, zero, zero, {}}, none};
+    Pair<MergedHits> merged{nothing, nothing};
+    Pair<Met> met{Met::nothing(), Met::nothing()};
     for (std::size_t i = 0; i < jobs.tiles.size(); ++i) {
         const BlockJob& job = jobs.tiles[i];
-        if (job.starts[beam_at(col, row)] < nowhere) {
-            merge(hits_of<Mode>(rays_of(job, pixels), job, starts_of(job, col, row), met),
-                  static_cast<int>(i), merged);
+        const auto start = [&](std::size_t k)
+                               HWY_ATTR { return job.starts[beam_at(col, row_of(row, k))]; };
+        if (start(0) < nowhere || start(1) < nowhere) {
+            Pair<Rays> rays = rays_of(job, pixels);
+            const Pair<PacketHits> hits = hits_of<Mode>(
+                rays, job, {pair_starts(job, col, row, 0), pair_starts(job, col, row, 1)}, met);
+            merge(hits[0], static_cast<int>(i), merged[0]);
+            merge(hits[1], static_cast<int>(i), merged[1]);
         }
     }
     return merged;
@@ -98,8 +120,8 @@ HWY_INLINE void store_hits(const MergedHits& found, int col, int row, BlockHits&
     store(floats, found.hits.height, col, row, hits.height.data());
 }
 
-template <class Body> HWY_INLINE void for_each_packet(const Body& body) {
-    for (int row = 0; row < block_side; row += packet_rows) {
+template <class Body> HWY_INLINE void for_each_pair(const Body& body) {
+    for (int row = 0; row < block_side; row += static_cast<int>(pair) * packet_rows) {
         for (int col = 0; col < block_side; col += packet_cols) {
             body(col, row);
         }
@@ -117,10 +139,11 @@ HWY_INLINE std::size_t find_all_starts(const BlockJobs& jobs) {
 
 void cast_all(const BlockJobs& jobs, BlockHits& hits) {
     find_all_starts(jobs);
-    for_each_packet([&](int col, int row) HWY_ATTR {
-        store_hits(jobs.has_walls ? merged_hits<AmongTiles>(jobs, col, row)
-                                  : merged_hits<InMemory>(jobs, col, row),
-                   col, row, hits);
+    for_each_pair([&](int col, int row) HWY_ATTR {
+        const Pair<MergedHits> merged = jobs.has_walls ? merged_hits<AmongTiles>(jobs, col, row)
+                                                       : merged_hits<InMemory>(jobs, col, row);
+        store_hits(merged[0], col, row, hits);
+        store_hits(merged[1], col, row_of(row, 1), hits);
     });
 }
 
@@ -133,20 +156,30 @@ HWY_INLINE Floats nearness_of(const BlockPaint& paint, Floats t) {
 }
 
 template <class Mode>
+HWY_INLINE Pair<TrueLook> pair_looks(const BlockJobs& jobs, const BlockPaint& paint, int col,
+                                     int row) {
+    const auto start_of = [&](const BlockJob& job, std::size_t k)
+                              HWY_ATTR { return pair_starts(job, col, row, k); };
+    const auto mesh_values = [&](const float* of, std::size_t k)
+                                 HWY_ATTR { return load(of, col, row_of(row, k)); };
+    return looks_of<Mode>(jobs, paint, pair_offsets(col, row), start_of, mesh_values);
+}
+
+template <class Mode>
 HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
-    for_each_packet([&](int col, int row) HWY_ATTR {
-        const auto start_of = [&](const BlockJob& job)
-                                  HWY_ATTR { return starts_of(job, col, row); };
-        const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
-        const TrueLook shown =
-            look_of<Mode>(jobs, paint, offsets_of(col, row), start_of, mesh_values);
-        store(ints, bytes_of(shown.look.color), col, row, pixels.rgba.data());
-        if (paint.needs_nearness) {
-            store(floats, nearness_of(paint, shown.look.t), col, row, pixels.nearness.data());
-        }
-        if (paint.needs_t) {
-            const Floats of_hits = hn::IfThenElse(shown.found, all(nowhere), shown.t);
-            store(floats, of_hits, col, row, pixels.t.data());
+    for_each_pair([&](int col, int first_row) HWY_ATTR {
+        const Pair<TrueLook> looks = pair_looks<Mode>(jobs, paint, col, first_row);
+        for (std::size_t k = 0; k < pair; ++k) {
+            const TrueLook& shown = looks[k];
+            const int row = row_of(first_row, k);
+            store(ints, bytes_of(shown.look.color), col, row, pixels.rgba.data());
+            if (paint.needs_nearness) {
+                store(floats, nearness_of(paint, shown.look.t), col, row, pixels.nearness.data());
+            }
+            if (paint.needs_t) {
+                const Floats of_hits = hn::IfThenElse(shown.found, all(nowhere), shown.t);
+                store(floats, of_hits, col, row, pixels.t.data());
+            }
         }
     });
 }
@@ -162,15 +195,15 @@ void paint_all(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixe
 
 void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) {
     work.beam_taps = find_all_starts(jobs);
-    for_each_packet([&](int col, int row) HWY_ATTR {
-        const auto start_of = [&](const BlockJob& job)
-                                  HWY_ATTR { return starts_of(job, col, row); };
-        const auto mesh_values = [&](const float* of) HWY_ATTR { return load(of, col, row); };
-        const Work found =
-            look_of<Counted>(jobs, paint, offsets_of(col, row), start_of, mesh_values).look.work;
-        store(ints, found.taps, col, row, work.taps.data());
-        store(ints, found.steps, col, row, work.steps.data());
-        store(ints, found.rays, col, row, work.rays.data());
+    for_each_pair([&](int col, int first_row) HWY_ATTR {
+        const Pair<TrueLook> looks = pair_looks<Counted>(jobs, paint, col, first_row);
+        for (std::size_t k = 0; k < pair; ++k) {
+            const Work& found = looks[k].look.work;
+            const int row = row_of(first_row, k);
+            store(ints, found.taps, col, row, work.taps.data());
+            store(ints, found.steps, col, row, work.steps.data());
+            store(ints, found.rays, col, row, work.rays.data());
+        }
     });
 }
 
@@ -188,6 +221,10 @@ struct SampleIndex {
     int pixel = 0;
     int sample = 0;
 
+    // `number`: counted over all sampled pixels.
+    SampleIndex(const SampledPixels& sampled, int number)
+        : pixel(number / sampled.samples), sample(number % sampled.samples) {}
+
     HWY_INLINE void next(const SampledPixels& sampled) {
         ++sample;
         if (sample == sampled.samples) {
@@ -197,7 +234,7 @@ struct SampleIndex {
     }
 };
 
-// A packet of samples, counted over all sampled pixels.
+// A packet of samples.
 struct SamplePacket {
     alignas(64) LaneFloats right;
     alignas(64) LaneFloats down;
@@ -219,11 +256,22 @@ struct SamplePacket {
             index.next(sampled);
         }
     }
+
+    [[nodiscard]] HWY_INLINE PixelOffsets offsets() const {
+        return {hn::Load(floats, right.data()), hn::Load(floats, down.data())};
+    }
+    [[nodiscard]] HWY_INLINE Floats starts(const BlockJob& job) const {
+        alignas(64) LaneFloats starts;
+        for (std::size_t lane = 0; lane < starts.size(); ++lane) {
+            const bool is_ray = (job.beam_pixels >> pixel_of_beam[lane] & 1U) != 0;
+            starts[lane] = is_ray ? job.starts[beam[lane]] : nowhere;
+        }
+        return hn::Load(floats, starts.data());
+    }
 };
 
-// Returns the first sample of the next packet.
-HWY_INLINE SampleIndex add_samples(const Color& color, const SampledPixels& sampled,
-                                   SampleIndex index, ColorSums& sums) {
+HWY_INLINE void add_samples(const Color& color, const SampledPixels& sampled, SampleIndex index,
+                            ColorSums& sums) {
     alignas(64) std::array<LaneFloats, 3> values;
     hn::Store(color.r, floats, values[0].data());
     hn::Store(color.g, floats, values[1].data());
@@ -235,7 +283,6 @@ HWY_INLINE SampleIndex add_samples(const Color& color, const SampledPixels& samp
         sums.b[pixel] += values[2][lane];
         index.next(sampled);
     }
-    return index;
 }
 
 HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
@@ -258,23 +305,21 @@ HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
 template <class Mode>
 HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
                                const SampledPixels& sampled, ColorSums& sums) {
-    for (SampleIndex first; first.pixel < sampled.count;) {
-        const SamplePacket packet(sampled, first);
-        const auto start_of = [&](const BlockJob& job) HWY_ATTR {
-            alignas(64) LaneFloats starts;
-            for (std::size_t lane = 0; lane < starts.size(); ++lane) {
-                const bool is_ray = (job.beam_pixels >> packet.pixel_of_beam[lane] & 1U) != 0;
-                starts[lane] = is_ray ? job.starts[packet.beam[lane]] : nowhere;
-            }
-            return hn::Load(floats, starts.data());
-        };
-        const PixelOffsets offsets{hn::Load(floats, packet.right.data()),
-                                   hn::Load(floats, packet.down.data())};
-        const auto number = static_cast<std::size_t>(first.pixel * sampled.samples + first.sample);
-        const auto mesh_values = [&](const float* of)
-                                     HWY_ATTR { return hn::LoadU(floats, of + number); };
-        const Look look = look_of<Mode>(jobs, paint, offsets, start_of, mesh_values).look;
-        first = add_samples(look.color, sampled, first, sums);
+    const int samples = sampled.count * sampled.samples;
+    for (int first = 0; first < samples; first += static_cast<int>(pair) * lane_count) {
+        const std::array<int, pair> numbers{first, first + lane_count};
+        const std::array<SamplePacket, pair> packets{
+            SamplePacket(sampled, SampleIndex(sampled, numbers[0])),
+            SamplePacket(sampled, SampleIndex(sampled, numbers[1]))};
+        const auto start_of = [&](const BlockJob& job, std::size_t k)
+                                  HWY_ATTR { return packets[k].starts(job); };
+        const auto mesh_values = [&](const float* of, std::size_t k)
+                                     HWY_ATTR { return hn::LoadU(floats, of + numbers[k]); };
+        const Pair<TrueLook> looks = looks_of<Mode>(
+            jobs, paint, {packets[0].offsets(), packets[1].offsets()}, start_of, mesh_values);
+        for (std::size_t k = 0; k < pair; ++k) {
+            add_samples(looks[k].look.color, sampled, SampleIndex(sampled, numbers[k]), sums);
+        }
     }
 }
 

@@ -296,8 +296,10 @@ struct WallTriangle {
 };
 
 /// What meshes look like in a block: a value for each of its pixels, row after row, or for each of
-/// its samples. As many follow the last one as a packet has lanes.
+/// its samples.
 struct BlockMeshes {
+    static constexpr std::size_t values_behind = 32; ///< the last one, that are read, too
+
     const float* t = nullptr;            ///< of the hits, as BlockHits::t
     std::array<const float*, 3> color{}; ///< linear, lit
     /// Times the inverse depth: differs from surface to surface, so that their borders get several

@@ -206,7 +206,7 @@ HWY_INLINE Color ground_color(const BlockJob& job, const BlockPaint& paint,
 struct Look {
     Color color;
     Floats t; // infinity: sky
-    Work work = Work::nothing();
+    Work work;
 };
 
 // Beyond the sides of a triangle, pixels: less than a step of the places of samples, so that
@@ -278,47 +278,63 @@ HWY_INLINE TrueLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pi
     return walls;
 }
 
-// `start_of(job)`: where the rays may begin.
+// `start_of(job, k)`: where the rays of packet k may begin.
 template <class Mode, class StartOf>
-HWY_NOINLINE Look ground_look_of(const BlockJobs& jobs, const BlockPaint& paint,
-                                 const PixelOffsets& pixels, const StartOf& start_of) {
+HWY_NOINLINE Pair<Look> ground_looks_of(const BlockJobs& jobs, const BlockPaint& paint,
+                                        const Pair<PixelOffsets>& pixels, const StartOf& start_of) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    const ViewRays view = view_rays(paint, pixels);
-    Look look{all(glm::vec3(0.0F)), never};
-    Met met = Met::nothing();
-    met.has_walls = jobs.has_walls;
+    Pair<ViewRays> views;
+    Pair<Look> looks;
+    Pair<Met> met;
+#pragma GCC unroll 2
+    for (std::size_t k = 0; k < pair; ++k) {
+        views[k] = view_rays(paint, pixels[k]);
+        looks[k] = {all(glm::vec3(0.0F)), never, Work::nothing()};
+        met[k] = Met::nothing();
+        met[k].has_walls = jobs.has_walls;
+    }
     for (const BlockJob& job : jobs.tiles) {
-        const Floats start = start_of(job);
-        if (hn::AllFalse(floats, hn::Lt(start, never))) {
+        Pair<Floats> starts;
+        Lanes begins = no_lanes();
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < pair; ++k) {
+            starts[k] = start_of(job, k);
+            begins = hn::Or(begins, hn::Lt(starts[k], never));
+        }
+        if (hn::AllFalse(floats, begins)) {
             continue;
         }
-        const Rays rays = rays_of(job, pixels);
-        const PacketHits hits = hits_of<Mode>(rays, job, start, met);
-        if (!hn::AllFalse(floats, hits.found)) {
-            const Color color = ground_color<Mode>(job, paint, pixels, rays, view, hits, met.work);
-            look.color = chosen(hits.found, color, look.color);
-            look.t = hn::IfThenElse(hits.found, hits.t, look.t);
+        Pair<Rays> rays = rays_of(job, pixels);
+        const Pair<PacketHits> hits = hits_of<Mode>(rays, job, starts, met);
+        Lanes all_found = hn::Not(no_lanes());
+#pragma GCC unroll 2
+        for (std::size_t k = 0; k < pair; ++k) {
+            if (!hn::AllFalse(floats, hits[k].found)) {
+                const Color color = ground_color<Mode>(job, paint, pixels[k], rays[k], views[k],
+                                                       hits[k], met[k].work);
+                looks[k].color = chosen(hits[k].found, color, looks[k].color);
+                looks[k].t = hn::IfThenElse(hits[k].found, hits[k].t, looks[k].t);
+            }
+            all_found = hn::And(all_found, met[k].found);
+        }
+        if (hn::AllTrue(floats, all_found)) {
+            break;
+        }
+    }
+#pragma GCC unroll 2
+    for (std::size_t k = 0; k < pair; ++k) {
+        if (!hn::AllTrue(floats, met[k].found)) {
+            looks[k].color =
+                chosen(met[k].found, looks[k].color, sky_color(paint, pixels[k], views[k]));
         }
         if constexpr (Mode::counts) {
-            look.work = met.work;
-        }
-        if (hn::AllTrue(floats, met.found)) {
-            return look;
+            looks[k].work = met[k].work;
         }
     }
-    look.color = chosen(met.found, look.color, sky_color(paint, pixels, view));
-    return look;
+    return looks;
 }
 
-// Ground behind walls.
-template <class Mode, class StartOf>
-HWY_INLINE TrueLook walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
-                                     const PixelOffsets& pixels, const StartOf& start_of) {
-    const TrueLook walls = wall_look_of(paint, pixels);
-    if (hn::AllTrue(floats, walls.found)) {
-        return walls;
-    }
-    const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
+HWY_INLINE TrueLook behind_walls(const TrueLook& walls, const Look& ground) {
     return {walls.found,
             {chosen(walls.found, walls.look.color, ground.color),
              hn::IfThenElse(walls.found, walls.look.t, ground.t), ground.work},
@@ -350,16 +366,38 @@ HWY_INLINE TrueLook with_meshes(const TrueLook& behind, const BlockPaint& paint,
             hn::IfThenElse(found, t, behind.t)};
 }
 
-template <class Mode, class StartOf, class MeshValues>
-HWY_INLINE TrueLook look_of(const BlockJobs& jobs, const BlockPaint& paint,
-                            const PixelOffsets& pixels, const StartOf& start_of,
-                            const MeshValues& mesh_values) {
-    if (paint.walls.empty() && paint.meshes == nullptr) {
-        const Look ground = ground_look_of<Mode>(jobs, paint, pixels, start_of);
-        return {no_lanes(), ground, ground.t};
+// Ground, behind the walls.
+template <class Mode, class StartOf>
+HWY_INLINE Pair<TrueLook> walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
+                                           const Pair<PixelOffsets>& pixels,
+                                           const StartOf& start_of) {
+    Pair<TrueLook> looks{wall_look_of(paint, pixels[0]), wall_look_of(paint, pixels[1])};
+    if (hn::AllTrue(floats, hn::And(looks[0].found, looks[1].found))) {
+        return looks;
     }
-    const TrueLook behind = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
-    return paint.meshes == nullptr ? behind : with_meshes(behind, paint, pixels, mesh_values);
+    const Pair<Look> ground = ground_looks_of<Mode>(jobs, paint, pixels, start_of);
+    for (std::size_t k = 0; k < pair; ++k) {
+        looks[k] = behind_walls(looks[k], ground[k]);
+    }
+    return looks;
+}
+
+// `mesh_values(values, k)`: those of the pixels of packet k.
+template <class Mode, class StartOf, class MeshValues>
+HWY_INLINE Pair<TrueLook> looks_of(const BlockJobs& jobs, const BlockPaint& paint,
+                                   const Pair<PixelOffsets>& pixels, const StartOf& start_of,
+                                   const MeshValues& mesh_values) {
+    if (paint.walls.empty() && paint.meshes == nullptr) {
+        const Pair<Look> ground = ground_looks_of<Mode>(jobs, paint, pixels, start_of);
+        return {TrueLook{no_lanes(), ground[0], ground[0].t},
+                TrueLook{no_lanes(), ground[1], ground[1].t}};
+    }
+    Pair<TrueLook> looks = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
+    for (std::size_t k = 0; k < pair && paint.meshes != nullptr; ++k) {
+        const auto values = [&](const float* of) HWY_ATTR { return mesh_values(of, k); };
+        looks[k] = with_meshes(looks[k], paint, pixels[k], values);
+    }
+    return looks;
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

@@ -13,39 +13,24 @@
 #include <cmath>
 #include <limits>
 
-#include <hwy/highway.h>
-
 #include "engine/cast/packet/block_kernel.h"
+#include "engine/cast/packet/packet_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using FloatTag = hn::CappedTag<float, 16>;
-using IntTag = hn::RebindToSigned<FloatTag>;
-using Floats = hn::Vec<FloatTag>;
-using Ints = hn::Vec<IntTag>;
-using Lanes = hn::Mask<FloatTag>;
-using IntLanes = hn::Mask<IntTag>;
-constexpr FloatTag floats{};
-constexpr IntTag ints{};
-
-constexpr int lane_count = static_cast<int>(hn::MaxLanes(floats));
 constexpr int packet_cols = lane_count < beam_cols ? lane_count : beam_cols;
 constexpr int packet_rows = lane_count / packet_cols;
 
-HWY_INLINE Floats all(float value) {
-    return hn::Set(floats, value);
-}
+// Packets walk in pairs: while one waits for heights, the other goes on. Loops over a pair are
+// unrolled, so that registers hold its vectors.
+constexpr std::size_t pair = 2;
+template <class T, std::size_t count> using Each = std::array<T, count>;
+template <class T> using Pair = Each<T, pair>;
 
 // The beam of a pixel.
 HWY_INLINE std::size_t beam_at(int col, int row) {
     return static_cast<std::size_t>(row / beam_rows * beams_a_row + col / beam_cols);
-}
-
-HWY_INLINE Ints all(std::int32_t value) {
-    return hn::Set(ints, value);
 }
 
 // The bit of a pixel in BlockJob::beam_pixels.
@@ -64,46 +49,6 @@ HWY_INLINE Floats starts_of(const BlockJob& job, int col, int row) {
                                             static_cast<std::uint8_t>(bits >> 8U)};
     return hn::IfThenElse(hn::LoadMaskBits(floats, bytes.data()), start,
                           all(std::numeric_limits<float>::infinity()));
-}
-
-// Values that lie side by side.
-template <class Vector> struct Neighbours {
-    Vector first;
-    Vector second;
-};
-
-#if HWY_TARGET != HWY_SCALAR
-// A pair of values for each index.
-template <class Tag, class U>
-HWY_INLINE hn::Vec<Tag> load_pairs(Tag tag, const U* from, const std::int32_t* index) {
-    if constexpr (hn::MaxLanes(tag) == 2) {
-        return hn::LoadU(tag, from + *index);
-    } else {
-        const hn::Half<Tag> half;
-        constexpr std::size_t pairs = hn::MaxLanes(half) / 2;
-        return hn::Combine(tag, load_pairs(half, from, index + pairs),
-                           load_pairs(half, from, index));
-    }
-}
-#endif
-
-// from[index] and from[index + 1]. A gather instruction takes four bytes for each lane, and longer
-// than these loads of eight.
-template <class Tag, class U>
-HWY_INLINE Neighbours<hn::Vec<Tag>> load_neighbours(Tag tag, const U* from, Ints index) {
-#if HWY_TARGET == HWY_SCALAR
-    return {hn::GatherIndex(tag, from, index), hn::GatherIndex(tag, from + 1, index)};
-#else
-    alignas(64) std::int32_t places[static_cast<std::size_t>(lane_count)];
-    hn::Store(index, ints, places);
-    const auto low = load_pairs(tag, from, places);
-    const auto high = load_pairs(tag, from, places + lane_count / 2);
-    return {hn::ConcatEven(tag, high, low), hn::ConcatOdd(tag, high, low)};
-#endif
-}
-
-HWY_INLINE Lanes no_lanes() {
-    return hn::MaskFromVec(hn::Zero(floats));
 }
 
 // How rays walk: whether a terrain has walls between its tiles, and whether work is counted.
@@ -150,18 +95,6 @@ struct Met {
 
     HWY_INLINE static Met nothing() { return {no_lanes(), no_lanes(), Work::nothing()}; }
 };
-
-// Exactly `a` at part 0 and `b` at part 1.
-HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
-    return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
-}
-
-// 2^level.
-HWY_INLINE Floats size_of(Ints level) {
-    constexpr int exponent_bits = 23;
-    constexpr int exponent_of_one = 127;
-    return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
-}
 
 // One axis of the ground: column or row.
 struct Axis {
@@ -311,6 +244,10 @@ HWY_INLINE Rays rays_of(const BlockJob& job, const PixelOffsets& pixels) {
     rays.begin = all(block.begin);
     rays.end = end_of(rays, block);
     return rays;
+}
+
+HWY_INLINE Pair<Rays> rays_of(const BlockJob& job, const Pair<PixelOffsets>& pixels) {
+    return {rays_of(job, pixels[0]), rays_of(job, pixels[1])};
 }
 
 // Floats have errors of 2^-24 of the distance from the rays' base, and a beam adds a few of them.

@@ -70,6 +70,31 @@ HWY_INLINE Rays sun_rays(const BlockJob& job, const SunTile& tile, const BlockJo
     return rays;
 }
 
+struct SunLanes {
+    Lanes open;      // not hidden yet
+    Lanes continued; // a chord ends where this ray begins, above all ground
+};
+
+// The rays that a tile hides from the sun.
+template <class SunMode>
+HWY_NOINLINE Lanes hidden_by(const Rays& rays, const BlockJob& target, const SunLanes& lanes,
+                             Work& work) {
+    const Entry entry = entry_of(rays);
+    Each<Walk, 1> walks{walk_from(rays, hn::Max(entry.t(), rays.begin))};
+    Walk& walk = walks.front();
+    walk.active = hn::And(walk.active, lanes.open);
+    walk.entry = hn::Max(entry.t(), rays.begin);
+    walk.walled = hn::Or(lanes.continued, hn::Gt(entry.t(), rays.begin));
+    walk.below = no_lanes();
+    walk.work = work;
+    Each<HitPieces, 1> pieces{};
+    const Each<Lanes, 1> hits = find_hits<SunMode, 1>({rays}, target, walks, pieces);
+    if constexpr (SunMode::counts) {
+        work = walk.work;
+    }
+    return hits.front();
+}
+
 // The order of tiles does not matter: a ray that is below one somewhere does not reach the sun.
 template <class Mode>
 HWY_NOINLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, Work& work) {
@@ -82,19 +107,8 @@ HWY_NOINLINE Lanes hidden_from_sun(const BlockJob& job, const PacketHits& hits, 
             break;
         }
         target_sun_tile(job, tile, target);
-        const Rays rays = sun_rays(job, tile, target, hits);
-        const Entry entry = entry_of(rays);
-        Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
-        walk.active = hn::And(walk.active, open);
-        walk.entry = hn::Max(entry.t(), rays.begin);
-        walk.walled = hn::Gt(entry.t(), rays.begin);
-        walk.below = no_lanes();
-        HitPieces pieces{};
-        walk.work = work;
-        hidden = hn::Or(hidden, find_hits<SunMode>(rays, target, walk, pieces));
-        if constexpr (Mode::counts) {
-            work = walk.work;
-        }
+        hidden = hn::Or(hidden, hidden_by<SunMode>(sun_rays(job, tile, target, hits), target,
+                                                   {open, no_lanes()}, work));
     }
     return hidden;
 }
@@ -147,30 +161,6 @@ HWY_INLINE Rays chord_rays(const SunTile& tile, const BlockJob& target, const Pa
     return rays;
 }
 
-struct ChordLanes {
-    Lanes open;      // not hidden yet
-    Lanes continued; // another chord ends where this one begins, above all ground
-};
-
-// The rays that a chord hides from the sun.
-template <class SunMode>
-HWY_INLINE Lanes hidden_by_chord(const Rays& rays, const BlockJob& target, const ChordLanes& lanes,
-                                 Work& work) {
-    const Entry entry = entry_of(rays);
-    Walk walk = walk_from(rays, hn::Max(entry.t(), rays.begin));
-    walk.active = hn::And(walk.active, lanes.open);
-    walk.entry = hn::Max(entry.t(), rays.begin);
-    walk.walled = hn::Or(lanes.continued, hn::Gt(entry.t(), rays.begin));
-    walk.below = no_lanes();
-    HitPieces pieces{};
-    walk.work = work;
-    const Lanes hits = find_hits<SunMode>(rays, target, walk, pieces);
-    if constexpr (SunMode::counts) {
-        work = walk.work;
-    }
-    return hits;
-}
-
 // Each chord begins where the last one has ended, above the surface: a ray that is below it
 // somewhere does not reach the sun. So the order of tiles does not matter.
 template <class Mode>
@@ -195,8 +185,8 @@ HWY_NOINLINE Lanes hidden_along_chords(const BlockJob& job, const PacketHits& hi
             ends[0] = ends[1];
             ends[1] = way_to_end(chord + 1);
             const Rays rays = chord_rays(tile, target, hits, ends);
-            const ChordLanes lanes{open, chord > 0 ? hits.found : no_lanes()};
-            const Lanes met = hidden_by_chord<SunMode>(rays, target, lanes, work);
+            const SunLanes lanes{open, chord > 0 ? hits.found : no_lanes()};
+            const Lanes met = hidden_by<SunMode>(rays, target, lanes, work);
             hidden = hn::Or(hidden, met);
             // Those that are above the tile and rise do not return.
             const Lanes above =

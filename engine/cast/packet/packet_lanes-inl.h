@@ -1,0 +1,123 @@
+// The lanes of vectors, and how they are loaded. Included once for each instruction set.
+#if defined(RELJEF_PACKET_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef RELJEF_PACKET_LANES_INL_H
+#undef RELJEF_PACKET_LANES_INL_H
+#else
+#define RELJEF_PACKET_LANES_INL_H
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace reljef::cast::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::CappedTag<float, 16>;
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using Lanes = hn::Mask<FloatTag>;
+using IntLanes = hn::Mask<IntTag>;
+constexpr FloatTag floats{};
+constexpr IntTag ints{};
+
+constexpr int lane_count = static_cast<int>(hn::MaxLanes(floats));
+
+HWY_INLINE Floats all(float value) {
+    return hn::Set(floats, value);
+}
+
+HWY_INLINE Ints all(std::int32_t value) {
+    return hn::Set(ints, value);
+}
+
+HWY_INLINE Lanes no_lanes() {
+    return hn::MaskFromVec(hn::Zero(floats));
+}
+
+// Exactly `a` at part 0 and `b` at part 1.
+HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
+    return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
+}
+
+// 2^level.
+HWY_INLINE Floats size_of(Ints level) {
+    constexpr int exponent_bits = 23;
+    constexpr int exponent_of_one = 127;
+    return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
+}
+
+// Values that lie side by side.
+template <class Vector> struct Neighbours {
+    Vector first;
+    Vector second;
+};
+
+#if HWY_TARGET != HWY_SCALAR
+// A pair of values for each index.
+template <class Tag, class U>
+HWY_INLINE hn::Vec<Tag> load_pairs(Tag tag, const U* from, const std::int32_t* index) {
+    if constexpr (hn::MaxLanes(tag) == 2) {
+        return hn::LoadU(tag, from + *index);
+    } else {
+        const hn::Half<Tag> half;
+        constexpr std::size_t pairs = hn::MaxLanes(half) / 2;
+        return hn::Combine(tag, load_pairs(half, from, index + pairs),
+                           load_pairs(half, from, index));
+    }
+}
+#endif
+
+#if HWY_TARGET == HWY_AVX3
+// from[index] of the lanes, 0 in others. Without a mask, compilers gather into the register of the
+// last gather, and so wait for it.
+HWY_INLINE Floats gather(const float* from, Ints index, Lanes lanes) {
+    return Floats{
+        _mm512_mask_i32gather_ps(_mm512_setzero_ps(), lanes.raw, index.raw, from, sizeof(float))};
+}
+
+template <class Tag, class U>
+HWY_INLINE hn::Vec<Tag> gather_pairs(Tag tag, const U* from, __m256i index) {
+    constexpr hn::Repartition<double, Tag> pairs;
+    constexpr __mmask8 all_pairs = 0xFF;
+    const hn::Vec<decltype(pairs)> gathered{
+        _mm512_mask_i32gather_pd(_mm512_setzero_pd(), all_pairs, index, from, sizeof(U))};
+    return hn::BitCast(tag, gathered);
+}
+#else
+HWY_INLINE Floats gather(const float* from, Ints index, Lanes /*lanes*/) {
+    return hn::GatherIndex(floats, from, index);
+}
+#endif
+
+// from[index] and from[index + 1], by loads of both. A gather takes four bytes for each lane, and
+// longer; one of eight bytes is faster on Intel's processors with AVX-512, and slower on AMD's.
+template <class Tag, class U>
+HWY_INLINE Neighbours<hn::Vec<Tag>> load_neighbours(Tag tag, const U* from, Ints index) {
+#if HWY_TARGET == HWY_SCALAR
+    return {hn::GatherIndex(tag, from, index), hn::GatherIndex(tag, from + 1, index)};
+#else
+#if HWY_TARGET == HWY_AVX3
+    if (__builtin_cpu_is("intel") != 0) {
+        const auto low = gather_pairs(tag, from, _mm512_castsi512_si256(index.raw));
+        const auto high = gather_pairs(tag, from, _mm512_extracti64x4_epi64(index.raw, 1));
+        return {hn::ConcatEven(tag, high, low), hn::ConcatOdd(tag, high, low)};
+    }
+#endif
+    alignas(64) std::int32_t places[static_cast<std::size_t>(lane_count)];
+    hn::Store(index, ints, places);
+    const auto low = load_pairs(tag, from, places);
+    const auto high = load_pairs(tag, from, places + lane_count / 2);
+    return {hn::ConcatEven(tag, high, low), hn::ConcatOdd(tag, high, low)};
+#endif
+}
+
+} // namespace reljef::cast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
