@@ -87,7 +87,7 @@ HWY_NOINLINE Lanes hidden_by(const Rays& rays, const BlockJob& target, const Sun
     walk.walled = hn::Or(lanes.continued, hn::Gt(entry.t(), rays.begin));
     walk.below = no_lanes();
     walk.work = work;
-    Each<HitPieces, 1> pieces{};
+    Each<HitPieces, 1> pieces;
     const Each<Lanes, 1> hits = find_hits<SunMode, 1>({rays}, target, walks, pieces);
     if constexpr (SunMode::counts) {
         work = walk.work;

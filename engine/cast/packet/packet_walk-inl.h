@@ -336,6 +336,12 @@ struct PacketHits {
     Floats row_part;
     Floats height; // metres above the base height
     Corners corners;
+
+    HWY_INLINE static PacketHits nothing() {
+        const Floats zero = hn::Zero(floats);
+        const Ints cell = hn::Zero(ints);
+        return {no_lanes(), cell, cell, zero, zero, zero, zero, {zero, zero, zero, zero}};
+    }
 };
 
 // Rays before their walk over a tile.
@@ -362,9 +368,20 @@ HWY_INLINE Walk walk_over(Rays& rays, const BlockJob& job, Floats start, const M
     return walk;
 }
 
+// What a packet has met after its walk.
+template <class Mode> HWY_INLINE void note(Lanes found, const Walk& walk, Met& met) {
+    met.found = hn::Or(met.found, found);
+    if constexpr (Mode::has_walls) {
+        met.below = walk.below;
+    }
+    if constexpr (Mode::counts) {
+        met.work = walk.work;
+    }
+}
+
 template <class Mode>
 HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& rays,
-                              const Walk& walk, Met& met) {
+                              const Walk& walk) {
     PacketHits hits;
     hits.found = found;
     const IntLanes found_ints = hn::RebindMask(ints, hits.found);
@@ -375,7 +392,6 @@ HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& 
     Floats u = crossing_of(piece);
     if constexpr (Mode::has_walls) {
         u = hn::IfThenZeroElse(walk.wall, u);
-        met.below = walk.below;
     }
     hits.t = hn::MulAdd(u, hn::Sub(piece.end, piece.begin), piece.begin);
     hits.col_part = hn::MulAdd(u, piece.col.way, piece.col.enter);
@@ -385,10 +401,6 @@ HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& 
         const Floats on_ray = hn::MulAdd(hits.t, rays.rise, rays.height);
         hits.height = hn::IfThenElse(walk.wall, on_ray, hits.height);
     }
-    if constexpr (Mode::counts) {
-        met.work = walk.work;
-    }
-    met.found = hn::Or(met.found, hits.found);
     return hits;
 }
 
@@ -402,12 +414,18 @@ HWY_NOINLINE Pair<PacketHits> hits_of(Pair<Rays>& rays, const BlockJob& job,
     for (std::size_t k = 0; k < pair; ++k) {
         walks[k] = walk_over<Mode>(rays[k], job, starts[k], met[k]);
     }
-    Pair<HitPieces> pieces{};
+    Pair<HitPieces> pieces;
+    if constexpr (lane_count == 1) {
+        pieces = {}; // compilers warn
+    }
     const Pair<Lanes> found = find_hits<Mode, pair>(rays, job, walks, pieces);
     Pair<PacketHits> hits;
 #pragma GCC unroll 2
     for (std::size_t k = 0; k < pair; ++k) {
-        hits[k] = hits_in<Mode>(pieces[k], found[k], rays[k], walks[k], met[k]);
+        note<Mode>(found[k], walks[k], met[k]);
+        hits[k] = hn::AllFalse(floats, found[k])
+                      ? PacketHits::nothing()
+                      : hits_in<Mode>(pieces[k], found[k], rays[k], walks[k]);
     }
     return hits;
 }
