@@ -2,16 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/cast/block_rays.h"
 #include "engine/cast/packet/block_kernel.h"
 
 namespace reljef::cast {
 namespace {
+
+// A cell and a part of it, as a float and what it rounds off (Dekker 1971). Exact below 2^24.
+struct Place {
+    float high;
+    float low;
+
+    Place(int cell, float part) {
+        const auto whole = static_cast<float>(cell);
+        high = whole + part;
+        low = part - (high - whole);
+    }
+};
+
+// Whether samples of a tile are those of its terrain, moved by whole ones.
+bool is_moved_only(const PlacedTile& tile, const geo::WrappedRows& rows) {
+    constexpr double exact = 1 << 24;
+    return tile.step == glm::dvec2(1.0) && tile.first == glm::floor(tile.first) &&
+           glm::all(glm::lessThan(glm::abs(tile.first) + glm::dvec2(tile.tile->cells()),
+                                  glm::dvec2(exact))) &&
+           rows.wrap().rows() == 0;
+}
+
+// A hit on such a tile: the same as by hit_in(), in a fraction of the time.
+Hit moved_hit_in(const BlockHits& hits, const PlacedTile& tile, const BlockRays& rays,
+                 std::size_t pixel) {
+    const glm::ivec2 first(tile.first);
+    const Place col(hits.col[pixel] + first.x, hits.col_part[pixel]);
+    const Place row(hits.row[pixel] + first.y, hits.row_part[pixel]);
+    return {col.high,
+            row.high,
+            static_cast<float>(static_cast<double>(rays.base_height) + hits.height[pixel]),
+            static_cast<float>(tile.rays.anchor + hits.t[pixel]),
+            col.low,
+            row.low};
+}
 
 // A hit, or sky.
 Hit hit_in(const BlockHits& hits, const PlacedTile& tile, const geo::WrappedRows& rows,
@@ -28,7 +65,11 @@ class HitBlocks {
 public:
     HitBlocks(const PlacedTiles& placed, const CastOptions& options, HitBuffer& hits)
         : placed_(placed), options_(options), hits_(hits),
-          kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)) {}
+          kernel_(block_kernel(options.target.value_or(SimdTarget{}).bit)) {
+        std::ranges::transform(
+            placed.tiles, std::back_inserter(are_moved_),
+            [&](const PlacedTile& tile) { return is_moved_only(tile, placed.rows); });
+    }
 
     void cast(const PixelBlock& block) const {
         std::vector<std::size_t> tiles;
@@ -44,8 +85,11 @@ public:
                     static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
                 if (found.t[pixel] < std::numeric_limits<float>::infinity()) {
                     const auto job = static_cast<std::size_t>(found.job[pixel]);
-                    hits_(block.first.x + col, block.first.y + row) = hit_in(
-                        found, placed_.tiles[tiles[job]], placed_.rows, jobs[job].rays, pixel);
+                    const PlacedTile& tile = placed_.tiles[tiles[job]];
+                    const BlockRays& rays = jobs[job].rays;
+                    hits_(block.first.x + col, block.first.y + row) =
+                        are_moved_[tiles[job]] ? moved_hit_in(found, tile, rays, pixel)
+                                               : hit_in(found, tile, placed_.rows, rays, pixel);
                 }
             }
         }
@@ -56,6 +100,7 @@ private:
     const CastOptions& options_;
     HitBuffer& hits_;
     BlockKernel kernel_;
+    std::vector<bool> are_moved_; // of each tile
 };
 
 } // namespace

@@ -472,28 +472,26 @@ Result<view::DrawnHits> Driver::draw_hits(const view::FrameView& frame) {
         return possible.error();
     }
     const StreamedList streamed = with_searched_tiles(frame.list);
-    const glm::ivec2 size = frame.list.size;
-    view::DrawnHits drawn{HitBuffer(size.x, size.y), frame.list.stats};
-    const PlacedTiles placed = placed_tiles(streamed, false, drawn.stats);
+    view::FrameStats stats = frame.list.stats;
+    const PlacedTiles placed = placed_tiles(streamed, false, stats);
     CastOptions options;
     options.parallel.threads = options_.threads;
     options.target = options_.target;
     options.skips = options_.skips;
-    auto hits = cast_hits(placed, size, options);
+    auto hits = cast_hits(placed, frame.list.size, options);
     if (!hits) {
         return hits.error();
     }
-    drawn.hits = std::move(*hits);
     const auto meshes = mesh_frame(streamed, placed);
     if (!meshes) {
         return meshes.error();
     }
     if (*meshes != nullptr) {
-        (*meshes)->add_hits(drawn.hits, options.parallel);
+        (*meshes)->add_hits(*hits, options.parallel);
     }
-    drawn.stats.rays = ray_count(streamed.list, placed);
-    drawn.stats.tiles = tile_count(streamed.list, placed);
-    return drawn;
+    stats.rays = ray_count(streamed.list, placed);
+    stats.tiles = tile_count(streamed.list, placed);
+    return view::DrawnHits{std::move(*hits), stats};
 }
 
 } // namespace reljef::cast

@@ -97,9 +97,9 @@ struct MeshFrame::Lit {
 };
 
 MeshPixels::MeshPixels(std::size_t count)
-    : t(count + BlockMeshes::values_behind, std::numeric_limits<float>::infinity()),
-      nearness(count + BlockMeshes::values_behind, 1.0F) {
-    color.fill(std::vector<float>(count + BlockMeshes::values_behind));
+    : t(count + BlockMeshes::padding, std::numeric_limits<float>::infinity()),
+      nearness(count + BlockMeshes::padding, 1.0F) {
+    color.fill(std::vector<float>(count + BlockMeshes::padding));
 }
 
 BlockMeshes MeshPixels::values() const {

@@ -72,9 +72,11 @@ HWY_INLINE void merge(const PacketHits& found, int job, MergedHits& merged) {
     take(found.height, hits.height);
 }
 
-static_assert(BlockMeshes::values_behind >= pair * lane_count);
+static_assert(BlockMeshes::padding >= packets_a_pair * lane_count);
 
-// The packets whose pixels lie one above the other.
+static_assert(block_side % (static_cast<int>(packets_a_pair) * packet_rows) == 0);
+
+// The first row of packet k of a pair. Its packets lie one above the other.
 HWY_INLINE int row_of(int first_row, std::size_t k) {
     return first_row + static_cast<int>(k) * packet_rows;
 }
@@ -83,26 +85,20 @@ HWY_INLINE Pair<PixelOffsets> pair_offsets(int col, int row) {
     return {offsets_of(col, row), offsets_of(col, row_of(row, 1))};
 }
 
-HWY_INLINE Floats pair_starts(const BlockJob& job, int col, int row, std::size_t k) {
-    return starts_of(job, col, row_of(row, k));
-}
-
 template <class Mode>
 HWY_INLINE Pair<MergedHits> merged_hits(const BlockJobs& jobs, int col, int row) {
     const Pair<PixelOffsets> pixels = pair_offsets(col, row);
-    const Floats zero = hn::Zero(floats);
-    const Ints none = hn::Zero(ints);
-    const MergedHits nothing{{no_lanes(), none, none, all(nowhere), zero, zero, zero, {}}, none};
-    Pair<MergedHits> merged{nothing, nothing};
+    MergedHits sky{PacketHits::nothing(), hn::Zero(ints)};
+    sky.hits.t = all(nowhere);
+    Pair<MergedHits> merged{sky, sky};
     Pair<Met> met{Met::nothing(), Met::nothing()};
     for (std::size_t i = 0; i < jobs.tiles.size(); ++i) {
         const BlockJob& job = jobs.tiles[i];
-        const auto start = [&](std::size_t k)
-                               HWY_ATTR { return job.starts[beam_at(col, row_of(row, k))]; };
-        if (start(0) < nowhere || start(1) < nowhere) {
+        const Pair<Floats> starts =
+            starts_by([&](std::size_t k) HWY_ATTR { return starts_of(job, col, row_of(row, k)); });
+        if (is_any_ray(starts)) {
             Pair<Rays> rays = rays_of(job, pixels);
-            const Pair<PacketHits> hits = hits_of<Mode>(
-                rays, job, {pair_starts(job, col, row, 0), pair_starts(job, col, row, 1)}, met);
+            const Pair<PacketHits> hits = hits_of<Mode>(rays, job, starts, met);
             merge(hits[0], static_cast<int>(i), merged[0]);
             merge(hits[1], static_cast<int>(i), merged[1]);
         }
@@ -121,7 +117,7 @@ HWY_INLINE void store_hits(const MergedHits& found, int col, int row, BlockHits&
 }
 
 template <class Body> HWY_INLINE void for_each_pair(const Body& body) {
-    for (int row = 0; row < block_side; row += static_cast<int>(pair) * packet_rows) {
+    for (int row = 0; row < block_side; row += static_cast<int>(packets_a_pair) * packet_rows) {
         for (int col = 0; col < block_side; col += packet_cols) {
             body(col, row);
         }
@@ -159,7 +155,7 @@ template <class Mode>
 HWY_INLINE Pair<TrueLook> pair_looks(const BlockJobs& jobs, const BlockPaint& paint, int col,
                                      int row) {
     const auto start_of = [&](const BlockJob& job, std::size_t k)
-                              HWY_ATTR { return pair_starts(job, col, row, k); };
+                              HWY_ATTR { return starts_of(job, col, row_of(row, k)); };
     const auto mesh_values = [&](const float* of, std::size_t k)
                                  HWY_ATTR { return load(of, col, row_of(row, k)); };
     return looks_of<Mode>(jobs, paint, pair_offsets(col, row), start_of, mesh_values);
@@ -169,7 +165,7 @@ template <class Mode>
 HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
     for_each_pair([&](int col, int first_row) HWY_ATTR {
         const Pair<TrueLook> looks = pair_looks<Mode>(jobs, paint, col, first_row);
-        for (std::size_t k = 0; k < pair; ++k) {
+        for (std::size_t k = 0; k < packets_a_pair; ++k) {
             const TrueLook& shown = looks[k];
             const int row = row_of(first_row, k);
             store(ints, bytes_of(shown.look.color), col, row, pixels.rgba.data());
@@ -197,7 +193,7 @@ void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) 
     work.beam_taps = find_all_starts(jobs);
     for_each_pair([&](int col, int first_row) HWY_ATTR {
         const Pair<TrueLook> looks = pair_looks<Counted>(jobs, paint, col, first_row);
-        for (std::size_t k = 0; k < pair; ++k) {
+        for (std::size_t k = 0; k < packets_a_pair; ++k) {
             const Work& found = looks[k].look.work;
             const int row = row_of(first_row, k);
             store(ints, found.taps, col, row, work.taps.data());
@@ -240,6 +236,7 @@ struct SamplePacket {
     alignas(64) LaneFloats down;
     std::array<std::size_t, static_cast<std::size_t>(lane_count)> beam;
     std::array<unsigned, static_cast<std::size_t>(lane_count)> pixel_of_beam;
+    std::size_t count = 0; // lanes with samples
 
     SamplePacket(const SampledPixels& sampled, SampleIndex index) {
         constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
@@ -253,6 +250,7 @@ struct SamplePacket {
             down[lane] = static_cast<float>(row) + middle + place.y;
             beam[lane] = beam_at(col, row);
             pixel_of_beam[lane] = beam_pixel_at(col, row);
+            count += index.pixel < sampled.count ? 1U : 0U;
             index.next(sampled);
         }
     }
@@ -261,12 +259,12 @@ struct SamplePacket {
         return {hn::Load(floats, right.data()), hn::Load(floats, down.data())};
     }
     [[nodiscard]] HWY_INLINE Floats starts(const BlockJob& job) const {
-        alignas(64) LaneFloats starts;
-        for (std::size_t lane = 0; lane < starts.size(); ++lane) {
-            const bool is_ray = (job.beam_pixels >> pixel_of_beam[lane] & 1U) != 0;
-            starts[lane] = is_ray ? job.starts[beam[lane]] : nowhere;
+        alignas(64) LaneFloats begin;
+        for (std::size_t lane = 0; lane < begin.size(); ++lane) {
+            const bool is_ray = lane < count && (job.beam_pixels >> pixel_of_beam[lane] & 1U) != 0;
+            begin[lane] = is_ray ? job.starts[beam[lane]] : nowhere;
         }
-        return hn::Load(floats, starts.data());
+        return hn::Load(floats, begin.data());
     }
 };
 
@@ -306,18 +304,17 @@ template <class Mode>
 HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
                                const SampledPixels& sampled, ColorSums& sums) {
     const int samples = sampled.count * sampled.samples;
-    for (int first = 0; first < samples; first += static_cast<int>(pair) * lane_count) {
-        const std::array<int, pair> numbers{first, first + lane_count};
-        const std::array<SamplePacket, pair> packets{
-            SamplePacket(sampled, SampleIndex(sampled, numbers[0])),
-            SamplePacket(sampled, SampleIndex(sampled, numbers[1]))};
+    for (int first = 0; first < samples; first += static_cast<int>(packets_a_pair) * lane_count) {
+        const Pair<int> numbers{first, first + lane_count};
+        const Pair<SamplePacket> packets{SamplePacket(sampled, SampleIndex(sampled, numbers[0])),
+                                         SamplePacket(sampled, SampleIndex(sampled, numbers[1]))};
         const auto start_of = [&](const BlockJob& job, std::size_t k)
                                   HWY_ATTR { return packets[k].starts(job); };
         const auto mesh_values = [&](const float* of, std::size_t k)
                                      HWY_ATTR { return hn::LoadU(floats, of + numbers[k]); };
         const Pair<TrueLook> looks = looks_of<Mode>(
             jobs, paint, {packets[0].offsets(), packets[1].offsets()}, start_of, mesh_values);
-        for (std::size_t k = 0; k < pair; ++k) {
+        for (std::size_t k = 0; k < packets_a_pair; ++k) {
             add_samples(looks[k].look.color, sampled, SampleIndex(sampled, numbers[k]), sums);
         }
     }

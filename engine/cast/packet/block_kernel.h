@@ -298,7 +298,7 @@ struct WallTriangle {
 /// What meshes look like in a block: a value for each of its pixels, row after row, or for each of
 /// its samples.
 struct BlockMeshes {
-    static constexpr std::size_t values_behind = 32; ///< the last one, that are read, too
+    static constexpr std::size_t padding = 32; ///< values after the last one; kernels may read them
 
     const float* t = nullptr;            ///< of the hits, as BlockHits::t
     std::array<const float*, 3> color{}; ///< linear, lit

@@ -7,6 +7,7 @@
 #endif
 
 #include "engine/cast/packet/packet_grain-inl.h"
+#include "engine/cast/packet/packet_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {

@@ -144,7 +144,7 @@ HWY_INLINE Floats crossing_of(const Piece& piece) {
     return hn::Min(hn::Max(u, hn::Zero(floats)), all(1.0F));
 }
 
-// The pieces of the rays that hit, in memory: registers are short.
+// The pieces of the rays that hit, in memory: registers are few.
 struct HitPieces {
     struct Values {
         alignas(64) std::array<float, static_cast<std::size_t>(lane_count)> lanes;

@@ -133,15 +133,15 @@ HWY_INLINE WallHits wall_hits(const FacadePaint& paint, const TilePaint& tile,
         return on;
     }
     const Ints index = hn::IfThenElseZero(hn::RebindMask(ints, steep), nearest_sample(paint, hits));
-    const Ints pair = hn::Add(index, index);
-    const Floats number = hn::GatherIndex(floats, paint.samples, pair);
+    const Ints values = hn::Add(index, index);
+    const Floats number = hn::GatherIndex(floats, paint.samples, values);
     on.found = hn::And(steep, hn::Gt(number, hn::Zero(floats)));
     if (hn::AllFalse(floats, on.found)) {
         return on;
     }
     const Floats wall = hn::IfThenElseZero(on.found, hn::Sub(number, all(1.0F)));
     on.wall.first = hn::Mul(hn::ConvertTo(ints, wall), all(FacadePaint::wall_values));
-    on.shadow = hn::GatherIndex(floats, paint.samples + 1, pair);
+    on.shadow = hn::GatherIndex(floats, paint.samples + 1, values);
     const Lanes below_top = hn::Le(height, on.wall(top_value));
     on.found = hn::And(on.found, hn::And(face_as_walls(on.wall, normal), below_top));
     return on;

@@ -1,4 +1,5 @@
-// The lanes of vectors, and how they are loaded. Included once for each instruction set.
+// The lanes of vectors, and the arithmetic and loads that all packets use. Included once for each
+// instruction set.
 #if defined(RELJEF_PACKET_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_LANES_INL_H
 #undef RELJEF_PACKET_LANES_INL_H
@@ -73,9 +74,9 @@ HWY_INLINE hn::Vec<Tag> load_pairs(Tag tag, const U* from, const std::int32_t* i
 }
 #endif
 
-#if HWY_TARGET == HWY_AVX3
-// from[index] of the lanes, 0 in others. Without a mask, compilers gather into the register of the
-// last gather, and so wait for it.
+// from[index] of `lanes`, anything in others. All indices must be valid.
+#if HWY_TARGET <= HWY_AVX3
+// g++ gathers into the register of the gather before, and waits for it, unless lanes are masked.
 HWY_INLINE Floats gather(const float* from, Ints index, Lanes lanes) {
     return Floats{
         _mm512_mask_i32gather_ps(_mm512_setzero_ps(), lanes.raw, index.raw, from, sizeof(float))};
@@ -95,14 +96,15 @@ HWY_INLINE Floats gather(const float* from, Ints index, Lanes /*lanes*/) {
 }
 #endif
 
-// from[index] and from[index + 1], by loads of both. A gather takes four bytes for each lane, and
-// longer; one of eight bytes is faster on Intel's processors with AVX-512, and slower on AMD's.
+// from[index] and from[index + 1]. Loads of eight bytes, one for each lane, are faster than two
+// gathers of four bytes. On Intel's processors with AVX-512, gathers of eight bytes are faster
+// still; on AMD's they are slower.
 template <class Tag, class U>
 HWY_INLINE Neighbours<hn::Vec<Tag>> load_neighbours(Tag tag, const U* from, Ints index) {
 #if HWY_TARGET == HWY_SCALAR
     return {hn::GatherIndex(tag, from, index), hn::GatherIndex(tag, from + 1, index)};
 #else
-#if HWY_TARGET == HWY_AVX3
+#if HWY_TARGET <= HWY_AVX3
     if (__builtin_cpu_is("intel") != 0) {
         const auto low = gather_pairs(tag, from, _mm512_castsi512_si256(index.raw));
         const auto high = gather_pairs(tag, from, _mm512_extracti64x4_epi64(index.raw, 1));

@@ -278,60 +278,79 @@ HWY_INLINE TrueLook wall_look_of(const BlockPaint& paint, const PixelOffsets& pi
     return walls;
 }
 
+// `start_of(k)`: where the rays of packet k may begin.
+template <class StartOf> HWY_INLINE Pair<Floats> starts_by(const StartOf& start_of) {
+    return {start_of(std::size_t{0}), start_of(std::size_t{1})};
+}
+
+HWY_INLINE bool is_any_ray(const Pair<Floats>& starts) {
+    const Floats never = all(std::numeric_limits<float>::infinity());
+    return !hn::AllFalse(floats, hn::Or(hn::Lt(starts[0], never), hn::Lt(starts[1], never)));
+}
+
+// A packet while it looks for the ground of one tile after the other.
+struct GroundPacket {
+    ViewRays view;
+    Look look;
+
+    // What it shows of a tile.
+    template <class Mode>
+    HWY_INLINE void add(const BlockJob& job, const BlockPaint& paint, const PixelOffsets& pixels,
+                        const Rays& rays, const PacketHits& hits, Met& met) {
+        if (hn::AllFalse(floats, hits.found)) {
+            return;
+        }
+        const Color color = ground_color<Mode>(job, paint, pixels, rays, view, hits, met.work);
+        look.color = chosen(hits.found, color, look.color);
+        look.t = hn::IfThenElse(hits.found, hits.t, look.t);
+    }
+
+    // The sky where it shows no tile.
+    template <class Mode>
+    HWY_INLINE Look end(const BlockPaint& paint, const PixelOffsets& pixels, const Met& met) const {
+        Look shown = look;
+        if (!hn::AllTrue(floats, met.found)) {
+            shown.color = chosen(met.found, look.color, sky_color(paint, pixels, view));
+        }
+        if constexpr (Mode::counts) {
+            shown.work = met.work;
+        }
+        return shown;
+    }
+};
+
 // `start_of(job, k)`: where the rays of packet k may begin.
 template <class Mode, class StartOf>
 HWY_NOINLINE Pair<Look> ground_looks_of(const BlockJobs& jobs, const BlockPaint& paint,
                                         const Pair<PixelOffsets>& pixels, const StartOf& start_of) {
     const Floats never = all(std::numeric_limits<float>::infinity());
-    Pair<ViewRays> views;
-    Pair<Look> looks;
+    Pair<GroundPacket> packets;
     Pair<Met> met;
 #pragma GCC unroll 2
-    for (std::size_t k = 0; k < pair; ++k) {
-        views[k] = view_rays(paint, pixels[k]);
-        looks[k] = {all(glm::vec3(0.0F)), never, Work::nothing()};
+    for (std::size_t k = 0; k < packets_a_pair; ++k) {
+        packets[k].view = view_rays(paint, pixels[k]);
+        packets[k].look = {all(glm::vec3(0.0F)), never, Work::nothing()};
         met[k] = Met::nothing();
         met[k].has_walls = jobs.has_walls;
     }
     for (const BlockJob& job : jobs.tiles) {
-        Pair<Floats> starts;
-        Lanes begins = no_lanes();
-#pragma GCC unroll 2
-        for (std::size_t k = 0; k < pair; ++k) {
-            starts[k] = start_of(job, k);
-            begins = hn::Or(begins, hn::Lt(starts[k], never));
-        }
-        if (hn::AllFalse(floats, begins)) {
+        const Pair<Floats> starts =
+            starts_by([&](std::size_t k) HWY_ATTR { return start_of(job, k); });
+        if (!is_any_ray(starts)) {
             continue;
         }
         Pair<Rays> rays = rays_of(job, pixels);
         const Pair<PacketHits> hits = hits_of<Mode>(rays, job, starts, met);
-        Lanes all_found = hn::Not(no_lanes());
 #pragma GCC unroll 2
-        for (std::size_t k = 0; k < pair; ++k) {
-            if (!hn::AllFalse(floats, hits[k].found)) {
-                const Color color = ground_color<Mode>(job, paint, pixels[k], rays[k], views[k],
-                                                       hits[k], met[k].work);
-                looks[k].color = chosen(hits[k].found, color, looks[k].color);
-                looks[k].t = hn::IfThenElse(hits[k].found, hits[k].t, looks[k].t);
-            }
-            all_found = hn::And(all_found, met[k].found);
+        for (std::size_t k = 0; k < packets_a_pair; ++k) {
+            packets[k].template add<Mode>(job, paint, pixels[k], rays[k], hits[k], met[k]);
         }
-        if (hn::AllTrue(floats, all_found)) {
+        if (hn::AllTrue(floats, hn::And(met[0].found, met[1].found))) {
             break;
         }
     }
-#pragma GCC unroll 2
-    for (std::size_t k = 0; k < pair; ++k) {
-        if (!hn::AllTrue(floats, met[k].found)) {
-            looks[k].color =
-                chosen(met[k].found, looks[k].color, sky_color(paint, pixels[k], views[k]));
-        }
-        if constexpr (Mode::counts) {
-            looks[k].work = met[k].work;
-        }
-    }
-    return looks;
+    return {packets[0].template end<Mode>(paint, pixels[0], met[0]),
+            packets[1].template end<Mode>(paint, pixels[1], met[1])};
 }
 
 HWY_INLINE TrueLook behind_walls(const TrueLook& walls, const Look& ground) {
@@ -366,7 +385,7 @@ HWY_INLINE TrueLook with_meshes(const TrueLook& behind, const BlockPaint& paint,
             hn::IfThenElse(found, t, behind.t)};
 }
 
-// Ground, behind the walls.
+// Walls, with the ground behind them.
 template <class Mode, class StartOf>
 HWY_INLINE Pair<TrueLook> walls_and_ground(const BlockJobs& jobs, const BlockPaint& paint,
                                            const Pair<PixelOffsets>& pixels,
@@ -375,11 +394,12 @@ HWY_INLINE Pair<TrueLook> walls_and_ground(const BlockJobs& jobs, const BlockPai
     if (hn::AllTrue(floats, hn::And(looks[0].found, looks[1].found))) {
         return looks;
     }
-    const Pair<Look> ground = ground_looks_of<Mode>(jobs, paint, pixels, start_of);
-    for (std::size_t k = 0; k < pair; ++k) {
-        looks[k] = behind_walls(looks[k], ground[k]);
-    }
-    return looks;
+    const auto start_beside = [&](const BlockJob& job, std::size_t k) HWY_ATTR {
+        const Floats never = all(std::numeric_limits<float>::infinity());
+        return hn::IfThenElse(looks[k].found, never, start_of(job, k));
+    };
+    const Pair<Look> ground = ground_looks_of<Mode>(jobs, paint, pixels, start_beside);
+    return {behind_walls(looks[0], ground[0]), behind_walls(looks[1], ground[1])};
 }
 
 // `mesh_values(values, k)`: those of the pixels of packet k.
@@ -393,7 +413,10 @@ HWY_INLINE Pair<TrueLook> looks_of(const BlockJobs& jobs, const BlockPaint& pain
                 TrueLook{no_lanes(), ground[1], ground[1].t}};
     }
     Pair<TrueLook> looks = walls_and_ground<Mode>(jobs, paint, pixels, start_of);
-    for (std::size_t k = 0; k < pair && paint.meshes != nullptr; ++k) {
+    if (paint.meshes == nullptr) {
+        return looks;
+    }
+    for (std::size_t k = 0; k < packets_a_pair; ++k) {
         const auto values = [&](const float* of) HWY_ATTR { return mesh_values(of, k); };
         looks[k] = with_meshes(looks[k], paint, pixels[k], values);
     }

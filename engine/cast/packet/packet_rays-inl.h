@@ -22,11 +22,10 @@ namespace reljef::cast::HWY_NAMESPACE {
 constexpr int packet_cols = lane_count < beam_cols ? lane_count : beam_cols;
 constexpr int packet_rows = lane_count / packet_cols;
 
-// Packets walk in pairs: while one waits for heights, the other goes on. Loops over a pair are
-// unrolled, so that registers hold its vectors.
-constexpr std::size_t pair = 2;
-template <class T, std::size_t count> using Each = std::array<T, count>;
-template <class T> using Pair = Each<T, pair>;
+// Packets walk in pairs: while one waits for heights, the other goes on. Loops over the packets of
+// a walk are unrolled, so that registers hold their vectors.
+constexpr std::size_t packets_a_pair = 2;
+template <class T> using Pair = std::array<T, packets_a_pair>;
 
 // The beam of a pixel.
 HWY_INLINE std::size_t beam_at(int col, int row) {

@@ -80,15 +80,15 @@ template <class SunMode>
 HWY_NOINLINE Lanes hidden_by(const Rays& rays, const BlockJob& target, const SunLanes& lanes,
                              Work& work) {
     const Entry entry = entry_of(rays);
-    Each<Walk, 1> walks{walk_from(rays, hn::Max(entry.t(), rays.begin))};
+    std::array<Walk, 1> walks{walk_from(rays, hn::Max(entry.t(), rays.begin))};
     Walk& walk = walks.front();
     walk.active = hn::And(walk.active, lanes.open);
     walk.entry = hn::Max(entry.t(), rays.begin);
     walk.walled = hn::Or(lanes.continued, hn::Gt(entry.t(), rays.begin));
     walk.below = no_lanes();
     walk.work = work;
-    Each<HitPieces, 1> pieces;
-    const Each<Lanes, 1> hits = find_hits<SunMode, 1>({rays}, target, walks, pieces);
+    std::array<HitPieces, 1> pieces;
+    const std::array<Lanes, 1> hits = find_hits<SunMode, 1>({rays}, target, walks, pieces);
     if constexpr (SunMode::counts) {
         work = walk.work;
     }

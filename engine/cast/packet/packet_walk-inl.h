@@ -1,4 +1,4 @@
-// The first hits of a packet of rays. Included once for each instruction set.
+// The first hits of packets of rays. Included once for each instruction set.
 #if defined(RELJEF_PACKET_WALK_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef RELJEF_PACKET_WALK_INL_H
 #undef RELJEF_PACKET_WALK_INL_H
@@ -69,7 +69,7 @@ struct NextLine {
     Floats stride; // to the line behind
 
     HWY_INLINE void pass(const Axis& axis, Lanes lanes) {
-        line = hn::IfThenElse(lanes, hn::Add(line, stride), line);
+        line = hn::IfThenElse(lanes, hn::Add(line, stride), line); // with AVX-512 one addition
         t = axis.time_at(line);
     }
 };
@@ -201,24 +201,26 @@ template <class Mode> struct March {
     }
 };
 
-// At most `max_steps` times.
+template <auto lanes, class T, std::size_t count>
+HWY_INLINE bool is_any(const std::array<T, count>& packets) {
+    Lanes any = packets[0].*lanes;
+#pragma GCC unroll 2
+    for (std::size_t k = 1; k < count; ++k) {
+        any = hn::Or(any, packets[k].*lanes);
+    }
+    return !hn::AllFalse(floats, any);
+}
+
+// Moves rays from block to block of a level while they are above them, at most `max_steps` times.
 template <class Mode, std::size_t count>
-HWY_INLINE void march(const Each<Rays, count>& rays, const BlockJob& job, int level, int max_steps,
-                      Each<Walk, count>& walks) {
-    Each<March<Mode>, count> marches;
+HWY_INLINE void march(const std::array<Rays, count>& rays, const BlockJob& job, int level,
+                      int max_steps, std::array<Walk, count>& walks) {
+    std::array<March<Mode>, count> marches;
 #pragma GCC unroll 2
     for (std::size_t k = 0; k < count; ++k) {
         marches[k] = March<Mode>::start(rays[k], job, level, walks[k]);
     }
-    const auto is_on_its_way = [&]() HWY_ATTR {
-        Lanes run = marches[0].run;
-#pragma GCC unroll 2
-        for (std::size_t k = 1; k < count; ++k) {
-            run = hn::Or(run, marches[k].run);
-        }
-        return !hn::AllFalse(floats, run);
-    };
-    for (int i = 0; i < max_steps && is_on_its_way(); ++i) {
+    for (int i = 0; i < max_steps && is_any<&March<Mode>::run>(marches); ++i) {
 #pragma GCC unroll 2
         for (std::size_t k = 0; k < count; ++k) {
             marches[k].step(rays[k], walks[k]);
@@ -269,7 +271,8 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPie
 
 // Whether cells are solved: when three quarters of the lanes have arrived at one, or no other is on
 // its way.
-template <std::size_t count> HWY_INLINE bool is_time_to_solve(const Each<Walk, count>& walks) {
+template <std::size_t count>
+HWY_INLINE bool is_time_to_solve(const std::array<Walk, count>& walks) {
     std::size_t arrived = 0;
     Lanes on_its_way = no_lanes();
 #pragma GCC unroll 2
@@ -280,24 +283,16 @@ template <std::size_t count> HWY_INLINE bool is_time_to_solve(const Each<Walk, c
     return 4 * arrived >= 3 * count * lane_count || hn::AllFalse(floats, on_its_way);
 }
 
-template <std::size_t count> HWY_INLINE bool is_any_active(const Each<Walk, count>& walks) {
-    Lanes active = walks[0].active;
-#pragma GCC unroll 2
-    for (std::size_t k = 1; k < count; ++k) {
-        active = hn::Or(active, walks[k].active);
-    }
-    return !hn::AllFalse(floats, active);
-}
-
 // Walks all rays to their first hit: through ever larger blocks as long as rays find none that they
-// may hit. Not inlined: rays of all kinds share it, so that it compiles in a quarter of the time.
+// may hit.
 template <class Mode, std::size_t count>
-HWY_INLINE Each<Lanes, count> find_hits(const Each<Rays, count>& rays, const BlockJob& job,
-                                        Each<Walk, count>& moved, Each<HitPieces, count>& pieces) {
-    Each<Walk, count> walks = moved; // a copy, whose vectors registers may hold
-    constexpr int levels = 2;        // between marches
+HWY_INLINE std::array<Lanes, count> find_hits(const std::array<Rays, count>& rays,
+                                              const BlockJob& job, std::array<Walk, count>& moved,
+                                              std::array<HitPieces, count>& pieces) {
+    std::array<Walk, count> walks = moved; // a copy, whose vectors registers may hold
+    constexpr int levels = 2;              // between marches
     constexpr int max_steps = 16;
-    Each<Lanes, count> hits;
+    std::array<Lanes, count> hits;
     for (Lanes& lanes : hits) {
         lanes = no_lanes();
     }
@@ -308,7 +303,7 @@ HWY_INLINE Each<Lanes, count> find_hits(const Each<Rays, count>& rays, const Blo
             walk.work.begin(walk.active);
         }
     }
-    while (is_any_active(walks)) {
+    while (is_any<&Walk::active>(walks)) {
         for (int level = top; level > 0; level -= levels) {
             march<Mode, count>(rays, job, level, max_steps, walks);
         }
@@ -344,7 +339,8 @@ struct PacketHits {
     }
 };
 
-// Rays before their walk over a tile.
+// The walk over a tile before its first step. Lets rays that begin below the tile go on to its
+// border.
 template <class Mode>
 HWY_INLINE Walk walk_over(Rays& rays, const BlockJob& job, Floats start, const Met& met) {
     const Entry entry = entry_of(rays);
@@ -404,24 +400,24 @@ HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& 
     return hits;
 }
 
-// The hits of the rays that have found nothing yet. `starts`: of t. Shortens rays that begin below
-// the tile.
+// The first hits of the rays that have found nothing yet. `starts`: the t from which they may hit.
+// Rays that begin below the tile end at its border now.
 template <class Mode>
 HWY_NOINLINE Pair<PacketHits> hits_of(Pair<Rays>& rays, const BlockJob& job,
                                       const Pair<Floats>& starts, Pair<Met>& met) {
     Pair<Walk> walks;
 #pragma GCC unroll 2
-    for (std::size_t k = 0; k < pair; ++k) {
+    for (std::size_t k = 0; k < packets_a_pair; ++k) {
         walks[k] = walk_over<Mode>(rays[k], job, starts[k], met[k]);
     }
     Pair<HitPieces> pieces;
     if constexpr (lane_count == 1) {
-        pieces = {}; // compilers warn
+        pieces = {}; // else g++ warns of lanes without a value
     }
-    const Pair<Lanes> found = find_hits<Mode, pair>(rays, job, walks, pieces);
+    const Pair<Lanes> found = find_hits<Mode, packets_a_pair>(rays, job, walks, pieces);
     Pair<PacketHits> hits;
 #pragma GCC unroll 2
-    for (std::size_t k = 0; k < pair; ++k) {
+    for (std::size_t k = 0; k < packets_a_pair; ++k) {
         note<Mode>(found[k], walks[k], met[k]);
         hits[k] = hn::AllFalse(floats, found[k])
                       ? PacketHits::nothing()
