@@ -341,10 +341,8 @@ HWY_NOINLINE Pair<Look> ground_looks_of(const BlockJobs& jobs, const BlockPaint&
         }
         Pair<Rays> rays = rays_of(job, pixels);
         const Pair<PacketHits> hits = hits_of<Mode>(rays, job, starts, met);
-#pragma GCC unroll 2
-        for (std::size_t k = 0; k < packets_a_pair; ++k) {
-            packets[k].template add<Mode>(job, paint, pixels[k], rays[k], hits[k], met[k]);
-        }
+        packets[0].template add<Mode>(job, paint, pixels[0], rays[0], hits[0], met[0]);
+        packets[1].template add<Mode>(job, paint, pixels[1], rays[1], hits[1], met[1]);
         if (hn::AllTrue(floats, hn::And(met[0].found, met[1].found))) {
             break;
         }
