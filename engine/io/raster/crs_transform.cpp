@@ -32,9 +32,42 @@ bool is_same_crs(const std::string& a, const std::string& b) {
     return a == b || crs_from_text(a).IsSame(&other) != 0;
 }
 
+namespace {
+
+// Of codes that PROJ knows.
+bool is_geocentric(const std::string& code) {
+    OGRSpatialReference named;
+    return named.SetFromUserInput(code.c_str(),
+                                  OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+               OGRERR_NONE &&
+           named.IsGeocentric() != 0;
+}
+
+} // namespace
+
+std::optional<std::string> false_code_of(const OGRSpatialReference& crs) {
+    if (crs.IsGeocentric() != 0) {
+        return std::nullopt;
+    }
+    for (const char* const part : {static_cast<const char*>(nullptr), "GEOGCS"}) {
+        const char* const authority = crs.GetAuthorityName(part);
+        const char* const number = crs.GetAuthorityCode(part);
+        if (authority != nullptr && number != nullptr) {
+            std::string code = std::string(authority) + ":" + number;
+            if (is_geocentric(code)) {
+                return code;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<CrsTransform> CrsTransform::create(const OGRSpatialReference& from,
                                                  const OGRSpatialReference& to,
                                                  const std::optional<DegreeBox>& area) {
+    if (false_code_of(from) || false_code_of(to)) {
+        return std::nullopt;
+    }
     OGRCoordinateTransformationOptions options;
     if (area) {
         const auto& [west, south, east, north] = *area;

@@ -28,10 +28,14 @@ std::string wkt_of(const OGRSpatialReference& crs, const char* format = "FORMAT=
 /// Whether two texts name one system: GDAL writes some systems in two ways.
 bool is_same_crs(const std::string& a, const std::string& b);
 
+/// The code of a system that is not geocentric, or of its geographic one, if it is that of a
+/// geocentric one: PROJ ends the program when it looks for a transform of such a system.
+std::optional<std::string> false_code_of(const OGRSpatialReference& crs);
+
 /// PROJ's transform between two coordinate systems. One thread at a time.
 class CrsTransform {
 public:
-    /// The best operation, for an area if given; absent if there is none.
+    /// The best operation, for an area if given; absent if there is none, or false_code_of() one.
     static std::optional<CrsTransform> create(const OGRSpatialReference& from,
                                               const OGRSpatialReference& to,
                                               const std::optional<DegreeBox>& area = {});

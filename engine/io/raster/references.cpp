@@ -17,6 +17,7 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_drivers.h"
 
 namespace reljef::io {
@@ -162,6 +163,18 @@ bool is_plain_crs(const std::string& text) {
             return EQUALN(crs.c_str(), authority.data(), authority.size());
         });
     return begins_well && crs.find('/') == std::string::npos;
+}
+
+Result<void> check_codes(GDALDataset& dataset) {
+    for (const OGRSpatialReference* const crs :
+         {dataset.GetSpatialRef(), dataset.GetGCPSpatialRef()}) {
+        if (const auto code = crs != nullptr ? false_code_of(*crs) : std::nullopt) {
+            return Error{fmt::format("{}: its coordinate system has the code {} of a geocentric "
+                                     "one, its own or none was expected",
+                                     dataset.GetDescription(), *code)};
+        }
+    }
+    return {};
 }
 
 Error unknown_crs(const std::string& name, const std::string& text) {
@@ -409,6 +422,9 @@ Result<void> check_references(const std::string& name) {
 
 Result<void> check_named_files(GDALDataset& dataset) {
     const std::string name = dataset.GetDescription();
+    if (auto good = check_codes(dataset); !good) {
+        return good;
+    }
     if (allows_external()) {
         return {};
     }

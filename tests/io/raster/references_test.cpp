@@ -326,6 +326,24 @@ TEST_F(References, ACoordinateSystemOpensNoGridByItsPath) {
     EXPECT_THAT(error_of(path), HasSubstr("has the coordinate system"));
 }
 
+// PROJ ended the program.
+TEST_F(References, AGeographicSystemWithTheCodeOfAGeocentricOneIsRefused) {
+    for (const char* const code : {"4978", "5341"}) {
+        const auto path =
+            write("a.vrt",
+                  fmt::format(R"(<VRTDataset rasterXSize="8" rasterYSize="8"><SRS>GEOGCS["WGS 84",)"
+                              R"(DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)"
+                              R"(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],)"
+                              R"(AUTHORITY["EPSG","{}"]]</SRS><GeoTransform>6,0.1,0,45,0,-0.1)"
+                              R"(</GeoTransform><VRTRasterBand dataType="Float32" band="1">)"
+                              R"(<SimpleSource><SourceFilename relativeToVRT="1">a.tif)"
+                              "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>",
+                              code));
+        EXPECT_THAT(error_of(path),
+                    HasSubstr(fmt::format("has the code EPSG:{} of a geocentric", code)));
+    }
+}
+
 TEST_F(References, APipeBesideOrBehindARasterBlocksNothing) {
     const fs::path pipe = inside_ / "a.tif.ovr";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
