@@ -130,7 +130,7 @@ template <class Mode> struct March {
     BlockPlaces places;
     Ints last_place;
     const float* maxima;
-    Floats kept_col; // the next line
+    Floats kept_col; // the next line of a ray when it was last on its way
     Floats kept_row;
     Floats height; // of the rays over the lifted maxima, at t = 0
     Floats enter_height;
@@ -201,6 +201,7 @@ template <class Mode> struct March {
     }
 };
 
+// Whether any lane of any packet is set.
 template <auto lanes, class T, std::size_t count>
 HWY_INLINE bool is_any(const std::array<T, count>& packets) {
     Lanes any = packets[0].*lanes;
@@ -365,7 +366,7 @@ HWY_INLINE Walk walk_over(Rays& rays, const BlockJob& job, Floats start, const M
 }
 
 // What a packet has met after its walk.
-template <class Mode> HWY_INLINE void note(Lanes found, const Walk& walk, Met& met) {
+template <class Mode> HWY_INLINE void note_walk(Lanes found, const Walk& walk, Met& met) {
     met.found = hn::Or(met.found, found);
     if constexpr (Mode::has_walls) {
         met.below = walk.below;
@@ -401,7 +402,7 @@ HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& 
 }
 
 // The first hits of the rays that have found nothing yet. `starts`: the t from which they may hit.
-// Rays that begin below the tile end at its border now.
+// From here on, rays that begin below the tile end at its border.
 template <class Mode>
 HWY_NOINLINE Pair<PacketHits> hits_of(Pair<Rays>& rays, const BlockJob& job,
                                       const Pair<Floats>& starts, Pair<Met>& met) {
@@ -418,7 +419,7 @@ HWY_NOINLINE Pair<PacketHits> hits_of(Pair<Rays>& rays, const BlockJob& job,
     Pair<PacketHits> hits;
 #pragma GCC unroll 2
     for (std::size_t k = 0; k < packets_a_pair; ++k) {
-        note<Mode>(found[k], walks[k], met[k]);
+        note_walk<Mode>(found[k], walks[k], met[k]);
         hits[k] = hn::AllFalse(floats, found[k])
                       ? PacketHits::nothing()
                       : hits_in<Mode>(pieces[k], found[k], rays[k], walks[k]);
