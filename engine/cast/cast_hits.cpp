@@ -36,21 +36,29 @@ bool is_moved_only(const PlacedTile& tile, const geo::WrappedRows& rows) {
            rows.wrap().rows() == 0;
 }
 
-// A hit on such a tile: as hit_in(), without what doubles round, and faster.
-Hit moved_hit_in(const BlockHits& hits, const PlacedTile& tile, const BlockRays& rays,
-                 std::size_t pixel) {
-    const glm::ivec2 first(tile.first);
-    const SplitPlace col(hits.col[pixel] + first.x, hits.col_part[pixel]);
-    const SplitPlace row(hits.row[pixel] + first.y, hits.row_part[pixel]);
-    return {col.high,
-            row.high,
-            static_cast<float>(static_cast<double>(rays.base_height) + hits.height[pixel]),
-            static_cast<float>(tile.rays.anchor + hits.t[pixel]),
-            col.low,
-            row.low};
-}
+// Hits on such a tile: as hit_in(), without what doubles round, and faster.
+class MovedHits {
+public:
+    MovedHits(const PlacedTile& tile, const BlockRays& rays)
+        : first_(tile.first), base_height_(rays.base_height), anchor_(tile.rays.anchor) {}
 
-// A hit, or sky.
+    [[nodiscard]] Hit at(const BlockHits& hits, std::size_t pixel) const {
+        const SplitPlace col(hits.col[pixel] + first_.x, hits.col_part[pixel]);
+        const SplitPlace row(hits.row[pixel] + first_.y, hits.row_part[pixel]);
+        return {col.high,
+                row.high,
+                base_height_ + hits.height[pixel],
+                static_cast<float>(anchor_ + hits.t[pixel]),
+                col.low,
+                row.low};
+    }
+
+private:
+    glm::ivec2 first_;
+    float base_height_;
+    double anchor_;
+};
+
 Hit hit_in(const BlockHits& hits, const PlacedTile& tile, const geo::WrappedRows& rows,
            const BlockRays& rays, std::size_t pixel) {
     const glm::dvec2 place(hits.col[pixel] + static_cast<double>(hits.col_part[pixel]),
@@ -79,23 +87,35 @@ public:
         }
         BlockHits found;
         kernel_.cast({jobs, placed_.has_walls}, found);
+        if (jobs.size() == 1 && are_moved_[tiles.front()]) {
+            const MovedHits moved(placed_.tiles[tiles.front()], jobs.front().rays);
+            write(block, found, [&](std::size_t pixel) { return moved.at(found, pixel); });
+        } else {
+            write(block, found, [&](std::size_t pixel) {
+                const auto job = static_cast<std::size_t>(found.job[pixel]);
+                const PlacedTile& tile = placed_.tiles[tiles[job]];
+                const BlockRays& rays = jobs[job].rays;
+                return are_moved_[tiles[job]] ? MovedHits(tile, rays).at(found, pixel)
+                                              : hit_in(found, tile, placed_.rows, rays, pixel);
+            });
+        }
+    }
+
+private:
+    template <class HitAt>
+    void write(const PixelBlock& block, const BlockHits& found, const HitAt& hit_at_pixel) const {
         for (int row = 0; row < block.size.y; ++row) {
+            Hit* const to = &hits_(block.first.x, block.first.y + row);
             for (int col = 0; col < block.size.x; ++col) {
                 const auto pixel =
                     static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
                 if (found.t[pixel] < std::numeric_limits<float>::infinity()) {
-                    const auto job = static_cast<std::size_t>(found.job[pixel]);
-                    const PlacedTile& tile = placed_.tiles[tiles[job]];
-                    const BlockRays& rays = jobs[job].rays;
-                    hits_(block.first.x + col, block.first.y + row) =
-                        are_moved_[tiles[job]] ? moved_hit_in(found, tile, rays, pixel)
-                                               : hit_in(found, tile, placed_.rows, rays, pixel);
+                    to[col] = hit_at_pixel(pixel);
                 }
             }
         }
     }
 
-private:
     const PlacedTiles& placed_;
     const CastOptions& options_;
     HitBuffer& hits_;

@@ -123,8 +123,8 @@ HWY_INLINE Color sky_picture_color(const SkyPaint& sky, Floats x, Floats y, Floa
                           hn::MulAdd(all(turn[1][row]), y, hn::Mul(all(turn[2][row]), z)));
     };
     const FacePlaces places = face_places(sky, turned(0), turned(1), turned(2));
-    const Ints col = hn::ConvertTo(ints, places.col);
-    const Ints row = hn::ConvertTo(ints, places.row);
+    const Ints col = truncated(places.col);
+    const Ints row = truncated(places.row);
     const Ints stride = all(sky.side + 2);
     const Ints index = hn::Add(hn::Mul(row, stride), col);
     Color sum = all(glm::vec3(0.0F));

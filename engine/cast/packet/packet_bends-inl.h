@@ -49,7 +49,7 @@ HWY_INLINE Floats zero_at(const SunBends& bends, Floats x, Floats y) {
         return hn::Min(hn::Max(on, hn::Zero(floats)), all(last));
     };
     const auto cell = [&](Floats on, int axis) HWY_ATTR {
-        return hn::Min(hn::ConvertTo(ints, on), all(bends.zero_count[axis] - 2));
+        return hn::Min(truncated(on), all(bends.zero_count[axis] - 2));
     };
     const Floats u = place(x, 0);
     const Floats v = place(y, 1);

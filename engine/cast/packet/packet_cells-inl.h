@@ -57,7 +57,7 @@ HWY_INLINE Floats height_in(const Corners& corners, Floats col_part, Floats row_
                  mixed(corners.h10, corners.h11, row_part), col_part);
 }
 
-// Lines of a cell, and the t at which the ray crosses them.
+// A cell, and the t at which the ray crosses its lines.
 struct Lines {
     Floats cell; // from the base
     Floats ahead;
@@ -65,15 +65,15 @@ struct Lines {
     Floats leaving;
 };
 
-HWY_INLINE Lines lines_of(const Axis& axis, Ints cell) {
-    Lines lines;
-    lines.cell = hn::Sub(hn::ConvertTo(floats, cell), axis.base);
-    lines.ahead = hn::ConvertTo(floats, axis.ahead);
-    const Floats near = hn::Sub(hn::Add(lines.cell, all(1.0F)), lines.ahead);
-    lines.entering = axis.time_at(near);
-    lines.leaving = axis.time_at(hn::Add(lines.cell, lines.ahead));
-    return lines;
+HWY_INLINE Lines lines_of(const Axis& axis, Floats next_line) {
+    return {axis.cell_before(next_line), axis.ahead, axis.time_at(hn::Sub(next_line, axis.stride)),
+            axis.time_at(next_line)};
 }
+
+struct CellLines {
+    Lines col;
+    Lines row;
+};
 
 HWY_INLINE PieceAxis piece_along(const Axis& axis, const Lines& lines, Floats begin, Floats end) {
     const Floats one = all(1.0F);
@@ -90,9 +90,8 @@ HWY_INLINE PieceAxis piece_along(const Axis& axis, const Lines& lines, Floats be
     return piece;
 }
 
-HWY_INLINE Piece piece_in(const Rays& rays, const Corners& corners, Ints col, Ints row) {
-    const Lines cols = lines_of(rays.col, col);
-    const Lines rows = lines_of(rays.row, row);
+HWY_INLINE Piece piece_in(const Rays& rays, const Corners& corners, const CellLines& lines) {
+    const auto& [cols, rows] = lines;
     Piece piece;
     piece.begin = hn::Max(hn::Max(cols.entering, rows.entering), rays.begin);
     piece.end = hn::Min(hn::Min(cols.leaving, rows.leaving), rays.end);

@@ -36,8 +36,8 @@ HWY_INLINE void add_repeated_level(const RepeatedMap& map, const CopyPlace& plac
     };
     const Floats u = texel(place.u, cols);
     const Floats v = texel(place.v, rows);
-    const Ints col = hn::ConvertTo(ints, u);
-    const Ints row = hn::ConvertTo(ints, v);
+    const Ints col = truncated(u);
+    const Ints row = truncated(v);
     const Ints stride = hn::Add(cols, all(2));
     const Ints index =
         hn::Add(hn::Add(hn::Mul(row, stride), col), hn::GatherIndex(ints, map.begin.data(), level));
@@ -50,7 +50,7 @@ HWY_INLINE void add_repeated_level(const RepeatedMap& map, const CopyPlace& plac
 // Bilinear in the two levels nearest to each lane's.
 template <class Encoding>
 HWY_INLINE Color repeated_sum(const RepeatedMap& map, const CopyPlace& place, Floats level) {
-    const Ints fine = hn::ConvertTo(ints, level);
+    const Ints fine = truncated(level);
     const Floats coarse_part = hn::Sub(level, hn::ConvertTo(floats, fine));
     Color sum = all(glm::vec3(0.0F));
     add_repeated_level<Encoding>(map, place, fine, hn::Sub(all(1.0F), coarse_part), sum);

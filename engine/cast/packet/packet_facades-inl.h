@@ -6,6 +6,8 @@
 #define RELJEF_PACKET_FACADES_INL_H
 #endif
 
+#include <cmath>
+
 #include "engine/cast/packet/packet_points-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -92,28 +94,40 @@ HWY_INLINE Color wall_albedo(const Along& u, const Along& v, const Color& plaste
 // The sample nearest to hits.
 HWY_INLINE Ints nearest_sample(const FacadePaint& paint, const PacketHits& hits) {
     const auto nearest = [](Ints cell, Floats part)
-                             HWY_ATTR { return hn::Add(cell, hn::NearestInt(part)); };
+                             HWY_ATTR { return hn::Add(cell, rounded(part)); };
     return hn::Add(hn::Mul(nearest(hits.row, hits.row_part), all(paint.stride)),
                    nearest(hits.col, hits.col_part));
 }
 
-// Without the exaggeration of heights.
+// A normal, of any length, without the exaggeration of heights.
 HWY_INLINE std::array<Floats, 3> true_normal(const std::array<Floats, 3>& drawn,
                                              float exaggeration) {
-    const std::array<Floats, 3> normal{drawn[0], drawn[1], hn::Mul(drawn[2], all(exaggeration))};
-    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(dot(normal, normal)));
-    return {hn::Mul(normal[0], per_length), hn::Mul(normal[1], per_length),
-            hn::Mul(normal[2], per_length)};
+    return {drawn[0], drawn[1], hn::Mul(drawn[2], all(exaggeration))};
+}
+
+// Grows with a number: numbers are compared by it without roots.
+HWY_INLINE Floats signed_square(Floats number) {
+    return hn::Mul(number, hn::Abs(number));
+}
+HWY_INLINE float signed_square(float number) {
+    return number * std::abs(number);
+}
+
+// Whether normals lean farther than this from upwards.
+HWY_INLINE Lanes lean_beyond(const std::array<Floats, 3>& normal, float cosine) {
+    return hn::Lt(signed_square(normal[2]),
+                  hn::Mul(dot(normal, normal), all(signed_square(cosine))));
 }
 
 // The lanes whose ground faces as their walls do.
 HWY_INLINE Lanes face_as_walls(const WallNear& wall, const std::array<Floats, 3>& normal) {
     const Floats leaning =
         hn::MulAdd(wall(outward_x_value), normal[0], hn::Mul(wall(outward_y_value), normal[1]));
-    const Floats level = hn::Sqrt(hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1])));
-    const Lanes is_upright = hn::Lt(normal[2], all(upright_cosine));
-    const Floats min_leaning = hn::IfThenElse(is_upright, all(corner_leaning), all(wall_leaning));
-    return hn::Gt(leaning, hn::Mul(level, min_leaning));
+    const Floats level_square = hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1]));
+    const Floats min_square = hn::IfThenElse(lean_beyond(normal, upright_cosine),
+                                             all(signed_square(corner_leaning)),
+                                             all(signed_square(wall_leaning)));
+    return hn::Gt(signed_square(leaning), hn::Mul(level_square, min_square));
 }
 
 // The walls that hits lie on.
@@ -126,8 +140,8 @@ struct WallHits {
 // `height`: true metres.
 HWY_INLINE WallHits wall_hits(const FacadePaint& paint, const TilePaint& tile,
                               const PacketHits& hits, Floats height) {
-    const std::array<Floats, 3> normal = true_normal(grain_normal(tile, hits), paint.exaggeration);
-    const Lanes steep = hn::And(hits.found, hn::Lt(normal[2], all(wall_cosine)));
+    const std::array<Floats, 3> normal = true_normal(normal_of(tile, hits), paint.exaggeration);
+    const Lanes steep = hn::And(hits.found, lean_beyond(normal, wall_cosine));
     WallHits on{steep, {paint.walls, hn::Zero(ints)}, hn::Zero(floats)};
     if (hn::AllFalse(floats, steep)) {
         return on;
@@ -140,7 +154,7 @@ HWY_INLINE WallHits wall_hits(const FacadePaint& paint, const TilePaint& tile,
         return on;
     }
     const Floats wall = hn::IfThenElseZero(on.found, hn::Sub(number, all(1.0F)));
-    on.wall.first = hn::Mul(hn::ConvertTo(ints, wall), all(FacadePaint::wall_values));
+    on.wall.first = hn::Mul(truncated(wall), all(FacadePaint::wall_values));
     on.shadow = hn::GatherIndex(floats, paint.samples + 1, values);
     const Lanes below_top = hn::Le(height, on.wall(top_value));
     on.found = hn::And(on.found, hn::And(face_as_walls(on.wall, normal), below_top));

@@ -32,28 +32,26 @@ HWY_INLINE std::array<Floats, 3> turned(glm::vec2 turn, const std::array<Floats,
             hn::MulSub(cosine, world[1], hn::Mul(sine, world[0])), world[2]};
 }
 
-// The normal of the hits' surface along the axes of the patterns, unit vectors.
-HWY_INLINE std::array<Floats, 3> grain_normal(const TilePaint& paint, const PacketHits& hits) {
+// A normal of the hits' surface along the axes of the patterns, of any length.
+HWY_INLINE std::array<Floats, 3> normal_of(const TilePaint& paint, const PacketHits& hits) {
     const Slopes slopes = slopes_of(hits);
     const glm::mat3& from = paint.normal_from_slopes;
-    std::array<Floats, 3> normal;
-    Floats square = hn::Zero(floats);
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto index = static_cast<std::size_t>(axis);
-        normal[index] =
-            hn::NegMulAdd(slopes.col, all(from[0][axis]),
-                          hn::NegMulAdd(slopes.row, all(from[1][axis]), all(from[2][axis])));
-        square = hn::MulAdd(normal[index], normal[index], square);
-    }
-    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(square));
-    for (Floats& component : normal) {
-        component = hn::Mul(component, per_length);
-    }
-    return normal;
+    const auto component = [&](int axis) HWY_ATTR {
+        return hn::NegMulAdd(slopes.col, all(from[0][axis]),
+                             hn::NegMulAdd(slopes.row, all(from[1][axis]), all(from[2][axis])));
+    };
+    return {component(0), component(1), component(2)};
 }
 
 HWY_INLINE Floats dot(const std::array<Floats, 3>& a, const std::array<Floats, 3>& b) {
     return hn::MulAdd(a[0], b[0], hn::MulAdd(a[1], b[1], hn::Mul(a[2], b[2])));
+}
+
+HWY_INLINE std::array<Floats, 3> unit_vector(const std::array<Floats, 3>& vector) {
+    const Floats tiny = all(1e-30F); // of lanes without hits
+    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(hn::Max(dot(vector, vector), tiny)));
+    return {hn::Mul(vector[0], per_length), hn::Mul(vector[1], per_length),
+            hn::Mul(vector[2], per_length)};
 }
 
 HWY_INLINE std::array<Floats, 3> all_of(glm::vec3 vector) {
@@ -105,8 +103,8 @@ HWY_INLINE Grain grain_in(const GrainPaint& grain, Ints layer, const PatternPlac
     const Floats part_u = hn::Sub(u, floor_u);
     const Floats part_v = hn::Sub(v, floor_v);
     const Ints one = all(std::int32_t{1});
-    const Ints col = hn::And(hn::ConvertTo(ints, floor_u), last);
-    const Ints row = hn::And(hn::ConvertTo(ints, floor_v), last);
+    const Ints col = hn::And(truncated(floor_u), last);
+    const Ints row = hn::And(truncated(floor_v), last);
     const Ints next_col = hn::And(hn::Add(col, one), last);
     const Ints next_row = hn::And(hn::Add(row, one), last);
     const Ints shift = hn::Sub(all(std::countr_zero(static_cast<unsigned>(grain.side))), level);
@@ -137,7 +135,7 @@ HWY_INLINE Grain grain_in(const GrainPaint& grain, Ints layer, const PatternPlac
 HWY_INLINE Grain grain_between(const GrainPaint& grain, Ints layer, const PatternPlace& place,
                                Floats level) {
     const Floats zero = hn::Zero(floats);
-    const Ints fine = hn::ConvertTo(ints, level);
+    const Ints fine = truncated(level);
     const Floats off = hn::Sub(hn::Sub(level, hn::ConvertTo(floats, fine)), all(0.5F));
     const Floats steep = hn::MulAdd(off, all(level_steepness), all(0.5F));
     const Floats part = hn::Min(hn::Max(steep, zero), all(1.0F));
@@ -343,7 +341,7 @@ HWY_INLINE Color with_grain(const BlockPaint& paint, const TilePaint& tile,
                             const Color& lit) {
     const Floats zero = hn::Zero(floats);
     const GrainPaint& grain = *paint.grain;
-    const std::array<Floats, 3> normal = grain_normal(tile, hits);
+    const std::array<Floats, 3> normal = unit_vector(normal_of(tile, hits));
     const ShareOfChoices shares = shares_of_choices(grain, normal, by_sun);
     const GrainLook look = grain_at(grain, place, normal, shares, hits.found);
     const Floats strength = strength_on(grain, normal, by_sun);

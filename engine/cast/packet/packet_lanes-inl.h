@@ -41,6 +41,31 @@ HWY_INLINE Lanes no_lanes() {
     return hn::MaskFromVec(hn::Zero(floats));
 }
 
+// Towards zero, and to the nearest. The values must be in the range of ints: they are not limited
+// to it.
+#if HWY_TARGET <= HWY_AVX3
+HWY_INLINE Ints truncated(Floats value) {
+    return Ints{_mm512_cvttps_epi32(value.raw)};
+}
+HWY_INLINE Ints rounded(Floats value) {
+    return Ints{_mm512_cvtps_epi32(value.raw)};
+}
+#elif HWY_TARGET == HWY_AVX2
+HWY_INLINE Ints truncated(Floats value) {
+    return Ints{_mm256_cvttps_epi32(value.raw)};
+}
+HWY_INLINE Ints rounded(Floats value) {
+    return Ints{_mm256_cvtps_epi32(value.raw)};
+}
+#else
+HWY_INLINE Ints truncated(Floats value) {
+    return hn::ConvertTo(ints, value);
+}
+HWY_INLINE Ints rounded(Floats value) {
+    return hn::NearestInt(value);
+}
+#endif
+
 // Exactly `a` at part 0 and `b` at part 1.
 HWY_INLINE Floats mixed(Floats a, Floats b, Floats part) {
     return hn::MulAdd(part, b, hn::NegMulAdd(part, a, a));
@@ -51,6 +76,15 @@ HWY_INLINE Floats size_of(Ints level) {
     constexpr int exponent_bits = 23;
     constexpr int exponent_of_one = 127;
     return hn::BitCast(floats, hn::ShiftLeft<exponent_bits>(hn::Add(level, all(exponent_of_one))));
+}
+
+// The lanes of `lanes` in which a > b.
+HWY_INLINE Lanes and_greater(Lanes lanes, Floats a, Floats b) {
+#if HWY_TARGET <= HWY_AVX3
+    return Lanes{_mm512_mask_cmp_ps_mask(lanes.raw, a.raw, b.raw, _CMP_GT_OQ)};
+#else
+    return hn::And(lanes, hn::Gt(a, b));
+#endif
 }
 
 // Values that lie side by side.

@@ -61,15 +61,16 @@ HWY_INLINE Floats exp2_of(Floats x) {
     const Floats power =
         cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
     return hn::IfThenElseZero(hn::Gt(x, smallest),
-                              hn::Mul(power, size_of(hn::ConvertTo(ints, whole))));
+                              hn::Mul(power, size_of(truncated(whole))));
 }
 
-// The three times 10 bits of a texel, [0, 1023].
+// The three times 10 bits of a texel, [0, 1023]; its other two bits are 0.
 HWY_INLINE std::array<Floats, 3> channels_of(Ints texel) {
     const auto channel = [](Ints bits) HWY_ATTR {
         return hn::ConvertTo(floats, hn::And(bits, all(std::int32_t{1023})));
     };
-    return {channel(texel), channel(hn::ShiftRight<10>(texel)), channel(hn::ShiftRight<20>(texel))};
+    return {channel(texel), channel(hn::ShiftRight<10>(texel)),
+            hn::ConvertTo(floats, hn::ShiftRight<20>(texel))};
 }
 
 // What texels hold.
@@ -145,8 +146,8 @@ HWY_INLINE void add_level(const TilePaint& paint, const MapPlaces& places, Ints 
     };
     const Floats u = inside(places.col, last_col);
     const Floats v = inside(places.row, last_row);
-    const Ints col = hn::ConvertTo(ints, u);
-    const Ints row = hn::ConvertTo(ints, v);
+    const Ints col = truncated(u);
+    const Ints row = truncated(v);
     const Ints stride = hn::Add(last_col, all(2));
     const Ints index = hn::Add(hn::Add(hn::Mul(row, stride), col), begin_of(paint, level));
     add_bilinear<Encoding>(paint.texels,
@@ -165,7 +166,7 @@ HWY_INLINE Color map_sum(const TilePaint& paint, const PacketHits& hits, Floats 
     };
     const MapPlaces places{place(hits.col, hits.col_part, 0), place(hits.row, hits.row_part, 1)};
     const Floats seen = hn::IfThenElseZero(hits.found, level);
-    const Ints fine = hn::ConvertTo(ints, seen);
+    const Ints fine = truncated(seen);
     const Floats coarse_part = hn::Sub(seen, hn::ConvertTo(floats, fine));
     Color sum = all(glm::vec3(0.0F));
     add_level<Encoding>(paint, places, fine, hn::Sub(all(1.0F), coarse_part), sum);

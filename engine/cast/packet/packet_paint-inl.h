@@ -7,6 +7,8 @@
 #define RELJEF_PACKET_PAINT_INL_H
 #endif
 
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "engine/cast/packet/packet_air-inl.h"
@@ -21,8 +23,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-// The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light.
-HWY_INLINE Ints srgb_byte(Floats linear) {
+// The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light: the last byte of a
+// float's bits, whose unit is 1.
+HWY_INLINE Ints srgb_bits(Floats linear) {
     const Floats inside = hn::Min(hn::Max(linear, hn::Zero(floats)), all(1.0F));
     const Floats root = hn::Sqrt(inside); // a smoother function of it
     const Floats high = cubic(root, 3.0326164F, -3.5527477F, 2.2484992F, -0.58427072F);
@@ -31,13 +34,15 @@ HWY_INLINE Ints srgb_byte(Floats linear) {
                    root, all(-0.040864021F));
     const Floats encoded =
         hn::IfThenElse(hn::Le(inside, all(0.0031308F)), hn::Mul(inside, all(12.92F)), curve);
-    return hn::NearestInt(hn::Mul(encoded, all(255.0F)));
+    return hn::BitCast(ints, hn::Add(hn::Mul(encoded, all(255.0F)), all(0x1p23F)));
 }
 
 HWY_INLINE Ints bytes_of(const Color& color) {
-    const Ints red_green = hn::Or(srgb_byte(color.r), hn::ShiftLeft<8>(srgb_byte(color.g)));
-    const Ints blue = hn::ShiftLeft<16>(srgb_byte(color.b));
-    return hn::Or(hn::Or(red_green, blue), hn::ShiftLeft<24>(all(255)));
+    const Ints green = hn::ShiftLeft<8>(srgb_bits(color.g));
+    const Ints blue = hn::ShiftLeft<16>(srgb_bits(color.b));
+    // Opaque: all bits of the last byte, also those of floats around 2^23.
+    static_assert((std::bit_cast<std::uint32_t>(0x1p23F) & 0x00FFFFFFU) == 0);
+    return hn::Or(hn::Or(srgb_bits(color.r), green), hn::Or(blue, hn::ShiftLeft<24>(all(255))));
 }
 
 // How hits lie to their rays.

@@ -61,13 +61,6 @@ HWY_INLINE Vectors turned_by(const glm::mat3& turn, const Vectors& vector) {
     return turned;
 }
 
-HWY_INLINE Vectors unit_vector(const Vectors& vector) {
-    const Floats tiny = all(1e-30F); // of lanes without hits
-    const Floats per_length = hn::Div(all(1.0F), hn::Sqrt(hn::Max(dot(vector, vector), tiny)));
-    return {hn::Mul(vector[0], per_length), hn::Mul(vector[1], per_length),
-            hn::Mul(vector[2], per_length)};
-}
-
 // Of a map of packed_normal(), along the local axes, of any length.
 HWY_INLINE Vectors map_normal(const TilePaint& normals, const PacketHits& hits, Floats level) {
     const Color sum = map_sum<Linear>(normals, hits, level);

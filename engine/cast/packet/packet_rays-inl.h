@@ -101,7 +101,8 @@ struct Axis {
     Floats direction;
     Floats inverse;
     Floats origin_inverse; // origin · inverse
-    Ints ahead;            // 1 where the ray moves to higher lines, else 0
+    Floats ahead;          // 1 where the ray moves to higher lines, else 0
+    Floats stride;         // 1 there, else -1
     Floats base;           // of the samples
     std::int32_t last = 0; // cell
 
@@ -111,6 +112,12 @@ struct Axis {
         return hn::MulSub(line, inverse, origin_inverse);
     }
     [[nodiscard]] HWY_INLINE Floats at(Floats t) const { return hn::MulAdd(t, direction, origin); }
+
+    // The cell, counted from the base, that the ray leaves at a line.
+    [[nodiscard]] HWY_INLINE Floats cell_before(Floats line) const { return hn::Sub(line, ahead); }
+    [[nodiscard]] HWY_INLINE Ints index_of(Floats cell) const {
+        return truncated(hn::Add(cell, base));
+    }
 };
 
 struct Rays {
@@ -135,7 +142,8 @@ HWY_INLINE Axis axis_of(Floats origin, Floats direction, int base, int cells) {
     axis.inverse = hn::Div(all(1.0F), axis.direction);
     axis.origin_inverse = hn::Mul(origin, axis.inverse);
     const Lanes forward = hn::Gt(axis.direction, hn::Zero(floats));
-    axis.ahead = hn::IfThenElseZero(hn::RebindMask(ints, forward), all(1));
+    axis.ahead = hn::IfThenElseZero(forward, all(1.0F));
+    axis.stride = hn::IfThenElse(forward, all(1.0F), all(-1.0F));
     axis.base = all(static_cast<float>(base));
     axis.last = cells - 1;
     return axis;
@@ -216,7 +224,7 @@ HWY_INLINE Lanes walled_of(const Rays& rays, const Entry& entry, Floats begin,
     const unsigned walls = job.walls;
     const auto has = [&](unsigned side) HWY_ATTR { return all((walls & side) != 0 ? 1.0F : 0.0F); };
     const auto side_of = [&](const Axis& axis, unsigned low, unsigned high) HWY_ATTR {
-        const Lanes forward = hn::RebindMask(floats, hn::Eq(axis.ahead, all(1)));
+        const Lanes forward = hn::Gt(axis.ahead, hn::Zero(floats));
         return hn::IfThenElse(forward, has(low), has(high));
     };
     const Floats side =
@@ -323,7 +331,7 @@ HWY_INLINE Ints cell_inside(Floats place, int base, int cells) {
     const float first = static_cast<float>(-base);
     const Floats inside =
         hn::Min(hn::Max(place, all(first)), all(first + static_cast<float>(cells - 1)));
-    return hn::Add(hn::ConvertTo(ints, hn::Floor(inside)), all(base));
+    return hn::Add(truncated(hn::Floor(inside)), all(base));
 }
 
 // The highest height over the cells of a piece: of the at most four blocks that cover them.

@@ -44,8 +44,8 @@ HWY_INLINE Floats relief_height(const DetailPaint& detail, Floats col, Floats ro
     };
     const Floats x = wrapped(col, detail.samples.x);
     const Floats y = wrapped(row, detail.samples.y);
-    const Ints cell_col = hn::Min(hn::ConvertTo(ints, x), all(detail.samples.x - 1));
-    const Ints cell_row = hn::Min(hn::ConvertTo(ints, y), all(detail.samples.y - 1));
+    const Ints cell_col = hn::Min(truncated(x), all(detail.samples.x - 1));
+    const Ints cell_row = hn::Min(truncated(y), all(detail.samples.y - 1));
     const std::int32_t stride = detail.samples.x + 1;
     const Ints index = hn::Add(hn::Mul(cell_row, all(stride)), cell_col);
     const auto north = load_neighbours(floats, detail.heights, index);

@@ -11,14 +11,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-// Where each ray is: a cell, which it enters at t, or inside which it begins.
+// Where each ray is: in the cell that it leaves at one of its next lines. It enters it at t, or
+// begins inside of it.
 struct Walk {
     Floats t;
-    Ints col;
-    Ints row;
+    Floats col_line; // from the base
+    Floats row_line;
     Lanes active;  // not hit, not at the end
     Lanes arrived; // in a cell that it may hit
-    Lanes passed;  // misses its cell
     // Only among tiles with walls:
     Floats entry; // t at which it comes in
     Lanes walled; // from another tile
@@ -27,38 +27,30 @@ struct Walk {
     Work work;
 };
 
-// The cell before a line.
-HWY_INLINE Ints cell_behind(const Axis& axis, Floats line) {
-    const Floats near = hn::Sub(line, hn::ConvertTo(floats, axis.ahead));
-    return hn::ConvertTo(ints, hn::Add(near, axis.base));
-}
-
-// The cell at the start: that of the place, corrected by the t of its lines.
-HWY_INLINE Ints cell_at(const Axis& axis, Floats start) {
+// The line at which a ray leaves the cell where it is at t: that of its place, corrected by the t
+// of the cell's lines.
+HWY_INLINE Floats line_after(const Axis& axis, Floats t) {
     const Floats first = hn::Neg(axis.base);
     const Floats last = hn::Add(first, all(static_cast<float>(axis.last)));
     const auto inside = [&](Floats cell) HWY_ATTR { return hn::Min(hn::Max(cell, first), last); };
-    const Floats cell = inside(hn::Floor(axis.at(start)));
-    const Floats ahead = hn::ConvertTo(floats, axis.ahead);
-    const Floats stride = hn::Sub(hn::Add(ahead, ahead), all(1.0F));
-    const Floats entering = axis.time_at(hn::Sub(hn::Add(cell, all(1.0F)), ahead));
-    const Floats leaving = axis.time_at(hn::Add(cell, ahead));
-    const Floats back = hn::IfThenElseZero(hn::Lt(start, entering), stride);
-    const Floats onward = hn::IfThenElseZero(hn::Ge(start, leaving), stride);
-    const Floats corrected = inside(hn::Add(hn::Sub(cell, back), onward));
-    return hn::ConvertTo(ints, hn::Add(corrected, axis.base));
+    const Floats cell = inside(hn::Floor(axis.at(t)));
+    const Floats line = hn::Add(cell, axis.ahead);
+    const Floats entering = axis.time_at(hn::Sub(line, axis.stride));
+    const Floats leaving = axis.time_at(line);
+    const Floats back = hn::IfThenElseZero(hn::Lt(t, entering), axis.stride);
+    const Floats onward = hn::IfThenElseZero(hn::Ge(t, leaving), axis.stride);
+    return hn::Add(inside(hn::Add(hn::Sub(cell, back), onward)), axis.ahead);
 }
 
 HWY_INLINE Walk walk_from(const Rays& rays, Floats start) {
     Walk walk;
     walk.active = hn::Lt(start, rays.end);
     walk.arrived = no_lanes();
-    walk.passed = no_lanes();
     walk.wall = no_lanes();
     walk.work = Work::nothing();
     walk.t = hn::IfThenElse(walk.active, start, rays.begin);
-    walk.col = cell_at(rays.col, walk.t);
-    walk.row = cell_at(rays.row, walk.t);
+    walk.col_line = line_after(rays.col, walk.t);
+    walk.row_line = line_after(rays.row, walk.t);
     return walk;
 }
 
@@ -74,14 +66,28 @@ struct NextLine {
     }
 };
 
-HWY_INLINE NextLine next_line(const Axis& axis, Ints block, float cells) {
+// The block of a level that a ray leaves next, along one axis.
+struct NextBlock {
+    Ints index;
     NextLine next;
-    next.line =
-        hn::MulSub(hn::ConvertTo(floats, hn::Add(block, axis.ahead)), all(cells), axis.base);
-    next.t = axis.time_at(next.line);
-    const Floats twice = hn::ConvertTo(floats, hn::Add(axis.ahead, axis.ahead));
-    next.stride = hn::MulSub(twice, all(cells), all(cells));
-    return next;
+};
+
+// `cell_line`: at which it leaves a cell of the block.
+HWY_INLINE NextBlock next_block(const Axis& axis, Floats cell_line, int level) {
+    NextBlock block;
+    const Ints cell = axis.index_of(axis.cell_before(cell_line));
+    if (level == 0) {
+        block.index = cell;
+        block.next = {cell_line, axis.time_at(cell_line), axis.stride};
+        return block;
+    }
+    const Floats cells = all(static_cast<float>(1 << level));
+    block.index = hn::ShiftRightSame(cell, level);
+    block.next.line =
+        hn::MulSub(hn::Add(hn::ConvertTo(floats, block.index), axis.ahead), cells, axis.base);
+    block.next.t = axis.time_at(block.next.line);
+    block.next.stride = hn::Mul(axis.stride, cells);
+    return block;
 }
 
 // The elements of the blocks of a level in TileSamples::maxima.
@@ -101,10 +107,12 @@ HWY_INLINE BlockPlaces places_of(const Rays& rays, const TileSamples& tile, Ints
                                  int level) {
     const int first_row = 2 * tile.rows - ((2 * tile.rows) >> level);
     const Ints stride = all(tile.stride);
-    const auto signs = [](const Axis& axis)
-                           HWY_ATTR { return hn::Sub(hn::Add(axis.ahead, axis.ahead), all(1)); };
-    return {hn::Add(hn::Mul(hn::Add(row, all(first_row)), stride), col), signs(rays.col),
-            hn::Mul(signs(rays.row), stride)};
+    const auto steps = [](const Axis& axis, int elements) HWY_ATTR {
+        const Lanes forward = hn::Gt(axis.stride, hn::Zero(floats));
+        return hn::IfThenElse(hn::RebindMask(ints, forward), all(elements), all(-elements));
+    };
+    return {hn::Add(hn::Mul(hn::Add(row, all(first_row)), stride), col), steps(rays.col, 1),
+            steps(rays.row, tile.stride)};
 }
 
 // The last element of TileSamples::maxima.
@@ -123,7 +131,7 @@ HWY_INLINE Floats maxima_at(const float* maxima, Ints places, Ints last, Lanes l
 
 // A packet on its way from block to block of a level while its rays are above them. No step waits
 // for the maxima of the one before: rays that have arrived at a block that they may hit go on, and
-// their last lines are kept.
+// their last lines are kept. Rays that have left the tile go on, too, until the end of the march.
 template <class Mode> struct March {
     NextLine col;
     NextLine row;
@@ -136,45 +144,43 @@ template <class Mode> struct March {
     Floats enter_height;
     Lanes lanes;
     Lanes run;
-    Lanes ended;
+    // Only among tiles with walls, or where work is counted:
+    Floats first_col; // the first lines
+    Floats first_row;
+    Floats entered; // t
 
     HWY_INLINE static March start(const Rays& rays, const BlockJob& job, int level,
                                   const Walk& walk) {
-        const auto cells = static_cast<float>(1 << level);
-        const Ints first_col = hn::ShiftRightSame(walk.col, level);
-        const Ints first_row = hn::ShiftRightSame(walk.row, level);
+        const NextBlock col = next_block(rays.col, walk.col_line, level);
+        const NextBlock row = next_block(rays.row, walk.row_line, level);
         const float lift = job.skips_cells ? job.rays.lift : std::numeric_limits<float>::infinity();
         March march;
         march.lanes = hn::AndNot(walk.arrived, walk.active);
         march.run = march.lanes;
-        march.ended = no_lanes();
-        march.col = next_line(rays.col, first_col, cells);
-        march.row = next_line(rays.row, first_row, cells);
-        march.places = places_of(rays, job.tile, first_col, first_row, level);
+        march.col = col.next;
+        march.row = row.next;
+        march.places = places_of(rays, job.tile, col.index, row.index, level);
         march.last_place = last_place_of(job.tile);
         march.maxima = job.tile.maxima;
         march.kept_col = march.col.line;
         march.kept_row = march.row.line;
+        march.first_col = march.col.line;
+        march.first_row = march.row.line;
         march.height = hn::Add(rays.height, all(job.rays.base_height - lift));
         march.enter_height = hn::MulAdd(walk.t, rays.rise, march.height);
+        march.entered = walk.t;
         return march;
     }
 
     HWY_INLINE void step(const Rays& rays, Walk& walk) {
         const Floats next = hn::Min(col.t, row.t);
-        const Floats leave_height = hn::MulAdd(hn::Min(next, rays.end), rays.rise, height);
+        const Floats leave_height = hn::MulAdd(next, rays.rise, height);
         const Floats highest = maxima_at(maxima, places.index, last_place, lanes);
         if constexpr (Mode::counts) {
-            walk.work.step(run, 1);
+            walk.work.step(hn::And(run, hn::Lt(entered, rays.end)), 1);
+            entered = next;
         }
-        Lanes over = hn::And(run, hn::Gt(hn::Min(enter_height, leave_height), highest));
-        if constexpr (Mode::has_walls) {
-            walk.below = hn::AndNot(over, walk.below);
-        }
-        over = hn::Or(over, walk.passed);
-        walk.passed = no_lanes();
-        run = hn::And(over, hn::Lt(next, rays.end));
-        ended = hn::Or(ended, hn::AndNot(run, over));
+        run = and_greater(run, hn::Min(enter_height, leave_height), highest);
         const Lanes sideways = hn::Le(col.t, row.t);
         col.pass(rays.col, sideways);
         row.pass(rays.row, hn::Not(sideways));
@@ -188,15 +194,20 @@ template <class Mode> struct March {
         const Floats entering = hn::Max(rays.col.time_at(hn::Sub(kept_col, col.stride)),
                                         rays.row.time_at(hn::Sub(kept_row, row.stride)));
         walk.t = hn::IfThenElse(lanes, hn::Max(walk.t, entering), walk.t);
-        walk.active = hn::AndNot(ended, walk.active);
-        const IntLanes moved = hn::RebindMask(ints, lanes);
+        const Lanes there = hn::And(lanes, hn::Lt(walk.t, rays.end));
+        walk.active = hn::Or(there, hn::AndNot(lanes, walk.active));
+        if constexpr (Mode::has_walls) {
+            const Lanes moved =
+                hn::Or(hn::Ne(kept_col, first_col), hn::Ne(kept_row, first_row)); // above a block
+            walk.below = hn::AndNot(hn::And(lanes, moved), walk.below);
+        }
         if (level == 0) {
-            walk.arrived = hn::Or(walk.arrived, hn::AndNot(hn::Or(ended, run), lanes));
-            walk.col = hn::IfThenElse(moved, cell_behind(rays.col, kept_col), walk.col);
-            walk.row = hn::IfThenElse(moved, cell_behind(rays.row, kept_row), walk.row);
+            walk.arrived = hn::Or(walk.arrived, hn::AndNot(run, there));
+            walk.col_line = hn::IfThenElse(lanes, kept_col, walk.col_line);
+            walk.row_line = hn::IfThenElse(lanes, kept_row, walk.row_line);
         } else {
-            walk.col = hn::IfThenElse(moved, cell_at(rays.col, walk.t), walk.col);
-            walk.row = hn::IfThenElse(moved, cell_at(rays.row, walk.t), walk.row);
+            walk.col_line = hn::IfThenElse(lanes, line_after(rays.col, walk.t), walk.col_line);
+            walk.row_line = hn::IfThenElse(lanes, line_after(rays.row, walk.t), walk.row_line);
         }
     }
 };
@@ -247,14 +258,27 @@ HWY_INLINE Lanes hit_walls(const Piece& piece, Lanes crossing, Walk& walk) {
     return wall;
 }
 
+// Moves rays that miss their cells into the next ones.
+HWY_INLINE void pass_cells(const Rays& rays, const CellLines& lines, Lanes missed, Walk& walk) {
+    const Lanes sideways = hn::Le(lines.col.leaving, lines.row.leaving);
+    const auto move = [](const Axis& axis, Lanes lanes, Floats& line) HWY_ATTR {
+        line = hn::IfThenElse(lanes, hn::Add(line, axis.stride), line);
+    };
+    move(rays.col, hn::And(missed, sideways), walk.col_line);
+    move(rays.row, hn::AndNot(sideways, missed), walk.row_line);
+    walk.t = hn::IfThenElse(missed, hn::Min(lines.col.leaving, lines.row.leaving), walk.t);
+    walk.active = hn::AndNot(hn::And(missed, hn::Ge(walk.t, rays.end)), walk.active);
+}
+
 // Ends the rays that hit their cells.
 template <class Mode>
 HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
+    const CellLines lines{lines_of(rays.col, walk.col_line), lines_of(rays.row, walk.row_line)};
     const IntLanes there = hn::RebindMask(ints, walk.arrived);
-    const Ints col = hn::IfThenElseZero(there, walk.col);
-    const Ints row = hn::IfThenElseZero(there, walk.row);
-    const Corners corners = corners_of(job, col, row);
-    const Piece piece = piece_in(rays, corners, col, row);
+    const Corners corners =
+        corners_of(job, hn::IfThenElseZero(there, rays.col.index_of(lines.col.cell)),
+                   hn::IfThenElseZero(there, rays.row.index_of(lines.row.cell)));
+    const Piece piece = piece_in(rays, corners, lines);
     if constexpr (Mode::counts) {
         constexpr int corner_count = 4;
         walk.work.step(walk.arrived, corner_count);
@@ -265,7 +289,7 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPie
     }
     pieces.keep(piece, corners, hit);
     walk.active = hn::AndNot(hit, walk.active);
-    walk.passed = hn::AndNot(hit, walk.arrived);
+    pass_cells(rays, lines, hn::AndNot(hit, walk.arrived), walk);
     walk.arrived = no_lanes();
     return hit;
 }
@@ -381,9 +405,12 @@ HWY_INLINE PacketHits hits_in(const HitPieces& pieces, Lanes found, const Rays& 
                               const Walk& walk) {
     PacketHits hits;
     hits.found = found;
-    const IntLanes found_ints = hn::RebindMask(ints, hits.found);
-    hits.col = hn::IfThenElseZero(found_ints, walk.col);
-    hits.row = hn::IfThenElseZero(found_ints, walk.row);
+    const auto cell = [&](const Axis& axis, Floats line) HWY_ATTR {
+        return hn::IfThenElseZero(hn::RebindMask(ints, hits.found),
+                                  axis.index_of(axis.cell_before(line)));
+    };
+    hits.col = cell(rays.col, walk.col_line);
+    hits.row = cell(rays.row, walk.row_line);
     hits.corners = pieces.corners_of(hits.found);
     const Piece piece = pieces.piece_of(hits.found);
     Floats u = crossing_of(piece);
