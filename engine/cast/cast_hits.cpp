@@ -83,6 +83,9 @@ public:
         std::vector<std::size_t> tiles;
         std::vector<BlockJob> jobs = block_jobs(placed_, block, options_.skips, &tiles);
         if (jobs.empty()) {
+            for (int row = 0; row < block.size.y; ++row) {
+                std::fill_n(&hits_(block.first.x, block.first.y + row), block.size.x, Hit{});
+            }
             return;
         }
         BlockHits found;
@@ -109,9 +112,8 @@ private:
             for (int col = 0; col < block.size.x; ++col) {
                 const auto pixel =
                     static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
-                if (found.t[pixel] < std::numeric_limits<float>::infinity()) {
-                    to[col] = hit_at_pixel(pixel);
-                }
+                const bool is_hit = found.t[pixel] < std::numeric_limits<float>::infinity();
+                to[col] = is_hit ? hit_at_pixel(pixel) : Hit{};
             }
         }
     }
@@ -127,7 +129,7 @@ private:
 
 Result<HitBuffer> cast_hits(const PlacedTiles& placed, glm::ivec2 size,
                             const CastOptions& options) {
-    HitBuffer hits(size.x, size.y);
+    HitBuffer hits = HitBuffer::unfilled(size.x, size.y);
     const HitBlocks blocks(placed, options, hits);
     if (!for_each_block(
             size, options.parallel,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -51,6 +52,16 @@ private:
     std::ptrdiff_t stride_ = 0;
 };
 
+/// Leaves elements without a value where a container would make default ones.
+template <class T> struct UnfilledAllocator : std::allocator<T> {
+    template <class U> struct rebind {
+        using other = UnfilledAllocator<U>;
+    };
+    template <class U> void construct(U* /*element*/) {
+        static_assert(std::is_trivially_copyable_v<U>);
+    }
+};
+
 /// A rectangle of samples, row-major. `col` grows east, `row` grows south; (0,0) is the centre of
 /// the north-west sample.
 template <class T> class Grid {
@@ -59,6 +70,15 @@ public:
     /// Precondition: cols, rows >= 0.
     Grid(int cols, int rows, T fill = T{})
         : samples_(count(cols, rows), fill), cols_(cols), rows_(rows) {}
+    /// Samples have no values: each is to be written before it is read. Threads that write to parts
+    /// of it share the work of the first access to its memory. Precondition: cols, rows >= 0.
+    static Grid unfilled(int cols, int rows) {
+        Grid grid;
+        grid.samples_ = Samples(count(cols, rows));
+        grid.cols_ = cols;
+        grid.rows_ = rows;
+        return grid;
+    }
 
     [[nodiscard]] int cols() const { return cols_; }
     [[nodiscard]] int rows() const { return rows_; }
@@ -80,11 +100,13 @@ public:
     friend bool operator==(const Grid&, const Grid&) = default;
 
 private:
+    using Samples = std::vector<T, UnfilledAllocator<T>>;
+
     static std::size_t count(int cols, int rows) {
         check(cols >= 0 && rows >= 0, "grid of a negative size");
         const auto samples =
             checked_product(static_cast<std::size_t>(cols), static_cast<std::size_t>(rows));
-        check(samples && *samples <= std::vector<T>().max_size(), "grid larger than any memory");
+        check(samples && *samples <= Samples().max_size(), "grid larger than any memory");
         return *samples;
     }
     [[nodiscard]] std::size_t index(int col, int row) const {
@@ -92,7 +114,7 @@ private:
                static_cast<std::size_t>(col);
     }
 
-    std::vector<T> samples_;
+    Samples samples_;
     int cols_ = 0;
     int rows_ = 0;
 };

@@ -126,13 +126,16 @@ struct EmbreeSurface::Tree {
 
     void read(const Packet& packet, glm::ivec2 first, float eye_height, HitBuffer& hits) const {
         for (std::size_t i = 0; i < packet.valid.size(); ++i) {
-            if (packet.valid[i] == 0 || packet.rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
+            if (packet.valid[i] == 0) {
                 continue;
             }
             const int offset = static_cast<int>(i);
+            Hit& hit = hits(first.x + offset % packet_side, first.y + offset / packet_side);
             const float depth = packet.rays.ray.tfar[i];
-            hits(first.x + offset % packet_side, first.y + offset / packet_side) = hit_at(
-                place_of(packet.rays.hit, i), eye_height + depth * packet.rays.ray.dir_z[i], depth);
+            hit = packet.rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                      ? Hit{}
+                      : hit_at(place_of(packet.rays.hit, i),
+                               eye_height + depth * packet.rays.ray.dir_z[i], depth);
         }
     }
 
@@ -180,7 +183,7 @@ Result<EmbreeSurface> EmbreeSurface::create(GridView<const glm::vec3> vertices,
 }
 
 HitBuffer EmbreeSurface::draw_hits(const scene::Camera& camera, glm::ivec2 size) const {
-    HitBuffer hits(size.x, size.y);
+    HitBuffer hits = HitBuffer::unfilled(size.x, size.y);
     const PacketRays rays(camera, size);
     const auto draw_strip = [&](int strip) {
         Packet packet;

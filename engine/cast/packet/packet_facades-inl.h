@@ -124,9 +124,9 @@ HWY_INLINE Lanes face_as_walls(const WallNear& wall, const std::array<Floats, 3>
     const Floats leaning =
         hn::MulAdd(wall(outward_x_value), normal[0], hn::Mul(wall(outward_y_value), normal[1]));
     const Floats level_square = hn::MulAdd(normal[0], normal[0], hn::Mul(normal[1], normal[1]));
-    const Floats min_square = hn::IfThenElse(lean_beyond(normal, upright_cosine),
-                                             all(signed_square(corner_leaning)),
-                                             all(signed_square(wall_leaning)));
+    const Floats min_square =
+        hn::IfThenElse(lean_beyond(normal, upright_cosine), all(signed_square(corner_leaning)),
+                       all(signed_square(wall_leaning)));
     return hn::Gt(signed_square(leaning), hn::Mul(level_square, min_square));
 }
 

@@ -60,8 +60,7 @@ HWY_INLINE Floats exp2_of(Floats x) {
     const Floats whole = hn::Floor(clamped);
     const Floats power =
         cubic(hn::Sub(clamped, whole), 0.99990029F, 0.69632477F, 0.22469316F, 0.07896726F);
-    return hn::IfThenElseZero(hn::Gt(x, smallest),
-                              hn::Mul(power, size_of(truncated(whole))));
+    return hn::IfThenElseZero(hn::Gt(x, smallest), hn::Mul(power, size_of(truncated(whole))));
 }
 
 // The three times 10 bits of a texel, [0, 1023]; its other two bits are 0.

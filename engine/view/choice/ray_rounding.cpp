@@ -1,12 +1,13 @@
 #include "engine/view/choice/ray_rounding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -86,6 +87,11 @@ public:
     }
 
 private:
+    struct Parts {
+        std::array<Extent, 4> extents;
+        std::size_t count = 0;
+    };
+
     static constexpr double precision = 0.1;
 
     // Bilinear cells are extreme at the corners of their parts.
@@ -145,10 +151,11 @@ private:
             std::max(sides.x, sides.y) < smallest * std::max(spacing.x, spacing.y)) {
             return part.distance;
         }
-        std::vector<Extent> parts = divided(part, sides);
-        std::sort(parts.begin(), parts.end(),
+        Parts parts = divided(part, sides);
+        const std::span<Extent> made(parts.extents.data(), parts.count);
+        std::sort(made.begin(), made.end(),
                   [](const Extent& a, const Extent& b) { return a.distance < b.distance; });
-        for (const Extent& one : parts) {
+        for (const Extent& one : made) {
             limit = nearest(one, limit);
         }
         return limit;
@@ -167,18 +174,19 @@ private:
     }
 
     // Halves along the side that is twice as long, or quarters: columns meet at a pole.
-    [[nodiscard]] std::vector<Extent> divided(const Extent& part, glm::dvec2 sides) const {
+    [[nodiscard]] Parts divided(const Extent& part, glm::dvec2 sides) const {
         const glm::dvec2 low = part.first;
         const glm::dvec2 high = part.last;
         const glm::dvec2 mid(middle(low.x, high.x), middle(low.y, high.y));
         if (sides.x > 2.0 * sides.y) {
-            return {extent(low, {mid.x, high.y}), extent({mid.x, low.y}, high)};
+            return {{extent(low, {mid.x, high.y}), extent({mid.x, low.y}, high)}, 2};
         }
         if (sides.y > 2.0 * sides.x) {
-            return {extent(low, {high.x, mid.y}), extent({low.x, mid.y}, high)};
+            return {{extent(low, {high.x, mid.y}), extent({low.x, mid.y}, high)}, 2};
         }
-        return {extent(low, mid), extent({mid.x, low.y}, {high.x, mid.y}),
-                extent({low.x, mid.y}, {mid.x, high.y}), extent(mid, high)};
+        return {{extent(low, mid), extent({mid.x, low.y}, {high.x, mid.y}),
+                 extent({low.x, mid.y}, {mid.x, high.y}), extent(mid, high)},
+                4};
     }
 
     Surface surface_;
@@ -230,20 +238,19 @@ glm::dvec2 cell_of(const scene::TerrainNode& terrain, const scene::TerrainTile& 
                                                       terrain.surface->placement().spacing().y));
 }
 
-// The part again, as near and as steep as it is.
-RayRounding::Part looked_at(const RayRounding::Part& part, const scene::TerrainNode& terrain,
-                            const scene::TerrainTile& tile, const NearestPlace::Eye& eye) {
-    const bool borrows = tile.borrows;
-    const GridView<const float> heights =
-        borrows ? terrain.surface->heightfield().heights.view() : tile.heightfield.heights.view();
-    const terrain::Placement& placement = borrows ? terrain.surface->placement() : *tile.placement;
-    const glm::ivec2 first = borrows ? tile.first : glm::ivec2(0);
-    const glm::ivec2 last = first + tile.cells;
-    const NearestPlace place({heights, placement}, eye);
-    return {place.distance(glm::dvec2(first), glm::dvec2(last)),
-            slopes_in(heights, first, last, cell_of(terrain, tile), placement.exaggeration()),
-            part.cell};
-}
+// The samples of a tile.
+struct TileHeights {
+    GridView<const float> heights;
+    const terrain::Placement& placement;
+    glm::ivec2 first;
+    glm::ivec2 last;
+
+    TileHeights(const scene::TerrainNode& terrain, const scene::TerrainTile& tile)
+        : heights(tile.borrows ? terrain.surface->heightfield().heights.view()
+                               : tile.heightfield.heights.view()),
+          placement(tile.borrows ? terrain.surface->placement() : *tile.placement),
+          first(tile.borrows ? tile.first : glm::ivec2(0)), last(first + tile.cells) {}
+};
 
 } // namespace
 
@@ -336,7 +343,10 @@ PictureRounding::of(const DrawList& list, const TerrainDraw& draw,
         RayRounding::Part part = part_of(terrain, *tile, eye);
         double error = rounding.at(part);
         if (error > std::max(found.error, worth_a_look)) {
-            part = looked_at(part, terrain, *tile, {eye, frustum});
+            const TileHeights samples(terrain, *tile);
+            const NearestPlace place({samples.heights, samples.placement}, {eye, frustum});
+            part.distance = place.distance(glm::dvec2(samples.first), glm::dvec2(samples.last));
+            part.slopes = slopes_in_tile(terrain, tile);
             error = rounding.at(part);
         }
         if (!(error <= found.error)) {
@@ -362,6 +372,23 @@ RayRounding::Part PictureRounding::part_of(const scene::TerrainNode& terrain,
     const glm::dvec2 cell = cell_of(terrain, tile);
     return {distance, tile.borrows ? slopes_over(terrain.surface) : slopes_by_blocks(tile, cell),
             std::max(cell.x, cell.y)};
+}
+
+Slopes PictureRounding::slopes_in_tile(const scene::TerrainNode& terrain,
+                                       const std::shared_ptr<const scene::TerrainTile>& tile) {
+    const auto known = tile_slopes_.find(tile.get());
+    if (known != tile_slopes_.end() && known->second.tile.lock() == tile) {
+        return known->second.slopes;
+    }
+    constexpr std::size_t max_kept = 1 << 12; // tiles
+    if (tile_slopes_.size() >= max_kept) {
+        tile_slopes_.clear();
+    }
+    const TileHeights samples(terrain, *tile);
+    const Slopes slopes = slopes_in(samples.heights, samples.first, samples.last,
+                                    cell_of(terrain, *tile), samples.placement.exaggeration());
+    tile_slopes_[tile.get()] = {tile, slopes};
+    return slopes;
 }
 
 Slopes PictureRounding::slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface) {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -64,7 +65,7 @@ private:
     double depth_ = 0.0;       // without perspective: of a ray, metres
 };
 
-/// Bounds the rounding of the rays in a picture. Keeps what it knows of the last surface.
+/// Bounds the rounding of the rays in a picture. Keeps what it knows of surfaces and tiles.
 class PictureRounding {
 public:
     struct Found {
@@ -82,8 +83,16 @@ private:
     RayRounding::Part part_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile,
                               glm::dvec3 eye);
 
+    Slopes slopes_in_tile(const scene::TerrainNode& terrain,
+                          const std::shared_ptr<const scene::TerrainTile>& tile);
+
+    struct KnownTile {
+        std::weak_ptr<const scene::TerrainTile> tile;
+        Slopes slopes;
+    };
     std::weak_ptr<const scene::TerrainSurface> surface_;
     Slopes slopes_;
+    std::unordered_map<const scene::TerrainTile*, KnownTile> tile_slopes_;
 };
 
 } // namespace reljef::view
