@@ -49,16 +49,19 @@ BlockRays::Vectors relative(const PictureRays::Vectors& vectors, glm::dvec2 pixe
     const auto& bends = vectors.bends;
     const PixelChanges at = changes_at(vectors, pixel);
     const PixelChanges largest = largest_changes(vectors, pixel);
-    constexpr glm::dvec2 half(0.5 * beam_cols, 0.5 * beam_rows);
+    const auto half_of = [&](int rows) {
+        const glm::dvec2 half(0.5 * beam_cols, 0.5 * rows);
+        return glm::vec3(
+            half.x * largest.right + half.y * largest.down + half.x * half.x * glm::abs(bends[0]) +
+            half.x * half.y * glm::abs(bends[1]) + half.y * half.y * glm::abs(bends[2]));
+    };
     return {.middle = glm::vec3(middle),
             .right = glm::vec3(at.right),
             .down = glm::vec3(at.down),
             .bends = {glm::vec3(bends[0]), glm::vec3(bends[1]), glm::vec3(bends[2])},
             .is_bent = vectors.is_bent(),
-            .half_beam = glm::vec3(half.x * largest.right + half.y * largest.down +
-                                   half.x * half.x * glm::abs(bends[0]) +
-                                   half.x * half.y * glm::abs(bends[1]) +
-                                   half.y * half.y * glm::abs(bends[2]))};
+            .half_beam = half_of(beam_rows),
+            .half_wide_beam = half_of(wide_beam_rows)};
 }
 
 // Along columns or rows.

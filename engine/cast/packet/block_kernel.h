@@ -25,6 +25,9 @@ inline constexpr int beam_cols = 8;
 inline constexpr int beam_rows = 2;
 inline constexpr int beams_a_row = block_side / beam_cols;
 inline constexpr int beam_count = beams_a_row * (block_side / beam_rows);
+/// Beams begin where the wider ones do that hold them.
+inline constexpr int wide_beam_rows = 8;
+inline constexpr int wide_beam_count = beams_a_row * (block_side / wide_beam_rows);
 
 /// All pixels of a beam as bits.
 inline constexpr std::uint16_t whole_beam = 0xFFFF;
@@ -52,6 +55,7 @@ struct BlockRays {
         std::array<glm::vec3, 3> bends{};
         bool is_bent = false;      ///< else these are 0
         glm::vec3 half_beam{0.0F}; ///< half the extent of a beam in the block, at most
+        glm::vec3 half_wide_beam{0.0F};
     };
     glm::ivec2 base{0};       ///< col, row
     float base_height = 0.0F; ///< metres

@@ -273,11 +273,21 @@ struct BeamAxis {
     BeamSide high;
 };
 
-HWY_INLINE BeamAxis beam_axis(const BlockRays& block, const PixelOffsets& middles, int axis) {
+// Beams of a size, row after row in a block.
+struct BeamSize {
+    int cols; // pixels
+    int rows;
+    glm::vec3 BlockRays::Vectors::*half;
+};
+constexpr BeamSize narrow_beams{beam_cols, beam_rows, &BlockRays::Vectors::half_beam};
+constexpr BeamSize wide_beams{beam_cols, wide_beam_rows, &BlockRays::Vectors::half_wide_beam};
+
+HWY_INLINE BeamAxis beam_axis(const BlockRays& block, const PixelOffsets& middles, BeamSize size,
+                              int axis) {
     const Floats origin = middles.of(block.origin, axis);
     const Floats direction = middles.of(block.direction, axis);
-    const Floats wider = all(block.origin.half_beam[axis]);
-    const Floats opening = all(block.direction.half_beam[axis]);
+    const Floats wider = all((block.origin.*size.half)[axis]);
+    const Floats opening = all((block.direction.*size.half)[axis]);
     return {{hn::Sub(origin, wider), hn::Sub(direction, opening)},
             {hn::Add(origin, wider), hn::Add(direction, opening)}};
 }
@@ -290,19 +300,19 @@ struct Beams {
 };
 
 // The beams from number `first` on.
-HWY_INLINE Beams beams_of(const BlockRays& block, int first) {
+HWY_INLINE Beams beams_of(const BlockRays& block, BeamSize size, int first) {
     const Ints number = hn::Iota(ints, first);
     const auto middle = [](Ints index, int pixels) HWY_ATTR {
         const float half = 0.5F * static_cast<float>(pixels - block_side);
         return hn::MulAdd(hn::ConvertTo(floats, index), all(static_cast<float>(pixels)), all(half));
     };
     const PixelOffsets middles{
-        middle(hn::And(number, all(beams_a_row - 1)), beam_cols),
+        middle(hn::And(number, all(beams_a_row - 1)), size.cols),
         middle(hn::ShiftRight<std::countr_zero(static_cast<unsigned>(beams_a_row))>(number),
-               beam_rows)};
+               size.rows)};
     constexpr float slowest = 1e-25F;
-    return {beam_axis(block, middles, 0), beam_axis(block, middles, 1),
-            beam_axis(block, middles, 2).low, 1.0F / std::max(block.speed, slowest)};
+    return {beam_axis(block, middles, size, 0), beam_axis(block, middles, size, 1),
+            beam_axis(block, middles, size, 2).low, 1.0F / std::max(block.speed, slowest)};
 }
 
 // Bounds of the cells that the beams may touch, and of their heights, on a piece of their way.
@@ -389,16 +399,16 @@ HWY_INLINE Floats smallest_step(const Beams& beams, Floats t) {
 
 // Steps on as long as nothing can be hit; steps double in free space, and halve where a beam may
 // hit, down to half its width. Infinity for beams that hit nothing. Adds its taps.
-HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float start,
+HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, Floats start,
                               std::size_t& taps) {
     constexpr std::size_t taps_of_step = 4;
     constexpr int max_steps = 48;
     constexpr float first_step = 4.0F; // samples
     const Floats bound = all(job.rays.base_height - 2.0F * job.rays.lift);
     const Floats never = all(std::numeric_limits<float>::infinity());
-    Floats t = all(start);
+    Floats t = start;
     Floats step = all(first_step);
-    Lanes active = hn::Lt(hn::Zero(floats), all(1.0F));
+    Lanes active = hn::Lt(start, never);
     for (int i = 0; i < max_steps && !hn::AllFalse(floats, active); ++i) {
         taps += taps_of_step * hn::CountTrue(floats, active);
         const Floats end = hn::MulAdd(step, all(beams.per_sample), t);
@@ -413,10 +423,20 @@ HWY_INLINE Floats clear_until(const BlockJob& job, const Beams& beams, float sta
         active = hn::AndNot(hn::Or(near, gone), active);
     }
     const Floats before = hn::NegMulAdd(all(beam_rounding), hn::Abs(t), t);
-    return hn::IfThenElse(hn::Lt(t, never), hn::Max(before, all(start)), never);
+    return hn::IfThenElse(hn::Lt(t, never), hn::Max(before, start), never);
 }
 
-// Of all beams of a block. Returns the taps that this took.
+// The wide beams that hold the beams from number `first` on.
+HWY_INLINE Ints wide_beam_at(int first) {
+    constexpr auto cols = static_cast<unsigned>(beams_a_row);
+    constexpr int in_wide = wide_beam_rows / beam_rows;
+    const Ints number = hn::Iota(ints, first);
+    const Ints row = hn::ShiftRight<std::countr_zero(cols * in_wide)>(number);
+    return hn::Add(hn::ShiftLeft<std::countr_zero(cols)>(row),
+                   hn::And(number, all(beams_a_row - 1)));
+}
+
+// Of all beams of a block, from those of the wide ones on. Returns the taps that this took.
 HWY_INLINE std::size_t find_starts(BlockJob& job) {
     std::size_t taps = 0;
     if (job.has_starts) {
@@ -427,9 +447,15 @@ HWY_INLINE std::size_t find_starts(BlockJob& job) {
         job.starts.fill(job.start);
         return taps;
     }
+    alignas(64) std::array<float, static_cast<std::size_t>(wide_beam_count)> wide;
+    for (int first = 0; first < wide_beam_count; first += lane_count) {
+        const Beams beams = beams_of(job.rays, wide_beams, first);
+        hn::Store(clear_until(job, beams, all(job.start), taps), floats, wide.data() + first);
+    }
     for (int first = 0; first < beam_count; first += lane_count) {
-        const Floats t = clear_until(job, beams_of(job.rays, first), job.start, taps);
-        hn::StoreU(t, floats, job.starts.data() + first);
+        const Floats start = hn::GatherIndex(floats, wide.data(), wide_beam_at(first));
+        const Beams beams = beams_of(job.rays, narrow_beams, first);
+        hn::StoreU(clear_until(job, beams, start, taps), floats, job.starts.data() + first);
     }
     return taps;
 }

@@ -316,7 +316,7 @@ HWY_INLINE std::array<Lanes, count> find_hits(const std::array<Rays, count>& ray
                                               std::array<HitPieces, count>& pieces) {
     std::array<Walk, count> walks = moved; // a copy, whose vectors registers may hold
     constexpr int levels = 2;              // between marches
-    constexpr int max_steps = 16;
+    constexpr int max_steps = 24;
     std::array<Lanes, count> hits;
     for (Lanes& lanes : hits) {
         lanes = no_lanes();
