@@ -70,8 +70,8 @@ public:
     /// Precondition: cols, rows >= 0.
     Grid(int cols, int rows, T fill = T{})
         : samples_(count(cols, rows), fill), cols_(cols), rows_(rows) {}
-    /// Samples have no values: each is to be written before it is read. Threads that write to parts
-    /// of it share the work of the first access to its memory. Precondition: cols, rows >= 0.
+    /// Its samples have no values: write each of them before you read it. Threads that write to
+    /// parts of it share the work of the first access to memory. Precondition: cols, rows >= 0.
     static Grid unfilled(int cols, int rows) {
         Grid grid;
         grid.samples_ = Samples(count(cols, rows));

@@ -32,6 +32,15 @@ TEST(Grid, IsFilledWithTheGivenValue) {
     EXPECT_THAT(Grid<int>(1, 2).samples(), ElementsAre(0, 0));
 }
 
+TEST(Grid, UnfilledTakesValuesLikeAnyOther) {
+    auto grid = Grid<int>::unfilled(3, 2);
+    EXPECT_EQ(grid.cols(), 3);
+    EXPECT_EQ(grid.rows(), 2);
+    std::iota(grid.samples().begin(), grid.samples().end(), 0);
+    EXPECT_EQ(grid, counted(3, 2));
+    EXPECT_TRUE(Grid<int>::unfilled(0, 5).empty());
+}
+
 TEST(Grid, IsEmptyWithoutColumnsOrRows) {
     EXPECT_TRUE(Grid<int>().empty());
     EXPECT_TRUE(Grid<int>(0, 5).empty());

@@ -78,6 +78,30 @@ TEST(RaySkips, ContentThatIsNotKeptIsMadeAgain) {
     }
 }
 
+// Slopes of tiles near the eye are remembered from frame to frame.
+TEST(RaySkips, ALaterFrameStatesTheErrorOfAFirstOne) {
+    SkipStage gentle(test::hills(129, 97, 4.0));
+    SkipStage steep(test::hills(129, 97, 3000.0));
+    Driver kept = test::must(Driver::create({.size = seen}));
+    double largest = 0.0;
+    for (const double east : {-20.0, 3.0, 21.0, 3.0}) {
+        for (SkipStage* const stage : {&gentle, &steep}) {
+            const double ground = stage->surface().height_at(east, 2.0).value_or(0.0);
+            scene::Camera camera;
+            camera.eye = {east, 2.0, ground + 0.3};
+            camera.target = {east + 9.0, 20.0, ground};
+            stage->look(camera);
+            const auto frame = view::select(stage->scene, seen);
+            Driver fresh = test::must(Driver::create({.size = seen}));
+            const auto stated = test::must(fresh.draw(frame)).kept_error;
+            ASSERT_TRUE(stated);
+            EXPECT_EQ(test::must(kept.draw(frame)).kept_error, stated);
+            largest = std::max(largest, *stated);
+        }
+    }
+    EXPECT_GT(largest, 0.02); // smaller ones need no slopes of tiles
+}
+
 // Over flat ground a ray crosses L lines between the cells below the eye and the hit. Without any
 // skipping it reads the maximum of each cell and solves it.
 TEST(RayWork, IsThatOfTheCellsThatARayCrosses) {
