@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -84,7 +85,7 @@ public:
         std::vector<BlockJob> jobs = block_jobs(placed_, block, options_.skips, &tiles);
         if (jobs.empty()) {
             for (int row = 0; row < block.size.y; ++row) {
-                std::fill_n(&hits_(block.first.x, block.first.y + row), block.size.x, Hit{});
+                std::ranges::fill(row_of(block, row), Hit{});
             }
             return;
         }
@@ -105,15 +106,20 @@ public:
     }
 
 private:
+    [[nodiscard]] std::span<Hit> row_of(const PixelBlock& block, int row) const {
+        return hits_.row(block.first.y + row)
+            .subspan(static_cast<std::size_t>(block.first.x),
+                     static_cast<std::size_t>(block.size.x));
+    }
+
     template <class HitAt>
     void write(const PixelBlock& block, const BlockHits& found, const HitAt& hit_at_pixel) const {
         for (int row = 0; row < block.size.y; ++row) {
-            Hit* const to = &hits_(block.first.x, block.first.y + row);
-            for (int col = 0; col < block.size.x; ++col) {
-                const auto pixel =
-                    static_cast<std::size_t>(row) * block_side + static_cast<std::size_t>(col);
+            std::size_t pixel = static_cast<std::size_t>(row) * block_side;
+            for (Hit& to : row_of(block, row)) {
                 const bool is_hit = found.t[pixel] < std::numeric_limits<float>::infinity();
-                to[col] = is_hit ? hit_at_pixel(pixel) : Hit{};
+                to = is_hit ? hit_at_pixel(pixel) : Hit{};
+                ++pixel;
             }
         }
     }

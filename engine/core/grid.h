@@ -54,9 +54,9 @@ private:
 
 /// Leaves elements without a value where a container would make default ones.
 template <class T> struct UnfilledAllocator : std::allocator<T> {
-    template <class U> struct rebind {
-        using other = UnfilledAllocator<U>;
-    };
+    UnfilledAllocator() = default;
+    template <class U> UnfilledAllocator(const UnfilledAllocator<U>& /*other*/) {}
+
     template <class U> void construct(U* /*element*/) {
         static_assert(std::is_trivially_copyable_v<U>);
     }
@@ -70,8 +70,8 @@ public:
     /// Precondition: cols, rows >= 0.
     Grid(int cols, int rows, T fill = T{})
         : samples_(count(cols, rows), fill), cols_(cols), rows_(rows) {}
-    /// Its samples have no values: write each of them before you read it. Threads that write to
-    /// parts of it share the work of the first access to memory. Precondition: cols, rows >= 0.
+    /// Its samples have no values: write each before reading it. Threads that write to parts of it
+    /// share the work of the first access to memory. Precondition: cols, rows >= 0.
     static Grid unfilled(int cols, int rows) {
         Grid grid;
         grid.samples_ = Samples(count(cols, rows));

@@ -25,7 +25,7 @@ inline constexpr int beam_cols = 8;
 inline constexpr int beam_rows = 2;
 inline constexpr int beams_a_row = block_side / beam_cols;
 inline constexpr int beam_count = beams_a_row * (block_side / beam_rows);
-/// Beams begin where the wider ones do that hold them.
+/// Wide beams search first. Each beam begins its search where that of its wide beam has ended.
 inline constexpr int wide_beam_rows = 8;
 inline constexpr int wide_beam_count = beams_a_row * (block_side / wide_beam_rows);
 
@@ -53,9 +53,9 @@ struct BlockRays {
         glm::vec3 down{0.0F};
         /// Factors of right², right · down and down².
         std::array<glm::vec3, 3> bends{};
-        bool is_bent = false;      ///< else these are 0
-        glm::vec3 half_beam{0.0F}; ///< half the extent of a beam in the block, at most
-        glm::vec3 half_wide_beam{0.0F};
+        bool is_bent = false;           ///< else these are 0
+        glm::vec3 half_beam{0.0F};      ///< half the extent of a beam in the block, at most
+        glm::vec3 half_wide_beam{0.0F}; ///< the same of a wide beam
     };
     glm::ivec2 base{0};       ///< col, row
     float base_height = 0.0F; ///< metres
@@ -86,9 +86,9 @@ inline constexpr std::size_t max_paint_levels = 20;
 /// In a texel of a map of normals: three times 10 bits, each normal_zero · (1 + component).
 inline constexpr int normal_zero = 511;
 
-/// What a tile looks like: the levels of a map of colours. Texels are three times 10 bits, the
-/// square roots of linear light; or of a map of normals. One of level l covers 2^l × 2^l of level
-/// 0.
+/// What a tile looks like: the levels of a map of colours. Texels are three times 10 bits below two
+/// that are 0, the square roots of linear light; or of a map of normals. One of level l covers 2^l
+/// × 2^l of level 0.
 struct TilePaint {
     const std::uint32_t* texels = nullptr; ///< row after row; the last column and row lie twice
     std::array<std::int32_t, max_paint_levels> begin{}; ///< of a level, and of all behind the last

@@ -105,7 +105,7 @@ HWY_INLINE std::array<Floats, 3> true_normal(const std::array<Floats, 3>& drawn,
     return {drawn[0], drawn[1], hn::Mul(drawn[2], all(exaggeration))};
 }
 
-// Grows with a number: numbers are compared by it without roots.
+// Monotonic: numbers are compared by it without roots.
 HWY_INLINE Floats signed_square(Floats number) {
     return hn::Mul(number, hn::Abs(number));
 }
@@ -113,7 +113,7 @@ HWY_INLINE float signed_square(float number) {
     return number * std::abs(number);
 }
 
-// Whether normals lean farther than this from upwards.
+// Whether normals are farther from vertical than the angle of this cosine.
 HWY_INLINE Lanes lean_beyond(const std::array<Floats, 3>& normal, float cosine) {
     return hn::Lt(signed_square(normal[2]),
                   hn::Mul(dot(normal, normal), all(signed_square(cosine))));

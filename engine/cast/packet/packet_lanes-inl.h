@@ -41,8 +41,7 @@ HWY_INLINE Lanes no_lanes() {
     return hn::MaskFromVec(hn::Zero(floats));
 }
 
-// Towards zero, and to the nearest. The values must be in the range of ints: they are not limited
-// to it.
+// Towards zero, and to the nearest. The values must be in the range of ints: others give any.
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE Ints truncated(Floats value) {
     return Ints{_mm512_cvttps_epi32(value.raw)};

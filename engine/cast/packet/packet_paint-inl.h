@@ -23,8 +23,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-// The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light: the last byte of a
-// float's bits, whose unit is 1.
+// The nearest 8-bit sRGB value within 0.09 (IEC 61966-2-1), for linear light, in the low byte. The
+// other bits are those of 2^23, whose last place is 1.
 HWY_INLINE Ints srgb_bits(Floats linear) {
     const Floats inside = hn::Min(hn::Max(linear, hn::Zero(floats)), all(1.0F));
     const Floats root = hn::Sqrt(inside); // a smoother function of it
@@ -40,7 +40,7 @@ HWY_INLINE Ints srgb_bits(Floats linear) {
 HWY_INLINE Ints bytes_of(const Color& color) {
     const Ints green = hn::ShiftLeft<8>(srgb_bits(color.g));
     const Ints blue = hn::ShiftLeft<16>(srgb_bits(color.b));
-    // Opaque: all bits of the last byte, also those of floats around 2^23.
+    // Opaque: 255 covers the exponent that the bits of red have there.
     static_assert((std::bit_cast<std::uint32_t>(0x1p23F) & 0x00FFFFFFU) == 0);
     return hn::Or(hn::Or(srgb_bits(color.r), green), hn::Or(blue, hn::ShiftLeft<24>(all(255))));
 }

@@ -273,10 +273,11 @@ struct BeamAxis {
     BeamSide high;
 };
 
-// Beams of a size, row after row in a block.
+// The size of beams, which are numbered row after row in a block.
 struct BeamSize {
     int cols; // pixels
     int rows;
+    // Half their extent:
     glm::vec3 BlockRays::Vectors::*half;
 };
 constexpr BeamSize narrow_beams{beam_cols, beam_rows, &BlockRays::Vectors::half_beam};
@@ -436,7 +437,8 @@ HWY_INLINE Ints wide_beam_at(int first) {
                    hn::And(number, all(beams_a_row - 1)));
 }
 
-// Of all beams of a block, from those of the wide ones on. Returns the taps that this took.
+// Finds the starts of all beams of a block, from those of the wide ones on. Returns the taps that
+// this took.
 HWY_INLINE std::size_t find_starts(BlockJob& job) {
     std::size_t taps = 0;
     if (job.has_starts) {

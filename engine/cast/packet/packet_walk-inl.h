@@ -11,8 +11,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace reljef::cast::HWY_NAMESPACE {
 
-// Where each ray is: in the cell that it leaves at one of its next lines. It enters it at t, or
-// begins inside of it.
+// The cell of each ray, by the lines at which the ray may leave it. The ray enters the cell at t,
+// or begins inside of it.
 struct Walk {
     Floats t;
     Floats col_line; // from the base
@@ -131,7 +131,7 @@ HWY_INLINE Floats maxima_at(const float* maxima, Ints places, Ints last, Lanes l
 
 // A packet on its way from block to block of a level while its rays are above them. No step waits
 // for the maxima of the one before: rays that have arrived at a block that they may hit go on, and
-// their last lines are kept. Rays that have left the tile go on, too, until the end of the march.
+// their last lines are kept. Rays that have left the tile go on, too: end() ends them.
 template <class Mode> struct March {
     NextLine col;
     NextLine row;
@@ -144,10 +144,9 @@ template <class Mode> struct March {
     Floats enter_height;
     Lanes lanes;
     Lanes run;
-    // Only among tiles with walls, or where work is counted:
-    Floats first_col; // the first lines
+    Floats first_col; // the first lines; only among tiles with walls
     Floats first_row;
-    Floats entered; // t
+    Floats entered; // t at which a ray entered its block; only where work is counted
 
     HWY_INLINE static March start(const Rays& rays, const BlockJob& job, int level,
                                   const Walk& walk) {

@@ -189,10 +189,27 @@ Geometry repaired_polygon(const OGRPolygon& polygon) {
     return within != nullptr ? Geometry(repaired->Intersection(within.get())) : nullptr;
 }
 
+// GEOS ends the program at a hole without points.
+OGRPolygon without_empty_holes(const OGRPolygon& polygon) {
+    OGRPolygon made;
+    made.addRingDirectly(polygon.getExteriorRing()->clone()); // takes it over
+    for (int i = 0; i < polygon.getNumInteriorRings(); ++i) {
+        if (polygon.getInteriorRing(i)->getNumPoints() > 0) {
+            made.addRingDirectly(polygon.getInteriorRing(i)->clone());
+        }
+    }
+    return made;
+}
+
 // Appends the footprint of a valid polygon.
 void add_part(const OGRPolygon& polygon, PolygonParts& found) {
-    std::vector<building::Ring> rings = rings_of(polygon);
-    std::vector<glm::uvec3> triangles = triangles_of(polygon, rings);
+    if (polygon.getExteriorRing() == nullptr) {
+        ++found.broken;
+        return;
+    }
+    const OGRPolygon shown = without_empty_holes(polygon);
+    std::vector<building::Ring> rings = rings_of(shown);
+    std::vector<glm::uvec3> triangles = triangles_of(shown, rings);
     if (triangles.empty()) {
         ++found.broken;
     } else {

@@ -382,7 +382,10 @@ Slopes PictureRounding::slopes_in_tile(const scene::TerrainNode& terrain,
     }
     constexpr std::size_t max_kept = 1 << 12; // tiles
     if (tile_slopes_.size() >= max_kept) {
-        tile_slopes_.clear();
+        std::erase_if(tile_slopes_, [](const auto& entry) { return entry.second.tile.expired(); });
+        if (tile_slopes_.size() >= max_kept) {
+            tile_slopes_.clear();
+        }
     }
     const TileHeights samples(terrain, *tile);
     const Slopes slopes = slopes_in(samples.heights, samples.first, samples.last,

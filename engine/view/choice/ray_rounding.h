@@ -65,7 +65,8 @@ private:
     double depth_ = 0.0;       // without perspective: of a ray, metres
 };
 
-/// Bounds the rounding of the rays in a picture. Keeps what it knows of surfaces and tiles.
+/// Bounds the rounding of the rays in a picture. Remembers the slopes of the last surface and of
+/// tiles.
 class PictureRounding {
 public:
     struct Found {
@@ -80,16 +81,18 @@ public:
     Slopes slopes_over(const std::shared_ptr<const scene::TerrainSurface>& surface);
 
 private:
-    RayRounding::Part part_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile,
-                              glm::dvec3 eye);
-
-    Slopes slopes_in_tile(const scene::TerrainNode& terrain,
-                          const std::shared_ptr<const scene::TerrainTile>& tile);
-
     struct KnownTile {
         std::weak_ptr<const scene::TerrainTile> tile;
         Slopes slopes;
     };
+
+    RayRounding::Part part_of(const scene::TerrainNode& terrain, const scene::TerrainTile& tile,
+                              glm::dvec3 eye);
+
+    // Remembered while the tile lives.
+    Slopes slopes_in_tile(const scene::TerrainNode& terrain,
+                          const std::shared_ptr<const scene::TerrainTile>& tile);
+
     std::weak_ptr<const scene::TerrainSurface> surface_;
     Slopes slopes_;
     std::unordered_map<const scene::TerrainTile*, KnownTile> tile_slopes_;

@@ -272,5 +272,16 @@ TEST_F(FootprintFileTest, AHoleBesideItsOutlineIsNoBuilding) {
     EXPECT_NEAR(area_of_triangles(file->footprints[0].shape), 1e-6, 1e-12);
 }
 
+// GEOS reads the first point of each.
+TEST_F(FootprintFileTest, AHoleWithoutPointsIsNone) {
+    const std::string square = "[[7,45],[7.001,45],[7.001,45.001],[7,45.001],[7,45]]";
+    const auto file =
+        read({polygon_feature("[" + square + ",[]]"), polygon_feature("[[]," + square + "]"),
+              polygon_feature("[[],[]]"), polygon_feature("[]")});
+    ASSERT_TRUE(file) << file.error().message;
+    ASSERT_EQ(file->footprints.size(), 1U);
+    EXPECT_NEAR(area_of_triangles(file->footprints[0].shape), 1e-6, 1e-12);
+}
+
 } // namespace
 } // namespace reljef::io
