@@ -1,6 +1,7 @@
 #include "engine/cast/curved_rays.h"
 
 #include <array>
+#include <cstring>
 #include <span>
 #include <string>
 
@@ -40,9 +41,9 @@ struct EarthStage : test::EarthStage {
         test::EarthStage::look(sample, above, toward);
     }
 
-    [[nodiscard]] view::DrawnHits drawn(glm::ivec2 size) const {
+    [[nodiscard]] view::DrawnHits drawn(glm::ivec2 size, const RaySkips& skips = {}) const {
         render::bring_tiles(scene, size);
-        Driver driver = test::must(Driver::create({.size = size}));
+        Driver driver = test::must(Driver::create({.size = size, .skips = skips}));
         return test::must(driver.draw_hits(view::select(scene, size)));
     }
 
@@ -88,6 +89,26 @@ TEST(CurvedRays, HitWhatTheTruthHitsInStreamedTiles) {
             stage.look({120.3, 201.7}, above, {140.0, 40.0});
             stage.expect_true(fmt::format("streamed, latitude {}, {} m above", latitude, above),
                               0.01, ground_size);
+        }
+    }
+}
+
+// Beams are as wide as rays that are bent in the pixel.
+TEST(CurvedRays, HitsHaveTheSameBitsWithoutBeams) {
+    for (const bool is_streamed : {false, true}) {
+        for (const double above : {0.3, 3e3, 1e5, 1e6}) {
+            EarthStage stage({.latitude = 47.0, .step = above < 5e4 ? 0.001 : 0.004, .turn = 20.0});
+            stage.look({120.3, 201.7}, above, {140.0, 100.0});
+            if (is_streamed) {
+                stage.stream();
+            }
+            const HitBuffer all = stage.drawn(curved_size).hits;
+            const HitBuffer without = stage.drawn(curved_size, {.beams = false}).hits;
+            ASSERT_EQ(all.size(), without.size());
+            EXPECT_EQ(std::memcmp(all.samples().data(), without.samples().data(),
+                                  all.size() * sizeof(Hit)),
+                      0)
+                << above;
         }
     }
 }
