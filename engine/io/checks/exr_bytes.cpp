@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <cpl_vsi.h>
@@ -92,15 +94,52 @@ double side_between(std::string_view box, std::size_t low, std::size_t high) {
            static_cast<std::int32_t>(ExrReader::word_in(box, low)) + 1.0;
 }
 
-/// Channels are a name and 16 bytes each.
-double channels_in(std::string_view list) {
+/// Channels are a name and 16 bytes each, an empty name ends them. Absent if the list ends
+/// elsewhere: OpenEXR goes on to the empty name.
+std::optional<double> channels_in(std::string_view list) {
+    constexpr std::size_t bytes_of_channel = 16;
     double count = 0.0;
-    for (auto end = list.find('\0'); end != 0 && end != std::string_view::npos;
-         end = list.find('\0')) {
-        list.remove_prefix(std::min(end + 17, list.size()));
+    for (auto end = list.find('\0'); end != 0; end = list.find('\0')) {
+        if (end == std::string_view::npos || list.size() - end <= bytes_of_channel) {
+            return std::nullopt;
+        }
+        list.remove_prefix(end + 1 + bytes_of_channel);
         ++count;
     }
-    return count;
+    return list.size() == 1 ? std::optional(count) : std::nullopt;
+}
+
+/// Whether a value is as long as its type. OpenEXR reads that much, whatever the file states.
+bool has_length_of(std::string_view type, std::size_t bytes) {
+    using Length = std::pair<std::string_view, std::size_t>;
+    constexpr std::array lengths{Length{"box2f", 16},
+                                 Length{"box2i", 16},
+                                 Length{"chromaticities", 32},
+                                 Length{"compression", 1},
+                                 Length{"deepImageState", 1},
+                                 Length{"double", 8},
+                                 Length{"envmap", 1},
+                                 Length{"float", 4},
+                                 Length{"int", 4},
+                                 Length{"keycode", 28},
+                                 Length{"lineOrder", 1},
+                                 Length{"m33d", 72},
+                                 Length{"m33f", 36},
+                                 Length{"m44d", 128},
+                                 Length{"m44f", 64},
+                                 Length{"rational", 8},
+                                 Length{"tiledesc", 9},
+                                 Length{"timecode", 8},
+                                 Length{"v2d", 16},
+                                 Length{"v2f", 8},
+                                 Length{"v2i", 8},
+                                 Length{"v3d", 24},
+                                 Length{"v3f", 12},
+                                 Length{"v3i", 12}};
+    const auto* const found = std::find_if(
+        lengths.begin(), lengths.end(), [&](const Length& known) { return known.first == type; });
+    const bool is_whole_floats = type != "floatvector" || bytes % sizeof(float) == 0;
+    return is_whole_floats && (found == lengths.end() || found->second == bytes);
 }
 
 /// Whether the texts of a list are as long as they claim.
@@ -118,18 +157,22 @@ bool are_whole_texts(std::string_view list) {
 bool is_whole_preview(std::string_view preview) {
     const double pixels =
         static_cast<double>(ExrReader::word_in(preview, 0)) * ExrReader::word_in(preview, 4);
-    return preview.size() >= 8 && 8.0 + 4.0 * pixels <= static_cast<double>(preview.size());
+    return preview.size() >= 8 && 8.0 + 4.0 * pixels == static_cast<double>(preview.size());
 }
 
-/// Takes what an attribute says of the picture; false if it claims more than it holds.
+/// Takes what an attribute says of the picture; false if it claims other lengths than it has.
 bool take_attribute(std::string_view name, std::string_view type, std::string_view value,
                     ExrHeader& header) {
     if (name == "dataWindow") {
         header.cols = side_between(value, 0, 8);
         header.rows = side_between(value, 4, 12);
-    } else if (name == "channels") {
-        header.channels = channels_in(value);
-    } else if (name == "compression") {
+    }
+    if (type == "chlist") {
+        const auto channels = channels_in(value);
+        header.channels = std::max(header.channels, channels.value_or(0.0));
+        return channels.has_value();
+    }
+    if (name == "compression") {
         header.lines = lines_of(value.empty() ? 0 : static_cast<unsigned char>(value.front()));
     } else if (name == "tiles") {
         header.tile_cols = ExrReader::word_in(value, 0);
@@ -149,8 +192,12 @@ ExrHeader read_exr_header(ExrReader& reader) {
             reader.fail();
             return header;
         }
+        if (!has_length_of(type, size)) {
+            reader.fail();
+            return header;
+        }
         const bool is_short = size <= max_kept_attribute || type == "stringvector" ||
-                              type == "preview" || name == "channels";
+                              type == "preview" || type == "chlist";
         if (!is_short) {
             reader.skip(size);
         } else if (!take_attribute(name, type, reader.bytes(size), header)) {
@@ -191,8 +238,8 @@ Result<void> check_exr(const std::string& name) {
     for (bool is_last = false; !is_last;) {
         const ExrHeader header = read_exr_header(reader);
         if (!reader.good()) {
-            return Error{fmt::format("{}: cannot be read (its header claims more than the file "
-                                     "holds), a whole OpenEXR file was expected",
+            return Error{fmt::format("{}: cannot be read (its header claims other lengths "
+                                     "than it has), a whole OpenEXR file was expected",
                                      name)};
         }
         if (const std::string excess = excess_of(header, reader.size()); !excess.empty()) {

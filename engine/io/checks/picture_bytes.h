@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include <glm/vec2.hpp>
 
 #include "engine/core/result.h"
 
@@ -19,5 +22,9 @@ Result<void> check_png(const std::string& name, PngPart part);
 /// Fails if a TGA file of `cols`×`rows` pixels is too short for them. GDAL takes missing ones for
 /// black.
 Result<void> check_tga(const std::string& name, int cols, int rows);
+
+/// The size in pixels that a GIF or a WebP claims; absent of other files. Their readers allocate
+/// all of it as soon as they open a file.
+std::optional<glm::ivec2> claimed_size(const std::string& name);
 
 } // namespace reljef::io

@@ -13,7 +13,8 @@
 #include <ogrsf_frmts.h>
 
 #include "engine/core/atomic_file.h"
-#include "engine/io/checks/xml_nesting.h"
+#include "engine/io/checks/kml_archive.h"
+#include "engine/io/checks/xml_elements.h"
 #include "engine/io/footprints/geometry_on_earth.h"
 #include "engine/io/footprints/polygon_parts.h"
 #include "engine/io/raster/crs_transform.h"
@@ -31,7 +32,8 @@ constexpr std::array<const char*, 7> vector_formats{
 constexpr std::string_view expected_file =
     "a file with outlines of buildings (GeoJSON, Shapefile, GeoPackage, FlatGeobuf, KML)";
 
-Result<void> check_footprint_file(const fs::path& path) {
+/// The name by which GDAL opens it.
+Result<std::string> checked_footprints(const fs::path& path) {
     std::error_code code;
     if (!fs::is_regular_file(path, code)) {
         return Error{fmt::format("{}: {} found, {} was expected", path.string(), kind_of_file(path),
@@ -43,14 +45,20 @@ Result<void> check_footprint_file(const fs::path& path) {
                                  size_text(static_cast<double>(size)),
                                  size_text(static_cast<double>(max_footprint_bytes)))};
     }
-    return check_xml_nesting(path);
+    auto outlines = name_of_lines(path, max_footprint_bytes);
+    if (!outlines) {
+        return outlines;
+    }
+    const auto good = check_xml(*outlines);
+    return good ? std::move(outlines) : good.error();
 }
 
 Result<Dataset> open_footprints(const fs::path& path, const GdalMessages& messages) {
-    if (auto good = check_footprint_file(path); !good) {
-        return good.error();
+    const auto file = checked_footprints(path);
+    if (!file) {
+        return file.error();
     }
-    Dataset dataset(GDALDataset::Open(path.string().c_str(),
+    Dataset dataset(GDALDataset::Open(file->c_str(),
                                       GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                       allows_external() ? nullptr : vector_formats.data()));
     if (dataset == nullptr) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -10,7 +11,8 @@
 
 #include "engine/core/geometry.h"
 #include "engine/geo/place.h"
-#include "engine/io/checks/xml_nesting.h"
+#include "engine/io/checks/kml_archive.h"
+#include "engine/io/checks/xml_elements.h"
 #include "engine/io/formats/flight_file.h"
 #include "engine/io/raster/crs_transform.h"
 #include "engine/io/raster/gdal_dataset.h"
@@ -132,7 +134,8 @@ FoundTrack find_track(GDALDataset& dataset) {
     return found;
 }
 
-Result<void> check_track_file(const std::filesystem::path& path) {
+/// The name by which GDAL opens it.
+Result<std::string> checked_track(const std::filesystem::path& path) {
     const std::string name = path.string();
     std::error_code code;
     if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code)) {
@@ -143,7 +146,12 @@ Result<void> check_track_file(const std::filesystem::path& path) {
         return Error{fmt::format("{}: {} bytes found, a path of at most {} was expected", name,
                                  size, max_track_bytes)};
     }
-    return check_xml_nesting(path);
+    auto lines = name_of_lines(path, max_track_bytes);
+    if (!lines) {
+        return lines;
+    }
+    const auto good = check_xml(*lines);
+    return good ? std::move(lines) : good.error();
 }
 
 } // namespace
@@ -151,15 +159,16 @@ Result<void> check_track_file(const std::filesystem::path& path) {
 Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
     check(metres_a_second > 0.0, "read_track needs a speed");
     const std::string name = path.string();
-    if (auto good = check_track_file(path); !good) {
-        return good.error();
+    const auto file = checked_track(path);
+    if (!file) {
+        return file.error();
     }
     register_drivers();
     const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
     constexpr std::array<const char*, 5> formats{"GPX", "LIBKML", "KML", "GeoJSON", nullptr};
     const Dataset dataset(GDALDataset::Open(
-        name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, formats.data()));
+        file->c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, formats.data()));
     if (dataset == nullptr) {
         return Error{fmt::format("{}: cannot be opened as a path{}, a path file (TOML) or a file "
                                  "with a line (GPX, KML, GeoJSON) was expected",

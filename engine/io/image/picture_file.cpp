@@ -67,9 +67,30 @@ Result<void> check_image_size(const fs::path& path, const PictureHeader& header)
     return {};
 }
 
+namespace {
+
+/// Of formats whose readers allocate a whole picture when they open it.
+Result<void> check_claimed_size(const fs::path& path) {
+    const auto size = claimed_size(path.string());
+    if (!size) {
+        return {};
+    }
+    PictureHeader header;
+    header.cols = size->x;
+    header.rows = size->y;
+    header.channel_names.resize(4);
+    header.pixel_bytes = 4.0;
+    return check_image_size(path, header);
+}
+
+} // namespace
+
 Result<std::unique_ptr<PictureInput>> open_picture(const fs::path& path, const char* expected) {
     if (auto file = check_image_file(path); !file) {
         return file.error();
+    }
+    if (auto size = check_claimed_size(path); !size) {
+        return size.error();
     }
     const auto format = picture_format(path.string());
     if (!format) {

@@ -59,11 +59,11 @@ TEST_F(ExrBytes, OtherFilesAreNoErrors) {
 // Found by fuzzing: OpenEXR takes two gigabytes for a text of that claimed length.
 TEST_F(ExrBytes, ATextLongerThanTheFileIsRefusedBeforeItIsOpened) {
     const std::string claim = std::string("owner\0string\0", 13) + word(0x7FFFFFFF) + "x";
-    EXPECT_THAT(error_of(exr(claim)), HasSubstr("claims more than the file holds"));
+    EXPECT_THAT(error_of(exr(claim)), HasSubstr("claims other lengths than it has"));
     const auto path = folder_.write("b.exr", exr(claim));
     const auto hits = read_hits(path);
     ASSERT_FALSE(hits);
-    EXPECT_THAT(hits.error().message, HasSubstr("claims more than the file holds"));
+    EXPECT_THAT(hits.error().message, HasSubstr("claims other lengths than it has"));
     EXPECT_FALSE(read_channels(path));
     EXPECT_FALSE(read_image(path));
 }
@@ -72,14 +72,42 @@ TEST_F(ExrBytes, ATextInAListLongerThanTheListIsRefused) {
     const std::string good = word(3) + "abc" + word(0);
     EXPECT_EQ(error_of(exr(attribute("views", "stringvector", good))), "");
     EXPECT_THAT(error_of(exr(attribute("views", "stringvector", good + word(0x7FFFFFF0) + "x"))),
-                HasSubstr("claims more"));
-    EXPECT_THAT(error_of(exr(attribute("views", "stringvector", "ab"))), HasSubstr("claims more"));
+                HasSubstr("claims other lengths"));
+    EXPECT_THAT(error_of(exr(attribute("views", "stringvector", "ab"))),
+                HasSubstr("claims other lengths"));
+}
+
+std::string channel(const std::string& name) {
+    return name + '\0' + word(2) + word(0) + word(1) + word(1);
+}
+
+// Found by fuzzing: OpenEXR reads channels up to an empty name, and what follows as attributes.
+TEST_F(ExrBytes, AListOfChannelsThatEndsElsewhereIsRefused) {
+    const std::string two = channel("col") + channel("row");
+    EXPECT_EQ(error_of(exr(attribute("channels", "chlist", two + '\0'))), "");
+    const std::string claim = std::string("owner\0string\0", 13) + word(0x7FFFFFFF) + "x";
+    for (const auto& list : {two, two + "rest", two + '\0' + claim, std::string("a"),
+                             std::string("a\0b", 3), two + "a" + '\0', std::string()}) {
+        EXPECT_THAT(error_of(exr(attribute("channels", "chlist", list))),
+                    HasSubstr("claims other lengths"));
+        EXPECT_THAT(error_of(exr(attribute("others", "chlist", list))),
+                    HasSubstr("claims other lengths"));
+    }
+}
+
+TEST_F(ExrBytes, AnAttributeOfAnotherLengthThanItsTypeIsRefused) {
+    EXPECT_EQ(error_of(exr(attribute("count", "int", word(1)))), "");
+    EXPECT_EQ(error_of(exr(attribute("own", "unknown", "12345"))), "");
+    for (const std::string type : {"int", "box2i", "compression", "v2f", "floatvector"}) {
+        EXPECT_THAT(error_of(exr(attribute("own", type, "12345"))),
+                    HasSubstr("claims other lengths"));
+    }
 }
 
 TEST_F(ExrBytes, APreviewOfMorePixelsThanItHoldsIsRefused) {
     EXPECT_EQ(error_of(exr(attribute("preview", "preview", word(1) + word(1) + "rgba"))), "");
     EXPECT_THAT(error_of(exr(attribute("preview", "preview", word(40000) + word(40000) + "rgba"))),
-                HasSubstr("claims more"));
+                HasSubstr("claims other lengths"));
 }
 
 TEST_F(ExrBytes, AWindowOfTooManyPixelsIsRefused) {
@@ -121,7 +149,8 @@ TEST_F(ExrBytes, EachPartOfAFileIsChecked) {
     const std::string wrong =
         attribute("dataWindow", "box2i", word(0) + word(0) + word(99999) + word(0)) + '\0';
     EXPECT_THAT(error_of(exr(good + wrong, several_parts)), HasSubstr("claims 100000×1"));
-    EXPECT_THAT(error_of(word(20000630) + word(several_parts) + good), HasSubstr("claims more"));
+    EXPECT_THAT(error_of(word(20000630) + word(several_parts) + good),
+                HasSubstr("claims other lengths"));
 }
 
 } // namespace
