@@ -406,13 +406,12 @@ void Driver::paint(const view::DrawList& list, const PlacedTiles& placed,
         painter.paint(block, index);
     });
     if (painter.has_samples()) {
-        if (picture_.cols() != list.size.x || picture_.rows() != list.size.y) {
-            picture_ = Image(list.size.x, list.size.y);
-        }
         for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
-            painter.sample(block, index, picture_);
+            painter.choose_sampled(block, index);
         });
-        std::swap(first_.picture, picture_);
+        for_each_block(list.size, parallel, [&](const PixelBlock& block, std::size_t index) {
+            painter.sample(block, index);
+        });
     }
 }
 

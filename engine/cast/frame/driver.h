@@ -135,7 +135,6 @@ private:
 
     DriverOptions options_;
     FirstSamples first_; // its picture becomes that of all samples
-    Image picture_;      // while samples are drawn
     Grid<float> depths_; // empty unless they are kept
     std::map<const scene::TerrainSurface*, Surface> surfaces_;
     view::PictureRounding rounding_;

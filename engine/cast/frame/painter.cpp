@@ -71,8 +71,7 @@ std::vector<glm::dvec2> middles_of(const PixelBlock& block) {
 
 std::vector<glm::dvec2> places_of(const SampledPixels& sampled, const PixelBlock& block) {
     std::vector<glm::dvec2> places;
-    for (int i = 0; i < sampled.count; ++i) {
-        const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
+    for (const int pixel : sampled.pixels) {
         const glm::ivec2 in_block(pixel % block_side, pixel / block_side);
         for (int sample = 0; sample < sampled.samples; ++sample) {
             places.push_back(glm::dvec2(block.first + in_block) + 0.5 +
@@ -89,12 +88,6 @@ void write_block(const BlockPixels& pixels, const PixelBlock& block, Image& pict
             pixels.rgba.data() + static_cast<std::size_t>(row) * block_side;
         Rgba8* const to = &picture(block.first.x, block.first.y + row);
         std::memcpy(static_cast<void*>(to), from, width * sizeof(Rgba8));
-    }
-}
-
-void copy_block(const Image& from, const PixelBlock& block, Image& to) {
-    for (int row = block.first.y; row < block.first.y + block.size.y; ++row) {
-        std::copy_n(&from(block.first.x, row), block.size.x, &to(block.first.x, row));
     }
 }
 
@@ -119,7 +112,7 @@ Painter::Painter(const view::DrawList& list, const PlacedTiles& placed,
                                                                          list.camera, list.size)},
       first_(first), depths_(options.depths),
       anchor_(placed.tiles.empty() ? 0.0 : placed.tiles.front().rays.anchor),
-      jobs_(static_cast<std::size_t>(block_count(list.size))) {
+      jobs_(static_cast<std::size_t>(block_count(list.size))), sampled_(jobs_.size()) {
     shared_.anchor = static_cast<float>(anchor_);
     const std::span<const glm::ivec2> places = sixteenths_of(options.samples);
     samples_.samples = static_cast<int>(places.size());
@@ -152,7 +145,7 @@ void Painter::paint(const PixelBlock& block, std::size_t index) {
         write_depths(pixels, block, anchor_, *depths_);
     }
     if (samples_.samples > 1) {
-        first_.write_nearness(pixels, block, picture_);
+        first_.add_nearness(pixels, block, picture_, kernel_);
         jobs_[index] = std::move(jobs);
     }
 }
@@ -175,13 +168,14 @@ std::size_t Painter::count(const PixelBlock& block, std::size_t index,
     return work.beam_taps;
 }
 
-void Painter::sample(const PixelBlock& block, std::size_t index, Image& picture) {
-    copy_block(first_.picture, block, picture);
-    SampledPixels sampled;
-    sampled.samples = samples_.samples;
-    sampled.places = samples_.places;
-    choose_sampled(first_, kernel_, block, sampled);
-    if (sampled.count == 0) {
+void Painter::choose_sampled(const PixelBlock& block, std::size_t index) {
+    sampled_[index] = sampled_pixels(first_, kernel_, block);
+}
+
+void Painter::sample(const PixelBlock& block, std::size_t index) {
+    SampledPixels sampled = samples_;
+    sampled.pixels = sampled_[index];
+    if (sampled.pixels.empty()) {
         return;
     }
     BlockPixels pixels;
@@ -192,10 +186,9 @@ void Painter::sample(const PixelBlock& block, std::size_t index, Image& picture)
     const BlockMeshes values = meshes ? meshes->values() : BlockMeshes{};
     paint.meshes = meshes ? &values : nullptr;
     kernel_.sample({jobs_[index], placed_.has_walls}, paint, sampled, pixels);
-    for (int i = 0; i < sampled.count; ++i) {
-        const int pixel = sampled.pixels[static_cast<std::size_t>(i)];
-        std::memcpy(static_cast<void*>(&picture(block.first.x + pixel % block_side,
-                                                block.first.y + pixel / block_side)),
+    for (const int pixel : sampled.pixels) {
+        std::memcpy(static_cast<void*>(&first_.picture(block.first.x + pixel % block_side,
+                                                       block.first.y + pixel / block_side)),
                     &pixels.rgba[static_cast<std::size_t>(pixel)], sizeof(Rgba8));
     }
 }

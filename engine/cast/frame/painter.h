@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -44,8 +45,10 @@ public:
     /// Returns the taps of the block's beams.
     [[nodiscard]] std::size_t count(const PixelBlock& block, std::size_t index,
                                     Grid<view::PixelWork>& pixels) const;
-    /// Where surfaces end. `picture`: the result. Precondition: all blocks are painted.
-    void sample(const PixelBlock& block, std::size_t index, Image& picture);
+    /// Where surfaces end. Precondition: all blocks are painted.
+    void choose_sampled(const PixelBlock& block, std::size_t index);
+    /// There, the picture shows the mean of several samples. Precondition: chosen in all blocks.
+    void sample(const PixelBlock& block, std::size_t index);
 
     [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
 
@@ -66,9 +69,11 @@ private:
     glm::vec2 corner_;                             // see view::dither_origin()
     PixelBlock picture_;                           // a part may reach beyond its picture
     FirstSamples& first_;
-    Grid<float>* depths_;                     // null: not needed
-    double anchor_;                           // of the rays
-    std::vector<std::vector<BlockJob>> jobs_; // of the blocks, for their samples
+    Grid<float>* depths_;                             // null: not needed
+    double anchor_;                                   // of the rays
+    std::vector<std::vector<BlockJob>> jobs_;         // of the blocks, for their samples
+    std::vector<std::vector<std::uint16_t>> sampled_; // of the blocks
+    std::span<const glm::ivec2> places_;              // of samples, 1/16 pixel
     SampledPixels samples_;
 };
 

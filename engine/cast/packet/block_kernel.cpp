@@ -1,5 +1,6 @@
 #include "engine/cast/packet/block_kernel.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
@@ -241,7 +242,7 @@ struct SamplePacket {
     SamplePacket(const SampledPixels& sampled, SampleIndex index) {
         constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
         for (std::size_t lane = 0; lane < right.size(); ++lane) {
-            const int last = index.pixel < sampled.count ? index.pixel : sampled.count - 1;
+            const int last = std::min(index.pixel, sampled.count() - 1);
             const int pixel = sampled.pixels[static_cast<std::size_t>(last)];
             const glm::vec2 place = sampled.places[static_cast<std::size_t>(index.sample)];
             const int col = pixel % block_side;
@@ -250,7 +251,7 @@ struct SamplePacket {
             down[lane] = static_cast<float>(row) + middle + place.y;
             beam[lane] = beam_at(col, row);
             pixel_of_beam[lane] = beam_pixel_at(col, row);
-            count += index.pixel < sampled.count ? 1U : 0U;
+            count += index.pixel < sampled.count() ? 1U : 0U;
             index.next(sampled);
         }
     }
@@ -274,7 +275,7 @@ HWY_INLINE void add_samples(const Color& color, const SampledPixels& sampled, Sa
     hn::Store(color.r, floats, values[0].data());
     hn::Store(color.g, floats, values[1].data());
     hn::Store(color.b, floats, values[2].data());
-    for (std::size_t lane = 0; lane < values[0].size() && index.pixel < sampled.count; ++lane) {
+    for (std::size_t lane = 0; lane < values[0].size() && index.pixel < sampled.count(); ++lane) {
         const auto pixel = static_cast<std::size_t>(index.pixel);
         sums.r[pixel] += values[0][lane];
         sums.g[pixel] += values[1][lane];
@@ -286,14 +287,14 @@ HWY_INLINE void add_samples(const Color& color, const SampledPixels& sampled, Sa
 HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
                             BlockPixels& pixels) {
     const Floats share = all(1.0F / static_cast<float>(sampled.samples));
-    for (int first = 0; first < sampled.count; first += lane_count) {
+    for (int first = 0; first < sampled.count(); first += lane_count) {
         const Color mean = scaled({hn::Load(floats, sums.r.data() + first),
                                    hn::Load(floats, sums.g.data() + first),
                                    hn::Load(floats, sums.b.data() + first)},
                                   share);
         alignas(64) std::array<std::int32_t, static_cast<std::size_t>(lane_count)> bytes;
         hn::Store(bytes_of(mean), ints, bytes.data());
-        for (int lane = 0; lane < lane_count && first + lane < sampled.count; ++lane) {
+        for (int lane = 0; lane < lane_count && first + lane < sampled.count(); ++lane) {
             pixels.rgba[sampled.pixels[static_cast<std::size_t>(first + lane)]] =
                 static_cast<std::uint32_t>(bytes[static_cast<std::size_t>(lane)]);
         }
@@ -303,7 +304,7 @@ HWY_INLINE void store_means(const ColorSums& sums, const SampledPixels& sampled,
 template <class Mode>
 HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
                                const SampledPixels& sampled, ColorSums& sums) {
-    const int samples = sampled.count * sampled.samples;
+    const int samples = sampled.count() * sampled.samples;
     for (int first = 0; first < samples; first += static_cast<int>(packets_a_pair) * lane_count) {
         const Pair<int> numbers{first, first + lane_count};
         const Pair<SamplePacket> packets{SamplePacket(sampled, SampleIndex(sampled, numbers[0])),
@@ -340,20 +341,25 @@ HWY_INLINE Lanes bend_at(const NearnessRows& rows, Floats before, Floats here, F
     return hn::Gt(bend, rows.is_perspective ? hn::Mul(allowed, nearest) : allowed);
 }
 
-std::uint32_t bends_of(const NearnessRows& rows) {
+HWY_INLINE std::uint32_t row_bends(const NearnessRows& rows, const float* row) {
     std::uint32_t bits = 0;
     for (int col = 0; col < block_side; col += lane_count) {
-        const auto at = [&](const float* row, int step)
-                            HWY_ATTR { return hn::LoadU(floats, row + col + step); };
-        const Floats here = at(rows.here, 0);
-        const Lanes bends = hn::Or(bend_at(rows, at(rows.here, -1), here, at(rows.here, 1)),
-                                   bend_at(rows, at(rows.above, 0), here, at(rows.below, 0)));
+        const auto at = [&](int place) HWY_ATTR { return hn::LoadU(floats, row + col + place); };
+        const Floats here = at(0);
+        const Lanes bends = hn::Or(bend_at(rows, at(-1), here, at(1)),
+                                   bend_at(rows, at(-rows.stride), here, at(rows.stride)));
         std::array<std::uint8_t, 8> bytes{};
         hn::StoreMaskBits(floats, bends, bytes.data());
         const unsigned lanes = bytes[0] | static_cast<unsigned>(bytes[1]) << 8U;
         bits |= lanes << static_cast<unsigned>(col);
     }
     return bits;
+}
+
+void bends_of(const NearnessRows& rows, std::span<std::uint32_t> bits) {
+    for (std::size_t i = 0; i < bits.size(); ++i) {
+        bits[i] = row_bends(rows, rows.first + static_cast<std::ptrdiff_t>(i) * rows.stride);
+    }
 }
 
 // As if they were hits.

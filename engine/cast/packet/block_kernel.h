@@ -379,12 +379,11 @@ struct BlockWork {
     std::size_t beam_taps = 0;                               ///< maxima, for all beams of the block
 };
 
-/// The nearness of pixels and of the pixels around them: of a row of a block, and of the rows above
-/// and below. One pixel more on each side. Beside the picture it is not a number.
+/// The nearness of 32 pixels in each of several rows. One pixel more on each side of a row, and one
+/// row above and below. Beside the picture it is not a number.
 struct NearnessRows {
-    const float* above = nullptr;
-    const float* here = nullptr;
-    const float* below = nullptr;
+    const float* first = nullptr;
+    int stride = 0; ///< from row to row
     bool is_perspective = true;
     float disagreement = 0.0F; ///< see FirstSamples
 };
@@ -393,10 +392,11 @@ inline constexpr int max_samples = 16;
 
 /// Pixels of a block with several rays each.
 struct SampledPixels {
-    std::array<std::uint16_t, block_pixels> pixels;
-    int count = 0;
+    std::span<const std::uint16_t> pixels;       ///< row · block_side + column
     std::array<glm::vec2, max_samples> places{}; ///< from the middle of a pixel, pixels
     int samples = 1;
+
+    [[nodiscard]] int count() const { return static_cast<int>(pixels.size()); }
 };
 
 /// Places from which the sun may be seen: cells of a terrain relative to a base, and parts.
@@ -419,9 +419,9 @@ struct BlockKernel {
     /// Paints these pixels again: the mean of their samples, in linear light.
     void (*sample)(const BlockJobs& jobs, const BlockPaint& paint, const SampledPixels& sampled,
                    BlockPixels& pixels) = nullptr;
-    /// The pixels of a row that are not on a plane with those beside them, or above and below:
-    /// bits.
-    std::uint32_t (*bends)(const NearnessRows& rows) = nullptr;
+    /// The pixels of rows that are not on a plane with those beside them, or above and below: bits
+    /// of each row.
+    void (*bends)(const NearnessRows& rows, std::span<std::uint32_t> bits) = nullptr;
     /// Whether the job's `sun_tiles` hide the sun from places; 1: they do.
     void (*hide)(const BlockJob& job, const SunPlaces& places,
                  std::array<std::uint8_t, block_pixels>& hidden) = nullptr;

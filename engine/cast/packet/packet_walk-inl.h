@@ -293,18 +293,17 @@ HWY_INLINE Lanes solve(const Rays& rays, const BlockJob& job, Walk& walk, HitPie
     return hit;
 }
 
-// Whether cells are solved: when three quarters of the lanes have arrived at one, or no other is on
-// its way.
+// Whether cells are solved: when three quarters of the rays that are left have arrived at one.
 template <std::size_t count>
 HWY_INLINE bool is_time_to_solve(const std::array<Walk, count>& walks) {
     std::size_t arrived = 0;
-    Lanes on_its_way = no_lanes();
+    std::size_t left = 0;
 #pragma GCC unroll 2
     for (const Walk& walk : walks) {
         arrived += hn::CountTrue(floats, walk.arrived);
-        on_its_way = hn::Or(on_its_way, hn::AndNot(walk.arrived, walk.active));
+        left += hn::CountTrue(floats, walk.active);
     }
-    return 4 * arrived >= 3 * count * lane_count || hn::AllFalse(floats, on_its_way);
+    return 4 * arrived >= 3 * left;
 }
 
 // Walks all rays to their first hit: through ever larger blocks as long as rays find none that they

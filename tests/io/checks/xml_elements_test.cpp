@@ -107,7 +107,7 @@ protected:
     /// A KMZ with this file.
     [[nodiscard]] std::filesystem::path kmz(const std::string& name,
                                             const std::string& text) const {
-        const std::filesystem::path path = folder_.path() / "a.kmz";
+        std::filesystem::path path = folder_.path() / "a.kmz";
         std::filesystem::remove(path);
         const std::string member = "/vsizip/" + path.string() + "/" + name;
         VSILFILE* const file = VSIFOpenL(member.c_str(), "wb");
