@@ -18,7 +18,7 @@ std::span<const glm::ivec2> sixteenths_of(int samples);
 
 /// A picture with one sample per pixel, and where its surfaces end. Nearness is linear in the pixel
 /// over a plane: in perspective the inverse depth, 0 for the sky; on a map the negative depth, and
-/// less than all else for the sky. Beside the picture it is not a number.
+/// less than all else for the sky.
 struct FirstSamples {
     Image picture;
     bool is_perspective = true;
@@ -31,12 +31,13 @@ struct FirstSamples {
     Grid<std::uint32_t> bends;
     /// Nearness of the two rows along the upper and the lower border of each row of blocks, and of
     /// the two columns along the left and the right border of each column. One value more on each
-    /// side.
+    /// side. Not a number beside the picture.
     Grid<float> border_rows;
     Grid<float> border_cols; ///< transposed
 
     void resize(glm::ivec2 size);
-    /// Takes what a block shows. Pixels beside `of` are beside the picture.
+    /// Keeps the bends inside of a block, and the nearness along its borders. Pixels beside `of`
+    /// are beside the picture: their nearness becomes not a number. Threads may add several blocks.
     void add_nearness(BlockPixels& pixels, const PixelBlock& block, const PixelBlock& of,
                       const BlockKernel& kernel);
 };

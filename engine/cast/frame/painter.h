@@ -45,9 +45,9 @@ public:
     /// Returns the taps of the block's beams.
     [[nodiscard]] std::size_t count(const PixelBlock& block, std::size_t index,
                                     Grid<view::PixelWork>& pixels) const;
-    /// Where surfaces end. Precondition: all blocks are painted.
+    /// Chooses pixels that need several samples. Precondition: all blocks are painted.
     void choose_sampled(const PixelBlock& block, std::size_t index);
-    /// There, the picture shows the mean of several samples. Precondition: chosen in all blocks.
+    /// These show the mean of their samples then. Precondition: chosen in all blocks.
     void sample(const PixelBlock& block, std::size_t index);
 
     [[nodiscard]] bool has_samples() const { return samples_.samples > 1; }
@@ -73,7 +73,6 @@ private:
     double anchor_;                                   // of the rays
     std::vector<std::vector<BlockJob>> jobs_;         // of the blocks, for their samples
     std::vector<std::vector<std::uint16_t>> sampled_; // of the blocks
-    std::span<const glm::ivec2> places_;              // of samples, 1/16 pixel
     SampledPixels samples_;
 };
 

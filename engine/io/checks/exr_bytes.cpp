@@ -169,7 +169,7 @@ bool take_attribute(std::string_view name, std::string_view type, std::string_vi
     }
     if (type == "chlist") {
         const auto channels = channels_in(value);
-        header.channels = std::max(header.channels, channels.value_or(0.0));
+        header.channels += channels.value_or(0.0); // OpenEXR joins lists
         return channels.has_value();
     }
     if (name == "compression") {
@@ -179,7 +179,7 @@ bool take_attribute(std::string_view name, std::string_view type, std::string_vi
         header.tile_rows = ExrReader::word_in(value, 4);
     }
     return (type != "stringvector" || are_whole_texts(value)) &&
-           (type != "preview" || is_whole_preview(value)) && type != "idmanifest";
+           (type != "preview" || is_whole_preview(value));
 }
 
 ExrHeader read_exr_header(ExrReader& reader) {
@@ -192,7 +192,8 @@ ExrHeader read_exr_header(ExrReader& reader) {
             reader.fail();
             return header;
         }
-        if (!has_length_of(type, size)) {
+        // OpenEXR allocates what an ID manifest claims to hold.
+        if (!has_length_of(type, size) || type == "idmanifest") {
             reader.fail();
             return header;
         }
@@ -238,8 +239,8 @@ Result<void> check_exr(const std::string& name) {
     for (bool is_last = false; !is_last;) {
         const ExrHeader header = read_exr_header(reader);
         if (!reader.good()) {
-            return Error{fmt::format("{}: cannot be read (its header claims other lengths "
-                                     "than it has), a whole OpenEXR file was expected",
+            return Error{fmt::format("{}: cannot be read (its header is cut off or claims other "
+                                     "lengths than it has), a whole OpenEXR file was expected",
                                      name)};
         }
         if (const std::string excess = excess_of(header, reader.size()); !excess.empty()) {

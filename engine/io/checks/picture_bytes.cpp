@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string_view>
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include "engine/io/checks/little_endian.h"
 #include "engine/io/remote/read_scope.h"
 
 namespace reljef::io {
@@ -66,28 +68,19 @@ template <std::size_t count> std::string_view text_of(const Bytes<count>& bytes)
     return {reinterpret_cast<const char*>(bytes.data()), count};
 }
 
-// Little-endian; `count` bytes from `first` on.
-int number_in(std::string_view bytes, std::size_t first, std::size_t count) {
-    unsigned number = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        number |= static_cast<unsigned>(static_cast<unsigned char>(bytes[first + i])) << 8U * i;
-    }
-    return static_cast<int>(number);
-}
-
 // "WebP Container Specification" and "WebP Lossless Bitstream Specification", RFC 9649; RFC 6386,
 // 9.1. `head`: the first 30 bytes.
 glm::ivec2 webp_size(std::string_view head) {
-    constexpr int max_frame = 0x3FFF;
+    constexpr std::uint64_t max_frame = 0x3FFF;
     const std::string_view chunk = head.substr(12, 4);
     if (chunk == "VP8X") {
-        return glm::ivec2(number_in(head, 24, 3), number_in(head, 27, 3)) + 1;
+        return glm::ivec2(little_endian(head, 24, 3), little_endian(head, 27, 3)) + 1;
     }
     if (chunk == "VP8L") {
-        const int bits = number_in(head, 21, 4);
-        return glm::ivec2(bits & max_frame, (bits >> 14) & max_frame) + 1;
+        const std::uint64_t bits = little_endian(head, 21, 4);
+        return glm::ivec2(bits & max_frame, bits >> 14U & max_frame) + 1;
     }
-    return {number_in(head, 26, 2) & max_frame, number_in(head, 28, 2) & max_frame};
+    return {little_endian(head, 26, 2) & max_frame, little_endian(head, 28, 2) & max_frame};
 }
 
 Error png_without_end(const std::string& name) {
@@ -129,15 +122,15 @@ Result<void> check_png(const std::string& name, PngPart part) {
     return png_without_end(name);
 }
 
-// "Graphics Interchange Format", version 89a, 18.
+// "Graphics Interchange Format", version 89a, 18. What a short file lacks is 0.
 std::optional<glm::ivec2> claimed_size(const std::string& name) {
     Bytes<30> bytes{};
-    const std::string_view head = text_of(bytes);
-    if (!read_head(opened_file(name), bytes)) {
-        return std::nullopt;
+    if (const File file = opened_file(name); file != nullptr) {
+        VSIFReadL(bytes.data(), 1, bytes.size(), file.get());
     }
+    const std::string_view head = text_of(bytes);
     if (head.starts_with("GIF8")) {
-        return glm::ivec2(number_in(head, 6, 2), number_in(head, 8, 2));
+        return glm::ivec2(little_endian(head, 6, 2), little_endian(head, 8, 2));
     }
     const bool is_webp = head.starts_with("RIFF") && head.substr(8, 4) == "WEBP";
     return is_webp ? std::optional(webp_size(head)) : std::nullopt;

@@ -23,6 +23,11 @@ struct FreeParser {
 };
 using Parser = std::unique_ptr<std::remove_pointer_t<XML_Parser>, FreeParser>;
 
+/// Without its prefix.
+std::string_view local_name(std::string_view name) {
+    return name.substr(name.rfind(':') + 1); // npos + 1 is 0
+}
+
 /// A gx:Track of KML.
 struct KmlTrack {
     std::size_t depth = 0;
@@ -44,10 +49,11 @@ struct Elements {
             return;
         }
         if (!open_tracks.empty() && open_tracks.back().depth + 1 == depth) {
+            // Under no other name.
             open_tracks.back().times += name == "when" ? 1 : 0;
-            open_tracks.back().places += name == "coord" ? 1 : 0;
+            open_tracks.back().places += local_name(name) == "coord" ? 1 : 0;
         }
-        if (name == "Track") {
+        if (local_name(name) == "Track") {
             open_tracks.push_back({depth});
         }
     }
@@ -62,11 +68,6 @@ struct Elements {
         --depth;
     }
 };
-
-/// Without its prefix.
-std::string_view local_name(std::string_view name) {
-    return name.substr(name.rfind(':') + 1); // npos + 1 is 0
-}
 
 // As GDAL's readers, it takes encodings that expat does not know for ones of single bytes.
 int read_as_bytes(void* /*data*/, const XML_Char* /*name*/, XML_Encoding* encoding) {
@@ -92,7 +93,7 @@ Parser make_parser(Elements& elements) {
     XML_SetElementHandler(
         parser.get(),
         [](void* data, const XML_Char* name, const XML_Char** /*attributes*/) {
-            static_cast<Elements*>(data)->begin(local_name(name));
+            static_cast<Elements*>(data)->begin(name);
         },
         [](void* data, const XML_Char* /*name*/) { static_cast<Elements*>(data)->end(); });
     return parser;

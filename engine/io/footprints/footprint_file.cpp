@@ -45,7 +45,7 @@ Result<std::string> checked_footprints(const fs::path& path) {
                                  size_text(static_cast<double>(size)),
                                  size_text(static_cast<double>(max_footprint_bytes)))};
     }
-    auto outlines = name_of_lines(path, max_footprint_bytes);
+    auto outlines = vector_file_name(path, max_footprint_bytes);
     if (!outlines) {
         return outlines;
     }

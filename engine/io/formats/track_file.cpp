@@ -146,7 +146,7 @@ Result<std::string> checked_track(const std::filesystem::path& path) {
         return Error{fmt::format("{}: {} bytes found, a path of at most {} was expected", name,
                                  size, max_track_bytes)};
     }
-    auto lines = name_of_lines(path, max_track_bytes);
+    auto lines = vector_file_name(path, max_track_bytes);
     if (!lines) {
         return lines;
     }

@@ -86,13 +86,26 @@ TEST_F(ExrBytes, AListOfChannelsThatEndsElsewhereIsRefused) {
     const std::string two = channel("col") + channel("row");
     EXPECT_EQ(error_of(exr(attribute("channels", "chlist", two + '\0'))), "");
     const std::string claim = std::string("owner\0string\0", 13) + word(0x7FFFFFFF) + "x";
-    for (const auto& list : {two, two + "rest", two + '\0' + claim, std::string("a"),
-                             std::string("a\0b", 3), two + "a" + '\0', std::string()}) {
+    for (const auto& list :
+         {two, two + "rest", two + std::string(1, '\0').append(claim), std::string("a"),
+          std::string("a\0b", 3), two + std::string("a\0", 2), std::string()}) {
         EXPECT_THAT(error_of(exr(attribute("channels", "chlist", list))),
                     HasSubstr("claims other lengths"));
         EXPECT_THAT(error_of(exr(attribute("others", "chlist", list))),
                     HasSubstr("claims other lengths"));
     }
+}
+
+TEST_F(ExrBytes, ChannelsOfSeveralListsCountTogether) {
+    const std::string box = word(0) + word(0) + word(9999) + word(9);
+    const std::string window = attribute("dataWindow", "box2i", box);
+    std::string list;
+    for (int i = 0; i < 4000; ++i) {
+        list += channel(std::to_string(i));
+    }
+    const std::string channels = attribute("channels", "chlist", list + '\0');
+    EXPECT_EQ(error_of(exr(window + channels)), "");
+    EXPECT_THAT(error_of(exr(window + channels + channels)), HasSubstr("claims"));
 }
 
 TEST_F(ExrBytes, AnAttributeOfAnotherLengthThanItsTypeIsRefused) {
