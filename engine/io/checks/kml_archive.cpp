@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -18,7 +19,7 @@
 namespace reljef::io {
 namespace {
 
-constexpr int max_members = 10'000;
+constexpr std::uintmax_t max_members = 10'000;
 constexpr std::size_t max_name = 255;
 constexpr int max_folder_depth = 16;
 
@@ -35,51 +36,101 @@ std::string bytes_at(const File& file, vsi_l_offset first, std::size_t count) {
     return bytes;
 }
 
-/// Whether the names of an archive's members are few and short. GDAL keeps one for each folder of
-/// each member. `directory`: its central directory.
-bool has_short_names(std::string_view directory, std::size_t members) {
+/// The list of an archive's members, as its end states it.
+struct Directory {
+    std::uintmax_t end = 0; ///< place in the file
+    std::uintmax_t bytes = 0;
+    std::uintmax_t members = 0;
+};
+
+bool is_flat(std::string_view name) {
+    const auto separators = std::count_if(
+        name.begin(), name.end(), [](char letter) { return letter == '/' || letter == '\\'; });
+    return name.size() <= max_name && separators <= max_folder_depth;
+}
+
+/// Whether its names are few, short and flat. GDAL keeps one for each folder of each member.
+/// ".ZIP File Format Specification" 6.3.10, 4.3.12.
+bool has_short_names(const File& file, const Directory& directory) {
     constexpr std::size_t head = 46;
-    for (std::size_t i = 0; i < members; ++i) {
-        if (directory.size() < head || !directory.starts_with("PK\1\2")) {
+    constexpr std::uintmax_t max_directory = max_members * 1000;
+    if (directory.members > max_members ||
+        directory.bytes > std::min(max_directory, directory.end)) {
+        return false;
+    }
+    const std::string bytes =
+        bytes_at(file, directory.end - directory.bytes, static_cast<std::size_t>(directory.bytes));
+    std::string_view left = bytes;
+    for (std::uintmax_t i = 0; i < directory.members; ++i) {
+        if (left.size() < head || !left.starts_with("PK\1\2")) {
             return false;
         }
-        const std::size_t name = little_endian(directory, 28, 2);
+        const std::size_t name = little_endian(left, 28, 2);
         const std::size_t length =
-            head + name + little_endian(directory, 30, 2) + little_endian(directory, 32, 2);
-        if (name > max_name || length > directory.size()) {
+            head + name + little_endian(left, 30, 2) + little_endian(left, 32, 2);
+        if (length > left.size() || !is_flat(left.substr(head, name))) {
             return false;
         }
-        directory.remove_prefix(length);
+        left.remove_prefix(length);
     }
     return true;
 }
 
-// ".ZIP File Format Specification" 6.3.10, 4.3.12 and 4.3.16. GDAL takes the last record of an end,
-// too.
-Result<void> check_members(const std::filesystem::path& path) {
+/// That of a file of over 4 GB, which others may have, too (4.3.14 and 4.3.15). GDAL looks for it
+/// first. `tail`: the last bytes of the file.
+std::optional<Directory> long_directory(const File& file, std::string_view tail) {
+    constexpr std::size_t locator_bytes = 20;
+    constexpr std::size_t record_bytes = 56;
+    const std::size_t locator = tail.rfind("PK\6\7");
+    if (locator == std::string_view::npos || tail.size() - locator < locator_bytes) {
+        return std::nullopt;
+    }
+    const std::uintmax_t place = little_endian(tail, locator + 8, 8);
+    const std::string record = bytes_at(file, place, record_bytes);
+    if (record.size() < record_bytes || !record.starts_with("PK\6\6")) {
+        return std::nullopt;
+    }
+    return Directory{place, little_endian(record, 40, 8), little_endian(record, 32, 8)};
+}
+
+/// 4.3.16. As to GDAL, the last end counts.
+std::optional<Directory> short_directory(std::string_view tail, std::uintmax_t tail_place) {
     constexpr std::size_t end_bytes = 22;
-    constexpr std::size_t max_end = end_bytes + 0xFFFF; // with a comment
-    constexpr std::size_t max_directory = max_members * 1000;
+    const std::size_t end = tail.rfind("PK\5\6");
+    if (end == std::string_view::npos || tail.size() - end < end_bytes) {
+        return std::nullopt;
+    }
+    return Directory{tail_place + end, little_endian(tail, end + 12, 4),
+                     little_endian(tail, end + 10, 2)};
+}
+
+Result<void> check_members(const std::filesystem::path& path) {
+    constexpr std::uintmax_t max_tail = 22 + 0xFFFF; // an end with a comment
     const File file = opened(path.string());
     std::error_code code;
     const std::uintmax_t size = std::filesystem::file_size(path, code);
-    const std::size_t tail = std::min<std::uintmax_t>(code ? 0 : size, max_end);
-    const std::string last = file != nullptr ? bytes_at(file, size - tail, tail) : std::string();
-    const std::size_t end = last.rfind("PK\5\6");
-    if (end == std::string::npos || last.size() - end < end_bytes) {
+    const std::uintmax_t tail = code || file == nullptr ? 0 : std::min(size, max_tail);
+    const std::string last =
+        tail > 0 ? bytes_at(file, size - tail, static_cast<std::size_t>(tail)) : std::string();
+    const auto long_one = long_directory(file, last);
+    const auto directory = long_one ? long_one : short_directory(last, size - tail);
+    if (!directory) {
         return Error{fmt::format("{}: is no ZIP archive, a KMZ was expected", path.string())};
     }
-    const std::size_t members = little_endian(last, end + 10, 2);
-    const std::size_t bytes = little_endian(last, end + 12, 4);
-    const std::uintmax_t end_place = size - tail + end;
-    const bool is_small = members <= static_cast<std::size_t>(max_members) &&
-                          bytes <= std::min<std::uintmax_t>(max_directory, end_place);
-    if (!is_small || !has_short_names(bytes_at(file, end_place - bytes, bytes), members)) {
-        return Error{fmt::format("{}: the names of its members are damaged, too many or too long: "
-                                 "at most {} of {} bytes were expected",
-                                 path.string(), max_members, max_name)};
+    if (!has_short_names(file, *directory)) {
+        return Error{
+            fmt::format("{}: the names of its members are damaged, too many or too long: at "
+                        "most {} of {} bytes, {} folders deep, were expected",
+                        path.string(), max_members, max_name, max_folder_depth)};
     }
     return {};
+}
+
+/// How GDAL names an archive.
+std::string archive_name(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    return name.find_first_of("{}") == std::string::npos ? "/vsizip/{" + name + "}"
+                                                         : "/vsizip/" + name;
 }
 
 /// Reads all of a file; archives may state less. Fails beyond `max_bytes`.
@@ -106,7 +157,7 @@ Result<void> check_length(const std::string& name, std::uintmax_t max_bytes,
 }
 
 Result<std::string> find_kml(const std::filesystem::path& path) {
-    const std::string archive = "/vsizip/{" + path.string() + "}";
+    const std::string archive = archive_name(path);
     const std::unique_ptr<VSIDIR, decltype(&VSICloseDir)> folder(
         VSIOpenDir(archive.c_str(), max_folder_depth, nullptr), &VSICloseDir);
     std::string found;
@@ -119,7 +170,8 @@ Result<std::string> find_kml(const std::filesystem::path& path) {
         }
     }
     if (found.empty()) {
-        return Error{fmt::format("{}: holds no KML, a KMZ with one was expected", path.string())};
+        return Error{fmt::format("{}: holds no KML that can be read, a KMZ with one was expected",
+                                 path.string())};
     }
     return fmt::format("{}/{}", archive, found);
 }

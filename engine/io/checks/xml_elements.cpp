@@ -49,7 +49,7 @@ struct Elements {
             return;
         }
         if (!open_tracks.empty() && open_tracks.back().depth + 1 == depth) {
-            // Under no other name.
+            // GDAL knows times under no other name.
             open_tracks.back().times += name == "when" ? 1 : 0;
             open_tracks.back().places += local_name(name) == "coord" ? 1 : 0;
         }
@@ -99,27 +99,28 @@ Parser make_parser(Elements& elements) {
     return parser;
 }
 
-Result<void> result_of(const Elements& elements, const std::string& name) {
+Result<void> result_of(const Elements& elements, const std::filesystem::path& path) {
     if (elements.depth > elements.max_depth) {
         return Error{fmt::format("{}: elements nested more than {} deep found, at most that many "
                                  "were expected",
-                                 name, elements.max_depth)};
+                                 path.string(), elements.max_depth)};
     }
     if (elements.bad_track) {
         return Error{fmt::format("{}: a track with more places ({}) than times ({}) found, a time "
                                  "for each place was expected",
-                                 name, elements.bad_track->places, elements.bad_track->times)};
+                                 path.string(), elements.bad_track->places,
+                                 elements.bad_track->times)};
     }
     return {};
 }
 
 } // namespace
 
-Result<void> check_xml(const std::string& name, int max_depth) {
+Result<void> check_xml(const std::string& name, const std::filesystem::path& path, int max_depth) {
     Elements elements{.max_depth = static_cast<std::size_t>(max_depth)};
     const Parser parser = make_parser(elements);
     if (parser == nullptr) {
-        return Error{fmt::format("{}: cannot be read: there is not enough memory", name)};
+        return Error{fmt::format("{}: cannot be read: there is not enough memory", path.string())};
     }
     const std::unique_ptr<VSILFILE, decltype(&VSIFCloseL)> file(VSIFOpenL(name.c_str(), "rb"),
                                                                 &VSIFCloseL);
@@ -137,10 +138,10 @@ Result<void> check_xml(const std::string& name, int max_depth) {
         const XML_Index begin = std::max(XML_GetCurrentByteIndex(parser.get()), XML_Index{0});
         if (status == XML_STATUS_OK && bytes - begin > max_tag_bytes) {
             return Error{fmt::format("{}: a tag of over {} bytes found, a shorter one was expected",
-                                     name, max_tag_bytes)};
+                                     path.string(), max_tag_bytes)};
         }
     }
-    return result_of(elements, name);
+    return result_of(elements, path);
 }
 
 } // namespace reljef::io

@@ -49,7 +49,7 @@ Result<std::string> checked_footprints(const fs::path& path) {
     if (!outlines) {
         return outlines;
     }
-    const auto good = check_xml(*outlines);
+    const auto good = check_xml(*outlines, path);
     return good ? std::move(outlines) : good.error();
 }
 

@@ -150,7 +150,7 @@ Result<std::string> checked_track(const std::filesystem::path& path) {
     if (!lines) {
         return lines;
     }
-    const auto good = check_xml(*lines);
+    const auto good = check_xml(*lines, path);
     return good ? std::move(lines) : good.error();
 }
 
@@ -159,12 +159,12 @@ Result<std::string> checked_track(const std::filesystem::path& path) {
 Result<Flight> read_track(const std::filesystem::path& path, double metres_a_second) {
     check(metres_a_second > 0.0, "read_track needs a speed");
     const std::string name = path.string();
+    register_drivers();
+    const GdalMessages messages;
     const auto file = checked_track(path);
     if (!file) {
         return file.error();
     }
-    register_drivers();
-    const GdalMessages messages;
     const CPLConfigOptionSetter heights("GPX_ELE_AS_25D", "YES", false);
     constexpr std::array<const char*, 5> formats{"GPX", "LIBKML", "KML", "GeoJSON", nullptr};
     const Dataset dataset(GDALDataset::Open(
