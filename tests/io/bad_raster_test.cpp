@@ -119,7 +119,7 @@ TEST_F(BadRaster, NotARaster) {
     EXPECT_THAT(refused(write("a.tif", "This is a letter.\n")), HasSubstr("cannot be opened"));
     EXPECT_THAT(refused(write("a.txt", "hello")), HasSubstr("cannot be opened"));
     EXPECT_THAT(refused(write("N45E006.hgt", "hello")), HasSubstr("cannot be opened"));
-    EXPECT_THAT(refused(write("a.zip", "PK\x03\x04 nothing")), HasSubstr("cannot be opened"));
+    EXPECT_THAT(refused(write("a.zip", "PK\x03\x04 nothing")), HasSubstr("is no ZIP archive"));
     EXPECT_THAT(refused(write("a.gz", "\x1f\x8b nothing")), HasSubstr("cannot be opened"));
 }
 

@@ -10,8 +10,8 @@ namespace reljef::io {
 
 /// The name by which GDAL opens a file of lines or outlines: of a KMZ that of the KML in it
 /// ("doc.kml", else the first one), of others the path. GDAL would not check how much a KMZ holds.
-/// Fails, with one sentence, if a KMZ holds no KML, one of over `max_bytes`, whatever it states, or
-/// over 10,000 members, or names of over 255 bytes or 16 folders.
+/// Fails, with one sentence, if a KMZ holds no KML, or one of over `max_bytes`, whatever it states,
+/// and as archive_members().
 Result<std::string> vector_file_name(const std::filesystem::path& path, std::uintmax_t max_bytes);
 
 } // namespace reljef::io

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "engine/io/checks/lowercase.h"
+#include "engine/io/checks/zip_archive.h"
 #include "engine/io/raster/gdal_drivers.h"
 #include "engine/io/raster/raster.h"
 #include "engine/io/raster/references.h"
@@ -31,8 +33,7 @@ namespace {
 constexpr GIntBig max_cached_bytes = GIntBig{1} << 28;
 constexpr std::size_t max_messages = 10;
 constexpr std::size_t max_message_length = 200;
-constexpr int max_archive_entries = 1000;
-constexpr int max_archive_depth = 16; // of folders
+constexpr std::size_t max_archive_entries = 1000; // that are opened
 // 100 million heights of ten characters. GDAL scans all of a text before it reads a height.
 constexpr double max_server_text_bytes = 1e9;
 
@@ -50,26 +51,22 @@ std::string one_line(std::string text) {
 }
 
 Result<std::string> raster_in_zip(const fs::path& path) {
-    const std::string archive = "/vsizip/{" + path.string() + "}";
-    const std::unique_ptr<VSIDIR, decltype(&VSICloseDir)> folder(
-        VSIOpenDir(archive.c_str(), max_archive_depth, nullptr), &VSICloseDir);
-    const VSIDIREntry* entry = nullptr;
-    for (int count = 0; folder != nullptr && (entry = VSIGetNextDirEntry(folder.get())) != nullptr;
-         ++count) {
-        if (count == max_archive_entries) {
-            return Error{fmt::format("{}: has no raster among its first {} entries, an archive "
-                                     "with one was expected",
-                                     path.string(), max_archive_entries)};
-        }
+    const auto members = archive_members(path);
+    if (!members) {
+        return members.error();
+    }
+    const std::size_t count = std::min(members->size(), max_archive_entries);
+    for (const ArchiveMember& member : std::span(*members).first(count)) {
         if (ReadScope::stop_requested()) {
             return Error{fmt::format("{}: reading was stopped", path.string())};
         }
-        std::string name = archive + "/" + entry->pszName;
-        if (!VSI_ISDIR(entry->nMode) && has_format(name)) {
-            return name;
+        if (has_format(member.name)) {
+            return member.name;
         }
     }
-    return path.string();
+    return Error{fmt::format("{}: has no raster among its first {} files, an archive with one was "
+                             "expected",
+                             path.string(), count)};
 }
 
 Result<std::string> name_for_gdal(const fs::path& path) {
@@ -157,12 +154,8 @@ Result<std::string> checked_name(const fs::path& path) {
     if (const auto good = check_typed_name(path.string()); !good) {
         return good.error();
     }
-    if (!is_remote(path)) {
-        if (const auto good = check_file(path); !good) {
-            return good.error();
-        }
-    }
-    return name_for_gdal(path);
+    const auto good = is_remote(path) ? check_archives_of(path.string()) : check_file(path);
+    return good ? name_for_gdal(path) : good.error();
 }
 
 Result<Dataset> open_with(const fs::path& path, const GdalMessages& messages,

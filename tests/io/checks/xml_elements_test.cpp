@@ -169,38 +169,6 @@ TEST_F(KmlTracks, AKmzThatHoldsMoreThanItStatesIsRefused) {
     EXPECT_THAT(error_of(folder_.write("lie.kmz", bytes)), HasSubstr("holds a KML of over"));
 }
 
-// GDAL keeps a name for each folder of each member: a gigabyte for 1.2 MB, or hours.
-TEST_F(KmlTracks, AKmzWithLongOrDeepNamesIsRefused) {
-    for (const auto& folders :
-         {repeated("a/", 17), repeated("a\\", 17), std::string(300, 'a') + '/'}) {
-        EXPECT_THAT(error_of(kmz(folders + "doc.kml", track_of(2, 2))),
-                    HasSubstr("names of its members"));
-    }
-    EXPECT_EQ(error_of(kmz(repeated("a/", 15) + "doc.kml", track_of(2, 2))), "");
-}
-
-// The list of a large archive (ZIP64) counts before the other one.
-TEST_F(KmlTracks, AKmzWithAnotherListOfNamesIsRefused) {
-    const std::string good = test::read_bytes(kmz("doc.kml", track_of(2, 2)));
-    const auto word = [](std::size_t value) {
-        std::string bytes;
-        for (int i = 0; i < 8; ++i) {
-            bytes += static_cast<char>(value >> (8 * i) & 0xFFU);
-        }
-        return bytes;
-    };
-    const auto end = good.rfind("PK\5\6");
-    const auto with_list = [&](std::size_t members) {
-        const std::size_t bytes = good.find("PK\1\2");
-        std::string record = "PK\6\6" + word(44) + std::string(12, '\0') + word(members) +
-                             word(members) + word(end - bytes) + word(bytes);
-        return good.substr(0, end) + record + "PK\6\7" + std::string(4, '\0') + word(end) +
-               std::string("\1\0\0\0", 4) + good.substr(end);
-    };
-    EXPECT_EQ(error_of(folder_.write("b.kmz", with_list(1))), "");
-    EXPECT_THAT(error_of(folder_.write("b.kmz", with_list(2))), HasSubstr("names of its members"));
-}
-
 TEST_F(KmlTracks, MessagesNameTheKmzAlsoOneWithBraces) {
     const std::filesystem::path path = folder_.path() / "a{b.kmz";
     std::filesystem::rename(kmz("doc.kml", track_of(2, 2)), path);

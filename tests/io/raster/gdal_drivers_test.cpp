@@ -233,7 +233,7 @@ TEST_F(GdalDrivers, AnArchiveOfManyEntriesIsNotListedWhole) {
         ASSERT_EQ(CPLCloseFileInZip(writer), CE_None);
     }
     ASSERT_EQ(CPLCloseZip(writer), CE_None);
-    EXPECT_THAT(error_of(archive), HasSubstr("has no raster among its first 1000 entries"));
+    EXPECT_THAT(error_of(archive), HasSubstr("has no raster among its first 1000 files"));
     std::stop_source stop;
     stop.request_stop();
     const ReadScope scope(stop.get_token());
