@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <span>
 
 #include <glm/common.hpp>
@@ -17,8 +18,7 @@ namespace {
 
 std::uint32_t root_bits(float channel) {
     constexpr float largest = 1023.0F;
-    return static_cast<std::uint32_t>(
-        std::lround(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest));
+    return static_cast<std::uint32_t>(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest + 0.5F);
 }
 
 // Means of two by two; the last column and row count twice where there is no next one.
@@ -46,10 +46,11 @@ void add_level(const Grid<T>& level, const Pack& pack, unsigned threads,
     const std::size_t pitch = static_cast<std::size_t>(level.cols()) + 1;
     texels.resize(begin + pitch * (static_cast<std::size_t>(level.rows()) + 1));
     const auto pack_row = [&](int row) {
-        const auto to = std::span(texels).subspan(begin + static_cast<std::size_t>(row) * pitch);
-        for (int col = 0; col <= level.cols(); ++col) {
-            to[static_cast<std::size_t>(col)] = pack(level.clamped(col, row));
-        }
+        const auto to =
+            std::span(texels).subspan(begin + static_cast<std::size_t>(row) * pitch, pitch);
+        const auto from = level.row(std::min(row, level.rows() - 1));
+        std::transform(from.begin(), from.end(), to.begin(), std::cref(pack));
+        to.back() = to[to.size() - 2];
     };
     parallel_for(level.rows() + 1, pack_row, {threads, {}, {}});
 }
@@ -89,8 +90,9 @@ std::uint32_t packed_normal(glm::vec3 normal) {
 }
 
 LitLevels::LitLevels(const Image& lit, glm::ivec2 samples, unsigned threads) {
+    static const BytePacker pack;
     place({lit.cols(), lit.rows()}, samples);
-    add_level(lit, BytePacker(), threads, texels_);
+    add_level(lit, pack, threads, texels_);
     if (lit.size() > 1) {
         add_coarse_levels(half_of(lit, linear_from_rgba8, threads), packed_roots, threads);
     }
@@ -112,6 +114,10 @@ void LitLevels::place(glm::ivec2 size, glm::ivec2 samples) {
     paint_.texels_per_sample = glm::vec2(coordinate) * glm::vec2(size);
     paint_.first = glm::vec2(coordinate.z, coordinate.w) * glm::vec2(size) - 0.5F;
     paint_.level_count = 1;
+    constexpr std::size_t for_borders = 3; // each level has a row and a column more
+    const glm::ivec2 sides = size + 1;
+    texels_.reserve(static_cast<std::size_t>(sides.x) * static_cast<std::size_t>(sides.y) * 4 / 3 +
+                    for_borders * static_cast<std::size_t>(sides.x + sides.y));
 }
 
 void LitLevels::repeat_last_level() {

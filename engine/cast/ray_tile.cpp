@@ -40,13 +40,17 @@ RayTile::RayTile(GridView<const float> heights) : heights_(heights) {
 
 void RayTile::fill_cells() {
     total_ = {heights_(0, 0), heights_(0, 0)};
+    for (int row = 0; row <= cells_.y; ++row) {
+        const auto [low, high] = std::ranges::minmax(heights_.row(row));
+        total_ = {std::min(total_.low, low), std::max(total_.high, high)};
+    }
     for (int row = 0; row < cells_.y; ++row) {
+        const float* const north = heights_.row(row).data();
+        const float* const south = heights_.row(row + 1).data();
+        float* const maxima = &maxima_[index_of(0, {0, row})];
         for (int col = 0; col < cells_.x; ++col) {
-            const auto [low, high] =
-                std::minmax({heights_(col, row), heights_(col + 1, row), heights_(col, row + 1),
-                             heights_(col + 1, row + 1)});
-            maxima_[index_of(0, {col, row})] = high;
-            total_ = {std::min(total_.low, low), std::max(total_.high, high)};
+            maxima[col] = std::max(std::max(north[col], north[col + 1]),
+                                   std::max(south[col], south[col + 1]));
         }
     }
 }

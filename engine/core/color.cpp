@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace reljef {
 namespace {
@@ -38,9 +39,10 @@ float min_linear_of(int byte) {
 class SrgbBytes {
 public:
     SrgbBytes() {
-        for (std::size_t byte = 0; byte < min_linear_.size(); ++byte) {
+        for (std::size_t byte = 0; byte < byte_count; ++byte) {
             min_linear_[byte] = min_linear_of(static_cast<int>(byte));
         }
+        min_linear_[byte_count] = std::numeric_limits<float>::infinity();
         for (std::size_t i = 0; i < first_.size(); ++i) {
             first_[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / steps));
         }
@@ -52,16 +54,18 @@ public:
         if (linear >= 1.0F) {
             return 255;
         }
-        std::uint8_t byte = first_[static_cast<std::size_t>(linear * steps)];
-        while (byte < 255 && linear >= min_linear_[byte + 1U]) {
-            ++byte;
-        }
-        return byte;
+        const std::uint8_t byte = first_[static_cast<std::size_t>(linear * steps)];
+        const bool is_next = linear >= min_linear_[byte + 1U];
+        return static_cast<std::uint8_t>(byte + (is_next ? 1 : 0));
     }
 
 private:
+    static constexpr std::size_t byte_count = 256;
+    // A step has one border between bytes at most: they are 1/(12.92 · 255) apart near 0, and more
+    // elsewhere.
     static constexpr float steps = 4096.0F;
-    std::array<float, 256> min_linear_{};
+    static_assert(steps > 12.92F * 255.0F);
+    std::array<float, byte_count + 1> min_linear_{};
     std::array<std::uint8_t, 4096> first_{};
 };
 

@@ -282,13 +282,14 @@ glm::vec3 StreamedTruth::irradiance_at(const scene::TerrainTile& part, glm::dvec
     const glm::dvec2 on_overview =
         builder.around_overview(builder.on_overview(glm::dvec2(hit.surface.sample)));
     const glm::dvec2 inside = glm::clamp(on_overview, glm::dvec2(0.0), last);
+    const glm::vec3 normal = irradiance_->in_world(part.normal_at(place));
+    const glm::vec3 up = irradiance_->in_world(part.up);
+    const float openness = irradiance_->openness(inside);
     if (hit.is_sunny) {
-        const scene::IrradianceParts parts =
-            irradiance_->parts_at(part.normal_at(place), part.up, irradiance_->openness(inside));
+        const scene::IrradianceParts parts = irradiance_->parts_at(normal, up, openness);
         return *hit.is_sunny ? parts.sky + parts.sun : parts.sky;
     }
-    return irradiance_->at(part.normal_at(place), part.up, irradiance_->visibility(inside),
-                           irradiance_->openness(inside));
+    return irradiance_->at(normal, up, irradiance_->visibility(inside), openness);
 }
 
 Result<void> StreamedTruth::shade(const Eye& eye, Batch& batch,

@@ -93,19 +93,19 @@ glm::vec3 TerrainIrradiance::at(glm::dvec2 sample) const {
     return sun_ * sun + sky_ * sky_at(sample, normal);
 }
 
+glm::vec3 TerrainIrradiance::in_world(glm::vec3 normal) const {
+    return glm::normalize(world_from_normal_ * normal);
+}
+
 glm::vec3 TerrainIrradiance::at(glm::vec3 normal, glm::vec3 up, float visibility,
                                 float openness) const {
-    const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
-    const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
-    const float sun = std::max(glm::dot(turned, to_sun_), 0.0F) * visibility;
-    return sun_ * sun + sky_ * (openness * (0.5F + 0.5F * glm::dot(turned, turned_up)));
+    const float sun = std::max(glm::dot(normal, to_sun_), 0.0F) * visibility;
+    return sun_ * sun + sky_ * (openness * (0.5F + 0.5F * glm::dot(normal, up)));
 }
 
 IrradianceParts TerrainIrradiance::parts_at(glm::vec3 normal, glm::vec3 up, float openness) const {
-    const glm::vec3 turned = glm::normalize(world_from_normal_ * normal);
-    const glm::vec3 turned_up = glm::normalize(world_from_normal_ * up);
-    const float sun = is_day_ ? std::max(glm::dot(turned, to_sun_), 0.0F) : 0.0F;
-    return {sky_ * (openness * (0.5F + 0.5F * glm::dot(turned, turned_up))), sun_ * sun};
+    const float sun = is_day_ ? std::max(glm::dot(normal, to_sun_), 0.0F) : 0.0F;
+    return {sky_ * (openness * (0.5F + 0.5F * glm::dot(normal, up))), sun_ * sun};
 }
 
 IrradianceParts TerrainIrradiance::parts_at(glm::dvec2 sample) const {

@@ -40,8 +40,10 @@ public:
     /// heightfield.
     [[nodiscard]] glm::vec3 at(glm::dvec2 sample) const;
 
-    /// For a finer tile of the same terrain: its normal and up (unit vectors of the local frame),
-    /// and the visible share of the sun.
+    /// A unit vector of the local frame, such as a normal, in the world.
+    [[nodiscard]] glm::vec3 in_world(glm::vec3 normal) const;
+    /// For a finer tile of the same terrain: its normal and up (unit vectors of the world), and the
+    /// visible share of the sun.
     [[nodiscard]] glm::vec3 at(glm::vec3 normal, glm::vec3 up, float visibility,
                                float openness = 1.0F) const;
     /// For callers that compute shadows themselves.
