@@ -189,7 +189,7 @@ TEST(GlobeRays, HitWhatTheTruthHitsAtAPoleWithEachInstructionSet) {
 TEST(GlobeRays, HitWhatTheTruthHitsBehindAPoleWithoutGround) {
     for (const bool is_streamed : {false, true}) {
         GlobeStage stage(belt(), is_streamed);
-        stage.size *= 4;
+        stage.size *= test::cases(2, 4);
         for (const GlobeView& view :
              {GlobeView{58.0, 20.0, 2e7, 3.0, 80.0}, GlobeView{50.0, 179.9, 6e6, 350.0, 55.0}}) {
             stage.look(view);
@@ -210,6 +210,9 @@ TEST(GlobeRays, HitWhatTheTruthHitsOnExaggeratedGround) {
 TEST(GlobeRays, HitWhatTheTruthHitsAtThePoles) {
     for (const bool is_streamed : {false, true}) {
         for (const double rows : {0.5, 1.0}) {
+            if (test::cases(0, 1) == 0 && is_streamed != (rows == 0.5)) {
+                continue;
+            }
             GlobeStage stage(rows, 0.5, is_streamed);
             for (const GlobeView& view :
                  {GlobeView{85.0, 20.0, 4e5, 0.0, 80.0}, GlobeView{-90.0, 20.0, 4e5, 180.0, 80.0},

@@ -123,8 +123,8 @@ protected:
     }
 
     // Random views.
-    const int many = test::cases(8, 20);
-    const int some = test::cases(4, 10);
+    const int many = test::cases(6, 20);
+    const int some = test::cases(3, 10);
 };
 
 INSTANTIATE_TEST_SUITE_P(Sources, Occlusion, test::all_sources(), test::name_of_source);

@@ -13,7 +13,7 @@ constexpr const char* functions =
     "    kill -9 $viewer 2>/dev/null; wait $viewer; echo \"the viewer ended with $?\"; exit 9; }\n"
     "has_title() { xdotool getwindowname $window | grep -qF -- \"$1\"; }\n"
     "titled() { until_true has_title \"$1\"; }\n"
-    "pressed() { xdotool key --window $window $1; }\n"
+    "pressed() { xdotool key --window $window $1 2>/dev/null; }\n" // which may close the window
     "clicked() { xdotool mousemove --window $window $1 $2 click 1; }\n"
     "ended() { ! kill -0 $viewer 2>/dev/null; }\n"
     "find_window() {\n"

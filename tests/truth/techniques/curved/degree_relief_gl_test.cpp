@@ -12,6 +12,7 @@
 #include "tests/render/earth_stage.h"
 #include "tests/render/made_stream.h"
 #include "tests/scene/streaming/streamed_samples.h"
+#include "tests/support/release_only.h"
 #include "tests/truth/techniques/curved/lit_pixels.h"
 
 namespace reljef::render {
@@ -188,7 +189,7 @@ TEST_F(DegreeReliefGlTest, GroundNearWhereLongitudesBeginAnewHasNoHoles) {
     EarthStage stage(test::closed_globe(300, 0.5, 1.0, 11),
                      {.placement = terrain::PlacementKind::ellipsoid});
     std::size_t holes = 0;
-    for (double latitude = -60.0; latitude < 65.0; latitude += 8.0) {
+    for (double latitude = -60.0; latitude < 65.0; latitude += test::cases(16, 8)) {
         look(stage, {{latitude, 179.6, 4e4}, 90.0, 45.0}); // across it, at ground alone
         holes += stage.errors(hits(stage, "exact").hits).holes;
     }
