@@ -16,9 +16,11 @@
 namespace reljef::cast {
 namespace {
 
+// Rounds by cutting off: no value is negative, and std::lround is a call for each channel.
 std::uint32_t root_bits(float channel) {
     constexpr float largest = 1023.0F;
-    return static_cast<std::uint32_t>(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest + 0.5F);
+    constexpr float half = 0.5F;
+    return static_cast<std::uint32_t>(std::sqrt(std::clamp(channel, 0.0F, 1.0F)) * largest + half);
 }
 
 // Means of two by two; the last column and row count twice where there is no next one.

@@ -130,6 +130,7 @@ private:
 Image reflected(const TerrainTile& tile, const Grid<glm::vec3>& light, unsigned threads) {
     Image lit(tile.albedo.cols(), tile.albedo.rows());
     std::vector<Between> cols;
+    cols.reserve(static_cast<std::size_t>(lit.cols()));
     for (int col = 0; col < lit.cols(); ++col) {
         cols.emplace_back(tile.vertex_of({col, 0}).x, light.cols());
     }
