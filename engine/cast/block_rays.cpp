@@ -156,7 +156,7 @@ std::uint16_t pixels_of(const PixelBlock& part) {
 
 // Those of a part of the block, of whole beams or in one; the others hit nothing.
 void start_beams(const PixelBlock& part, BlockJob& job) {
-    job.has_starts = true;
+    job.found_starts = all_wide_beams;
     job.starts.fill(std::numeric_limits<float>::infinity());
     const glm::ivec2 end = part.first + part.size;
     if (part.size.x < beam_cols || part.size.y < beam_rows) {

@@ -75,7 +75,13 @@ HWY_INLINE void merge(const PacketHits& found, int job, MergedHits& merged) {
 
 static_assert(BlockMeshes::padding >= packets_a_pair * lane_count);
 
-static_assert(block_side % (static_cast<int>(packets_a_pair) * packet_rows) == 0);
+static_assert(wide_beam_rows % (static_cast<int>(packets_a_pair) * packet_rows) == 0);
+
+// Where the rays of a packet may begin: found when its first ray reaches the tile.
+HWY_INLINE Floats found_starts_of(BlockJob& job, int col, int row) {
+    find_starts(job, 1U << static_cast<unsigned>(row / wide_beam_rows));
+    return starts_of(job, col, row);
+}
 
 // The first row of packet k of a pair. Its packets lie one above the other.
 HWY_INLINE int row_of(int first_row, std::size_t k) {
@@ -94,9 +100,9 @@ HWY_INLINE Pair<MergedHits> merged_hits(const BlockJobs& jobs, int col, int row)
     Pair<MergedHits> merged{sky, sky};
     Pair<Met> met{Met::nothing(), Met::nothing()};
     for (std::size_t i = 0; i < jobs.tiles.size(); ++i) {
-        const BlockJob& job = jobs.tiles[i];
-        const Pair<Floats> starts =
-            starts_by([&](std::size_t k) HWY_ATTR { return starts_of(job, col, row_of(row, k)); });
+        BlockJob& job = jobs.tiles[i];
+        const Pair<Floats> starts = starts_by(
+            [&](std::size_t k) HWY_ATTR { return found_starts_of(job, col, row_of(row, k)); });
         if (is_any_ray(starts)) {
             Pair<Rays> rays = rays_of(job, pixels);
             const Pair<PacketHits> hits = hits_of<Mode>(rays, job, starts, met);
@@ -125,17 +131,7 @@ template <class Body> HWY_INLINE void for_each_pair(const Body& body) {
     }
 }
 
-// Returns the taps that this took.
-HWY_INLINE std::size_t find_all_starts(const BlockJobs& jobs) {
-    std::size_t taps = 0;
-    for (BlockJob& job : jobs.tiles) {
-        taps += find_starts(job);
-    }
-    return taps;
-}
-
 void cast_all(const BlockJobs& jobs, BlockHits& hits) {
-    find_all_starts(jobs);
     for_each_pair([&](int col, int row) HWY_ATTR {
         const Pair<MergedHits> merged = jobs.has_walls ? merged_hits<AmongTiles>(jobs, col, row)
                                                        : merged_hits<InMemory>(jobs, col, row);
@@ -155,8 +151,8 @@ HWY_INLINE Floats nearness_of(const BlockPaint& paint, Floats t) {
 template <class Mode>
 HWY_INLINE Pair<TrueLook> pair_looks(const BlockJobs& jobs, const BlockPaint& paint, int col,
                                      int row) {
-    const auto start_of = [&](const BlockJob& job, std::size_t k)
-                              HWY_ATTR { return starts_of(job, col, row_of(row, k)); };
+    const auto start_of = [&](BlockJob& job, std::size_t k)
+                              HWY_ATTR { return found_starts_of(job, col, row_of(row, k)); };
     const auto mesh_values = [&](const float* of, std::size_t k)
                                  HWY_ATTR { return load(of, col, row_of(row, k)); };
     return looks_of<Mode>(jobs, paint, pair_offsets(col, row), start_of, mesh_values);
@@ -182,7 +178,6 @@ HWY_INLINE void paint_packets(const BlockJobs& jobs, const BlockPaint& paint, Bl
 }
 
 void paint_all(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixels) {
-    find_all_starts(jobs);
     if (jobs.has_walls) {
         paint_packets<AmongTiles>(jobs, paint, pixels);
     } else {
@@ -191,7 +186,6 @@ void paint_all(const BlockJobs& jobs, const BlockPaint& paint, BlockPixels& pixe
 }
 
 void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) {
-    work.beam_taps = find_all_starts(jobs);
     for_each_pair([&](int col, int first_row) HWY_ATTR {
         const Pair<TrueLook> looks = pair_looks<Counted>(jobs, paint, col, first_row);
         for (std::size_t k = 0; k < packets_a_pair; ++k) {
@@ -202,6 +196,9 @@ void count_all(const BlockJobs& jobs, const BlockPaint& paint, BlockWork& work) 
             store(ints, found.rays, col, row, work.rays.data());
         }
     });
+    for (const BlockJob& job : jobs.tiles) {
+        work.beam_taps += job.beam_taps;
+    }
 }
 
 using LaneFloats = std::array<float, static_cast<std::size_t>(lane_count)>;
@@ -237,7 +234,8 @@ struct SamplePacket {
     alignas(64) LaneFloats down;
     std::array<std::size_t, static_cast<std::size_t>(lane_count)> beam;
     std::array<unsigned, static_cast<std::size_t>(lane_count)> pixel_of_beam;
-    std::size_t count = 0; // lanes with samples
+    std::size_t count = 0;           // lanes with samples
+    unsigned wide_beams_of_rays = 0; // rows of them: bits
 
     SamplePacket(const SampledPixels& sampled, SampleIndex index) {
         constexpr float middle = 0.5F - 0.5F * static_cast<float>(block_side);
@@ -251,6 +249,7 @@ struct SamplePacket {
             down[lane] = static_cast<float>(row) + middle + place.y;
             beam[lane] = beam_at(col, row);
             pixel_of_beam[lane] = beam_pixel_at(col, row);
+            wide_beams_of_rays |= 1U << static_cast<unsigned>(row / wide_beam_rows);
             count += index.pixel < sampled.count() ? 1U : 0U;
             index.next(sampled);
         }
@@ -259,10 +258,12 @@ struct SamplePacket {
     [[nodiscard]] HWY_INLINE PixelOffsets offsets() const {
         return {hn::Load(floats, right.data()), hn::Load(floats, down.data())};
     }
-    [[nodiscard]] HWY_INLINE Floats starts(const BlockJob& job) const {
+    [[nodiscard]] HWY_INLINE Floats starts(BlockJob& job) const {
+        find_starts(job, wide_beams_of_rays);
         alignas(64) LaneFloats begin;
         for (std::size_t lane = 0; lane < begin.size(); ++lane) {
-            const bool is_ray = lane < count && (job.beam_pixels >> pixel_of_beam[lane] & 1U) != 0;
+            const unsigned pixels = job.beam_pixels;
+            const bool is_ray = lane < count && (pixels >> pixel_of_beam[lane] & 1U) != 0;
             begin[lane] = is_ray ? job.starts[beam[lane]] : nowhere;
         }
         return hn::Load(floats, begin.data());
@@ -309,7 +310,7 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
         const Pair<int> numbers{first, first + lane_count};
         const Pair<SamplePacket> packets{SamplePacket(sampled, SampleIndex(sampled, numbers[0])),
                                          SamplePacket(sampled, SampleIndex(sampled, numbers[1]))};
-        const auto start_of = [&](const BlockJob& job, std::size_t k)
+        const auto start_of = [&](BlockJob& job, std::size_t k)
                                   HWY_ATTR { return packets[k].starts(job); };
         const auto mesh_values = [&](const float* of, std::size_t k)
                                      HWY_ATTR { return hn::LoadU(floats, of + numbers[k]); };
@@ -323,7 +324,6 @@ HWY_INLINE void sample_packets(const BlockJobs& jobs, const BlockPaint& paint,
 
 void sample_all(const BlockJobs& jobs, const BlockPaint& paint, const SampledPixels& sampled,
                 BlockPixels& pixels) {
-    find_all_starts(jobs);
     ColorSums sums{};
     if (jobs.has_walls) {
         sample_packets<AmongTiles>(jobs, paint, sampled, sums);

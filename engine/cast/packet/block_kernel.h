@@ -27,7 +27,9 @@ inline constexpr int beams_a_row = block_side / beam_cols;
 inline constexpr int beam_count = beams_a_row * (block_side / beam_rows);
 /// Wide beams search first. Each beam begins its search where that of its wide beam has ended.
 inline constexpr int wide_beam_rows = 8;
-inline constexpr int wide_beam_count = beams_a_row * (block_side / wide_beam_rows);
+inline constexpr int rows_of_wide_beams = block_side / wide_beam_rows;
+inline constexpr int wide_beam_count = beams_a_row * rows_of_wide_beams;
+inline constexpr unsigned all_wide_beams = (1U << static_cast<unsigned>(rows_of_wide_beams)) - 1U;
 
 /// All pixels of a beam as bits.
 inline constexpr std::uint16_t whole_beam = 0xFFFF;
@@ -274,13 +276,15 @@ struct BlockJob {
     float wall_floor = -std::numeric_limits<float>::infinity();
     /// The t at which the rays may begin; infinity: they hit nothing.
     float start = 0.0F;
-    bool has_beams = true;    ///< finds later starts for the rays of each beam
-    bool skips_blocks = true; ///< rays pass over whole blocks of the maximum mipmap
-    bool skips_cells = true;  ///< and over cells whose maximum is below them
-    bool has_starts = false;  ///< they are found
+    bool has_beams = true;     ///< finds later starts for the rays of each beam
+    bool skips_blocks = true;  ///< rays pass over whole blocks of the maximum mipmap
+    bool skips_cells = true;   ///< and over cells whose maximum is below them
+    unsigned found_starts = 0; ///< the rows of wide beams for which they are found: bits
+    std::size_t beam_taps = 0; ///< maxima that this took
     /// The pixels of the beams whose rays these are: bits, row after row. Others hit nothing.
     std::uint16_t beam_pixels = whole_beam;
     alignas(64) std::array<float, static_cast<std::size_t>(beam_count)> starts;
+    alignas(64) std::array<float, static_cast<std::size_t>(wide_beam_count)> wide_starts;
 };
 
 /// The tiles that the rays of a block may hit, front to back.

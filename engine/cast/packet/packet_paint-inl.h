@@ -338,7 +338,7 @@ HWY_NOINLINE Pair<Look> ground_looks_of(const BlockJobs& jobs, const BlockPaint&
         met[k] = Met::nothing();
         met[k].has_walls = jobs.has_walls;
     }
-    for (const BlockJob& job : jobs.tiles) {
+    for (BlockJob& job : jobs.tiles) {
         const Pair<Floats> starts =
             starts_by([&](std::size_t k) HWY_ATTR { return start_of(job, k); });
         if (!is_any_ray(starts)) {
@@ -397,7 +397,7 @@ HWY_INLINE Pair<TrueLook> walls_and_ground(const BlockJobs& jobs, const BlockPai
     if (hn::AllTrue(floats, hn::And(looks[0].found, looks[1].found))) {
         return looks;
     }
-    const auto start_beside = [&](const BlockJob& job, std::size_t k) HWY_ATTR {
+    const auto start_beside = [&](BlockJob& job, std::size_t k) HWY_ATTR {
         const Floats never = all(std::numeric_limits<float>::infinity());
         return hn::IfThenElse(looks[k].found, never, start_of(job, k));
     };

@@ -437,29 +437,44 @@ HWY_INLINE Ints wide_beam_at(int first) {
                    hn::And(number, all(beams_a_row - 1)));
 }
 
-// Finds the starts of all beams of a block, from those of the wide ones on. Returns the taps that
-// this took.
-HWY_INLINE std::size_t find_starts(BlockJob& job) {
-    std::size_t taps = 0;
-    if (job.has_starts) {
-        return taps;
+// `starts`: one for each beam of the size, from number `begin` to before `end`.
+template <std::size_t count, class StartAt>
+HWY_INLINE void find_starts_of(BlockJob& job, const BeamSize& size, int begin, int end,
+                               const StartAt& start_at, std::array<float, count>& starts) {
+    for (int first = begin; first < end; first += lane_count) {
+        const Beams beams = beams_of(job.rays, size, first);
+        hn::StoreU(clear_until(job, beams, start_at(first), job.beam_taps), floats,
+                   starts.data() + first);
     }
-    job.has_starts = true;
-    if (!job.has_beams || !(job.start < std::numeric_limits<float>::infinity())) {
+}
+
+// Finds the starts of the beams in a row of wide ones, from those on.
+HWY_NOINLINE void find_row_of_starts(BlockJob& job, int row) {
+    constexpr int beams = beam_count / rows_of_wide_beams;
+    static_assert(beams % lane_count == 0 && wide_beam_count % lane_count == 0);
+    if (job.found_starts == 0) {
+        find_starts_of(
+            job, wide_beams, 0, wide_beam_count,
+            [&](int /*first*/) HWY_ATTR { return all(job.start); }, job.wide_starts);
+    }
+    job.found_starts |= 1U << static_cast<unsigned>(row);
+    const auto wide_start = [&](int first) HWY_ATTR {
+        return hn::GatherIndex(floats, job.wide_starts.data(), wide_beam_at(first));
+    };
+    find_starts_of(job, narrow_beams, row * beams, (row + 1) * beams, wide_start, job.starts);
+}
+
+// Finds the starts in these rows of wide beams (bits), unless they are found.
+HWY_INLINE void find_starts(BlockJob& job, unsigned rows) {
+    unsigned missing = rows & ~job.found_starts;
+    if (missing != 0 && (!job.has_beams || !(job.start < std::numeric_limits<float>::infinity()))) {
         job.starts.fill(job.start);
-        return taps;
+        job.found_starts = all_wide_beams;
+        return;
     }
-    alignas(64) std::array<float, static_cast<std::size_t>(wide_beam_count)> wide;
-    for (int first = 0; first < wide_beam_count; first += lane_count) {
-        const Beams beams = beams_of(job.rays, wide_beams, first);
-        hn::Store(clear_until(job, beams, all(job.start), taps), floats, wide.data() + first);
+    for (; missing != 0; missing &= missing - 1) {
+        find_row_of_starts(job, std::countr_zero(missing));
     }
-    for (int first = 0; first < beam_count; first += lane_count) {
-        const Floats start = hn::GatherIndex(floats, wide.data(), wide_beam_at(first));
-        const Beams beams = beams_of(job.rays, narrow_beams, first);
-        hn::StoreU(clear_until(job, beams, start, taps), floats, job.starts.data() + first);
-    }
-    return taps;
 }
 
 } // namespace reljef::cast::HWY_NAMESPACE

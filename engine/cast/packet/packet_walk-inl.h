@@ -344,6 +344,34 @@ HWY_INLINE std::array<Lanes, count> find_hits(const std::array<Rays, count>& ray
     return hits;
 }
 
+// The hits of a packet while the other one of its pair has no ray.
+template <class Mode>
+HWY_INLINE Lanes hits_alone(const Rays& rays, const BlockJob& job, Walk& walk, HitPieces& pieces) {
+    std::array<Walk, 1> walks{walk};
+    std::array<HitPieces, 1> kept;
+    const std::array<Lanes, 1> hits = find_hits<Mode, 1>({rays}, job, walks, kept);
+    walk = walks[0];
+    pieces = kept[0];
+    return hits[0];
+}
+
+// Among tiles, a packet is often alone: at their borders.
+template <class Mode>
+HWY_INLINE Pair<Lanes> pair_hits(const Pair<Rays>& rays, const BlockJob& job, Pair<Walk>& walks,
+                                 Pair<HitPieces>& pieces) {
+    const bool first = !hn::AllFalse(floats, walks[0].active);
+    const bool second = !hn::AllFalse(floats, walks[1].active);
+    if (!Mode::has_walls || (first && second)) {
+        return find_hits<Mode, packets_a_pair>(rays, job, walks, pieces);
+    }
+    Pair<Lanes> hits{no_lanes(), no_lanes()};
+    if (first || second) {
+        const std::size_t k = first ? 0 : 1;
+        hits[k] = hits_alone<Mode>(rays[k], job, walks[k], pieces[k]);
+    }
+    return hits;
+}
+
 // Where a packet's rays hit.
 struct PacketHits {
     Lanes found;
@@ -440,7 +468,7 @@ HWY_NOINLINE Pair<PacketHits> hits_of(Pair<Rays>& rays, const BlockJob& job,
     if constexpr (lane_count == 1) {
         pieces = {}; // else g++ warns of lanes without a value
     }
-    const Pair<Lanes> found = find_hits<Mode, packets_a_pair>(rays, job, walks, pieces);
+    const Pair<Lanes> found = pair_hits<Mode>(rays, job, walks, pieces);
     Pair<PacketHits> hits;
 #pragma GCC unroll 2
     for (std::size_t k = 0; k < packets_a_pair; ++k) {
